@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/clock.hpp"
+#include "hal/histogram.hpp"
+#include "hal/time.hpp"
+
+namespace cairn {
+
+/// Something that happened and that the operator should know; equal (stage, what) pairs are counted, not repeated.
+struct Event {
+  Time first{}, last{};
+  std::string stage;
+  std::string what;
+  std::uint64_t count = 0;
+};
+
+/// What one stage cost.
+struct StageStats {
+  std::string name;
+  Duration budget{};           ///< zero: none declared
+  std::uint64_t overruns = 0;  ///< wall time above the budget
+  Histogram wall;              ///< elapsed time
+  Histogram cpu;               ///< CPU time of the calling thread
+};
+
+/// Keeps the figures and events of a run. Callees report here; policy is decided by whoever owns the monitor.
+class Monitor {
+ public:
+  /// The stage's figures, made on first use; the reference stays valid as long as the monitor.
+  StageStats& stage(std::string_view name, Duration budget = {});
+  /// At most kMaxEvents kinds are kept; further kinds are counted in dropped_events().
+  void event(Time when, std::string_view stage, std::string_view what);
+
+  [[nodiscard]] const std::deque<StageStats>& stages() const { return stages_; }
+  [[nodiscard]] const std::vector<Event>& events() const { return events_; }
+  [[nodiscard]] std::uint64_t dropped_events() const { return dropped_events_; }
+
+  static constexpr std::size_t kMaxEvents = 256;
+
+ private:
+  std::deque<StageStats> stages_;
+  std::vector<Event> events_;
+  std::uint64_t dropped_events_ = 0;
+};
+
+/// Times a scope: `const StageTimer timing{monitor.stage("odometry")};`. Figures only; no result depends on it.
+class StageTimer {
+ public:
+  explicit StageTimer(StageStats& stage) : stage_(stage), wall_(LiveClock{}.now()), cpu_(thread_cpu_time()) {}
+  StageTimer(const StageTimer&) = delete;
+  StageTimer& operator=(const StageTimer&) = delete;
+  ~StageTimer();
+
+ private:
+  StageStats& stage_;
+  Time wall_;
+  Duration cpu_;
+};
+
+}  // namespace cairn

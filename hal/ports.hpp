@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "hal/packet.hpp"
+#include "hal/point_cloud.hpp"
+#include "hal/result.hpp"
+#include "hal/time.hpp"
+
+namespace cairn {
+
+enum class Poll : std::uint8_t {
+  kPacket,   ///< the packet was filled
+  kTimeout,  ///< nothing came in time; call again
+  kEnd,      ///< a recording ended; nothing will ever come
+};
+
+/// The one door through which bytes enter: a live device, or its recording.
+class Source {
+ public:
+  virtual ~Source() = default;
+  /// Fills `packet`, reusing its memory; waits `timeout` at most. An Error is final for this packet, not for the
+  /// source: the caller may go on polling, and gets kEnd when nothing can follow.
+  virtual Result<Poll> next(Packet& packet, Duration timeout) = 0;
+
+ protected:
+  Source() = default;
+  Source(const Source&) = default;
+  Source& operator=(const Source&) = default;
+};
+
+/// Bytes → scans. Pure: no device, no clock, no file.
+class ScanDecoder {
+ public:
+  virtual ~ScanDecoder() = default;
+  /// Consumes one packet. Returns the scan that it completed, or null; the scan is the decoder's and stays valid until
+  /// the next call. An Error means that this packet was rejected whole; decoding goes on with the next one.
+  virtual Result<const Scan*> decode(const Packet& packet) = 0;
+  /// Closes the running scan when it is too old at `now` (a stopped motor, a broken link); null when it is not.
+  virtual const Scan* expire(Time now) = 0;
+  /// Closes the running scan at the end of the data; null when it is empty.
+  virtual const Scan* flush() = 0;
+
+ protected:
+  ScanDecoder() = default;
+  ScanDecoder(const ScanDecoder&) = default;
+  ScanDecoder& operator=(const ScanDecoder&) = default;
+};
+
+}  // namespace cairn

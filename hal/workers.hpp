@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <condition_variable>
+#include <cstddef>
+#include <mutex>
+#include <thread>
+#include <type_traits>
+#include <vector>
+
+namespace cairn {
+
+/// Runs numbered chunks of one job on a fixed set of threads. Which thread runs a chunk is left open; how many chunks
+/// there are is the caller's choice and must not depend on the number of threads. With every chunk writing to its own
+/// place and the caller reducing in chunk order, the result is the same for any number of threads.
+class Workers {
+ public:
+  /// `threads` includes the calling one: 1 starts none.
+  explicit Workers(unsigned threads);
+  ~Workers();
+  Workers(const Workers&) = delete;
+  Workers& operator=(const Workers&) = delete;
+
+  [[nodiscard]] unsigned threads() const { return static_cast<unsigned>(pool_.size()) + 1; }
+
+  /// Calls work(i) for every i < chunks and returns when all are done. Never allocates. One caller at a time; `work`
+  /// must not throw and must not call for_each of the same Workers.
+  template <class Work>
+  void for_each(std::size_t chunks, Work&& work) {
+    using Plain = std::remove_reference_t<Work>;
+    run(chunks, [](void* w, std::size_t i) { (*static_cast<Plain*>(w))(i); }, &work);
+  }
+
+ private:
+  using Call = void (*)(void*, std::size_t);
+  void run(std::size_t chunks, Call call, void* work);
+  void work_off();
+  void loop();
+
+  std::mutex mutex_;
+  std::condition_variable wake_, done_;
+  Call call_ = nullptr;
+  void* work_ = nullptr;
+  std::size_t chunks_ = 0;
+  std::atomic<std::size_t> next_{0};
+  std::size_t busy_ = 0;        // threads that still hold the current job
+  std::size_t generation_ = 0;  // counts jobs, so that a thread takes each one once
+  bool quit_ = false;
+  std::vector<std::thread> pool_;
+};
+
+}  // namespace cairn
