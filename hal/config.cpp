@@ -78,7 +78,8 @@ class Checker {
   }
 
   Result<void> finish() {
-    if (!faults_.empty()) return Error{Errc::kInvalidConfig, "invalid configuration", std::string(file_), {}, "\n" + faults_};
+    if (!faults_.empty())
+      return Error{Errc::kInvalidConfig, "invalid configuration", std::string(file_), {}, "\n" + faults_};
     for (const auto& set : setters_) set();
     return {};
   }

@@ -68,7 +68,10 @@ Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t max
   if (!S_ISREG(info.st_mode)) return Error{Errc::kIo, "not a regular file", path.string(), {}, {}};
   const auto size = static_cast<std::uint64_t>(info.st_size);
   if (size > max_bytes)
-    return Error{Errc::kLimit, "the file is too large", path.string(), {},
+    return Error{Errc::kLimit,
+                 "the file is too large",
+                 path.string(),
+                 {},
                  std::to_string(size) + " bytes, at most " + std::to_string(max_bytes) + " are read"};
   std::vector<std::byte> bytes(static_cast<std::size_t>(size));
   for (std::size_t done = 0; done < bytes.size();) {

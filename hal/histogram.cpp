@@ -35,9 +35,7 @@ void Histogram::record(Duration d) {
   max_ = std::max(max_, from_ns(ns));
 }
 
-Duration Histogram::mean() const {
-  return count_ == 0 ? Duration{} : sum_ / static_cast<std::int64_t>(count_);
-}
+Duration Histogram::mean() const { return count_ == 0 ? Duration{} : sum_ / static_cast<std::int64_t>(count_); }
 
 Duration Histogram::percentile(double share) const {
   const auto wanted = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(count_)));

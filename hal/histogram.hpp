@@ -9,7 +9,8 @@
 
 namespace cairn {
 
-/// Durations in fixed log-linear buckets: 128 per power of two, so a percentile is off by 0.8 % at most. Never allocates.
+/// Durations in fixed log-linear buckets: 128 per power of two, so a percentile is off by 0.8 % at most. Never
+/// allocates.
 class Histogram {
  public:
   void record(Duration d);

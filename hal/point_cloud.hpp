@@ -18,9 +18,9 @@ enum class ReturnType : std::uint8_t { kStrongest = 1, kLast = 2, kBoth = 3 };
 /// (x forward, y left, z up) unless a function says otherwise.
 struct PointCloud {
   std::vector<Eigen::Vector3f> xyz;
-  std::vector<float> intensity;           ///< 0…255 as the sensor reports it
-  std::vector<std::uint32_t> offset_ns;   ///< firing time since the scan's start
-  std::vector<std::uint8_t> ring;         ///< laser row, 0 = lowest
+  std::vector<float> intensity;          ///< 0…255 as the sensor reports it
+  std::vector<std::uint32_t> offset_ns;  ///< firing time since the scan's start
+  std::vector<std::uint8_t> ring;        ///< laser row, 0 = lowest
   std::vector<ReturnType> return_type;
 
   [[nodiscard]] std::size_t size() const { return xyz.size(); }
@@ -59,10 +59,10 @@ enum class TimeQuality : std::uint8_t {
 struct Scan {
   SourceId source{};
   TimeRange valid{};
-  PointCloud cloud;                 ///< sensor frame
-  bool incomplete = false;          ///< packets were lost, or the scan was closed by a time-out or the end of the data
-  std::uint32_t lost_packets = 0;   ///< noticed inside this scan
-  bool deskewed = false;            ///< already motion-compensated by whoever recorded it: offsets carry no motion
+  PointCloud cloud;                ///< sensor frame
+  bool incomplete = false;         ///< packets were lost, or the scan was closed by a time-out or the end of the data
+  std::uint32_t lost_packets = 0;  ///< noticed inside this scan
+  bool deskewed = false;           ///< already motion-compensated by whoever recorded it: offsets carry no motion
   TimeQuality time_quality = TimeQuality::kArrival;
 };
 

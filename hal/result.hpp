@@ -26,10 +26,10 @@ enum class Errc : std::uint8_t {
 /// Building one from literals does not allocate, so the hot path may do it.
 struct Error {
   Errc code{};
-  std::string_view cause;               ///< static storage: what is wrong
-  std::string where{};                  ///< file, device or key; empty where the caller adds it
+  std::string_view cause;                 ///< static storage: what is wrong
+  std::string where{};                    ///< file, device or key; empty where the caller adds it
   std::optional<std::uint64_t> offset{};  ///< byte offset in `where`
-  std::string detail{};                 ///< values seen, and the remedy
+  std::string detail{};                   ///< values seen, and the remedy
 };
 
 /// "where: offset 12: cause: detail", leaving out what is empty.

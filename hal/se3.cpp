@@ -44,8 +44,7 @@ Matrix3d coupling(const Vector3d& rho, const Vector3d& phi) {
   // The third coefficient loses all digits first: its numerator is O(a⁵).
   const bool small = a < 5e-2;
   const double c1 = small ? 1.0 / 6.0 - a2 / 120.0 + a4 / 5040.0 : (a - std::sin(a)) / (a2 * a);
-  const double c2 =
-      small ? 1.0 / 24.0 - a2 / 720.0 + a4 / 40320.0 : (a2 + 2.0 * std::cos(a) - 2.0) / (2.0 * a4);
+  const double c2 = small ? 1.0 / 24.0 - a2 / 720.0 + a4 / 40320.0 : (a2 + 2.0 * std::cos(a) - 2.0) / (2.0 * a4);
   const double c3 = small ? 1.0 / 120.0 - a2 / 2520.0 + a4 / 120960.0
                           : (2.0 * a - 3.0 * std::sin(a) + a * std::cos(a)) / (2.0 * a4 * a);
   const Matrix3d P = hat(rho), K = hat(phi);
@@ -84,9 +83,7 @@ Vector6 SE3::xyz_rpy() const {
   return v;
 }
 
-SE3 SE3::exp(const Vector6& xi) {
-  return {exp_so3(xi.tail<3>()), left_jacobian_so3(xi.tail<3>()) * xi.head<3>()};
-}
+SE3 SE3::exp(const Vector6& xi) { return {exp_so3(xi.tail<3>()), left_jacobian_so3(xi.tail<3>()) * xi.head<3>()}; }
 
 Vector6 SE3::log() const {
   const Vector3d phi = log_so3(rotation_);

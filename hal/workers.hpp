@@ -29,7 +29,8 @@ class Workers {
   template <class Work>
   void for_each(std::size_t chunks, Work&& work) {
     using Plain = std::remove_reference_t<Work>;
-    run(chunks, [](void* w, std::size_t i) { (*static_cast<Plain*>(w))(i); }, &work);
+    run(
+        chunks, [](void* w, std::size_t i) { (*static_cast<Plain*>(w))(i); }, &work);
   }
 
  private:
