@@ -1,0 +1,115 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The house rules that a compiler cannot check. Each message says what to do instead.
+#   tools/ci/check_layers.sh [ROOT]
+set -euo pipefail
+cd "${1:-$(dirname "${BASH_SOURCE[0]}")/../..}"
+
+readonly max_lines=300
+# Files that may be longer, each with its reason:
+readonly long_files='^$'
+
+bad=0
+code() { find "$@" \( -name '*.hpp' -o -name '*.cpp' \) -type f 2>/dev/null || true; }
+
+# deny RULE REMEDY PATTERN ALLOWED FILE…: no line of the files matches, except in files whose path matches ALLOWED.
+deny() {
+  local rule=$1 remedy=$2 pattern=$3 allowed=$4 hits
+  shift 4
+  hits=$(printf '%s\n' "$@" | grep -Ev "^$|$allowed" | xargs -r -d '\n' grep -HnEI -- "$pattern" | sed 's/^/    /') || true
+  [[ -n $hits ]] || return 0
+  printf '%s\n  remedy: %s\n%s\n' "$rule" "$remedy" "$hits" >&2
+  bad=1
+}
+# The same, for files of which none may exist.
+deny_files() {
+  local rule=$1 remedy=$2
+  shift 2
+  (($# > 0)) || return 0
+  printf '%s\n  remedy: %s\n' "$rule" "$remedy" >&2
+  printf '    %s\n' "$@" >&2
+  bad=1
+}
+
+readonly none='^$'  # no path matches: nothing is exempt
+inc() { printf '^ *# *include *[<"](%s)' "$1"; }
+
+mapfile -t hal < <(code hal)
+mapfile -t drivers < <(code drivers)
+mapfile -t onboard < <(code onboard)
+mapfile -t fusion < <(code fusion)
+mapfile -t tools < <(code tools)
+mapfile -t tests < <(code tests)
+product=("${hal[@]}" "${drivers[@]}" "${onboard[@]}" "${fusion[@]}" "${tools[@]}")
+all=("${product[@]}" "${tests[@]}")
+((${#hal[@]} > 0)) || { echo "check_layers.sh: no source files below $PWD" >&2; exit 2; }
+
+# Who may include whom
+deny "hal knows nobody" "move the word both sides need into hal/, or hand the thing in through a port of hal/ports.hpp" \
+  "$(inc '(drivers|onboard|fusion|tools|tests)/')" "$none" "${hal[@]}"
+deny "drivers know only hal" "hand the result on as one of hal's types; onboard/app connects driver and stage" \
+  "$(inc '(onboard|fusion|tools|tests)/')" "$none" "${drivers[@]}"
+deny "onboard knows only hal; onboard/app may also know drivers and fusion" "take a port of hal/ports.hpp as argument" \
+  "$(inc '(drivers|fusion)/')" '^onboard/app/' "${onboard[@]}"
+deny "onboard knows neither tools nor tests" "move what is needed into the room that owns it" \
+  "$(inc '(tools|tests)/')" "$none" "${onboard[@]}"
+deny "fusion knows only hal and onboard/mapping" "let it see maps and poses only" \
+  "$(inc '(drivers|tools|tests|onboard/(app|odometry|perception|scheduler|[a-z_]+\.))')" "$none" "${fusion[@]}"
+deny "only onboard/app, tools and tests know onboard/app" "move the shared part down into its own room" \
+  "$(inc 'onboard/app/')" '^onboard/app/' "${hal[@]}" "${drivers[@]}" "${onboard[@]}" "${fusion[@]}"
+deny "tools do not know tests" "move the shared part out of tests/" "$(inc 'tests/')" "$none" "${tools[@]}"
+deny "includes name the path from the project's root" "write \"room/file.hpp\"" '^ *# *include *"(\.\.?/|[^/"]+")' "$none" "${all[@]}"
+for driver in drivers/*/; do
+  name=$(basename "$driver")
+  others=$(printf '%s\n' drivers/*/ | xargs -n 1 basename | grep -vx -e "$name" | paste -sd '|')
+  [[ $name != recording ]] || others=${others//velodyne/-}  # a recording holds Velodyne's datagrams
+  mapfile -t own < <(code "$driver")
+  [[ -z $others ]] || deny "a driver does not know other drivers" "put what both need into hal/" \
+    "$(inc "drivers/($others)/")" "$none" "${own[@]}"
+done
+deny "decoding is pure: it never knows its transport" "decode a std::span; the transport calls the decoder" \
+  "$(inc '(drivers/[a-z_]+/(udp|pcap)_|sys/socket|pcap)')" '/(udp|pcap|import|record)[a-z_]*\.|^drivers/recording/' "${drivers[@]}"
+
+# Time, threads, devices
+deny "only hal/clock.cpp reads the machine's clock" "take a Clock or a Time as argument; CPU time is thread_cpu_time()" \
+  '(steady|system|high_resolution|file|utc)_clock|clock_gettime|gettimeofday|timespec_get|\b(std::)?(time|clock)\((NULL|nullptr|0)?\)|__rdtsc' \
+  '^hal/clock\.cpp$' "${all[@]}"
+deny "nobody sleeps" "wait for data with a time-out (poll), or advance the VirtualClock" \
+  'sleep_(for|until)|\b(u|nano)?sleep\(|clock_nanosleep' '^hal/clock\.cpp$' "${all[@]}"
+deny "only hal/workers starts threads" "use Workers::for_each; its result is the same for any number of threads" \
+  'std::(jthread|async|packaged_task|execution::)|std::thread\b($|[^:])|pthread_create|# *pragma +omp|tbb::|include *<tbb/' \
+  '^hal/workers\.[ch]pp$' "${all[@]}"
+deny "sockets belong to drivers" "put it into drivers/*/udp_*, behind a Source" \
+  "$(inc '(sys/socket|sys/un|netinet/|arpa/|netdb|net/if|netpacket/|linux/(can|if_|net))')" \
+  '^(drivers|tests/drivers)/[a-z_]+/udp_[a-z_]*\.' "${all[@]}"
+deny "devices belong to drivers" "put it into drivers/, behind a port of hal/ports.hpp" \
+  "$(inc '(termios|sys/ioctl|linux/|pcap|gpiod)')" '^(tests/)?drivers/' "${all[@]}"
+deny "OctoMap's own readers recurse without bounds on hostile files" "read maps with onboard/mapping's reader" \
+  '(AbstractOcTree|AbstractOccupancyOcTree|OcTree)::read|(\.|->)read(Binary|BinaryData|Data)\(' '^tests/' "${all[@]}"
+
+# Results must be the same on every machine and every run
+builds=()
+while IFS= read -r file; do builds+=("$file"); done < <(find . -path ./build -prune -o -path ./.git -prune -o \
+  \( -name CMakeLists.txt -o -name '*.cmake' -o -name 'CMakePresets.json' \) -type f -printf '%P\n')
+deny "builds run on every machine of their kind and give the same bits" \
+  "dispatch per function at run time, or use a toolchain file" \
+  '-march=native|-mtune=native|-ffast-math|-Ofast|-funsafe-math|-ffp-contract=(fast|on)' "$none" "${builds[@]}" "${all[@]}"
+deny "fixed seeds" "seed with a number that is in the source or an argument" 'std::random_device|\bsrand\(|\brand\(\)' "$none" "${all[@]}"
+
+# Order in the house
+scripts=()
+while IFS= read -r file; do scripts+=("$file"); done < <(find tools toolchains tests .ci -name '*.sh' -o -path '.ci/run')
+texts=("${all[@]}" "${builds[@]}" "${scripts[@]}")
+mapfile -t unlicensed < <(printf '%s\n' "${texts[@]}" | grep -v '\.json$' | xargs -d '\n' grep -L 'SPDX-License-Identifier: Apache-2.0')
+deny_files "every source says its licence" "begin with: SPDX-License-Identifier: Apache-2.0" "${unlicensed[@]}"
+mapfile -t long < <(printf '%s\n' "${texts[@]}" | xargs -d '\n' wc -l |
+  awk -v max="$max_lines" -v allowed="$long_files" '$2 != "total" && $1 > max && $2 !~ allowed {print $2 ": " $1 " lines"}')
+deny_files "a file has at most $max_lines lines" "split it by what its parts are about" "${long[@]}"
+mapfile -t headers < <(printf '%s\n' "${all[@]}" | grep '\.hpp$' | xargs -d '\n' grep -L '^#pragma once$')
+deny_files "every header has #pragma once" "put it below the licence line" "${headers[@]}"
+deny "what is left to do is not left in the source" "do it, or file an issue" '\b(TO''DO|FIX''ME|XX''X)\b' "$none" "${texts[@]}"
+deny "no path of one machine" "take it as an argument, or find it from the project's root" \
+  '(^|[^A-Za-z0-9_.}])/(home|root|work|Users)/' "$none" "${texts[@]}"
+
+((bad == 0)) && echo "layers: ${#all[@]} sources keep the rules"
+exit "$bad"

@@ -1,0 +1,43 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Builds the fuzz targets (clang, libFuzzer, both sanitisers) and runs each, two at a time:
+#   tools/ci/fuzz.sh [SECONDS [NAME…]]
+# What the fuzzer finds stays in build/fuzz/corpus/NAME for the next run; a crash leaves its input in build/fuzz/crash.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+
+seconds=${1:-30}
+shift || true
+tools/packages.sh build test ci
+[[ -t 1 ]] && quiet=() || quiet=(-- --quiet)
+cmake --preset fuzz --log-level=WARNING
+cmake --build --preset fuzz "${quiet[@]}"
+
+names=("$@")
+if ((${#names[@]} == 0)); then
+  for target in build/fuzz/bin/fuzz_*; do names+=("${target##*/fuzz_}"); done
+fi
+mkdir -p build/fuzz/crash
+
+fuzz() {  # fuzz NAME: one line of result, or the fuzzer's last words
+  local name=$1 found=build/fuzz/corpus/$1 log=build/fuzz/$1.log dictionary=tests/fuzz/$1.dict options=()
+  mkdir -p "$found"
+  [[ ! -f $dictionary ]] || options=(-dict="$dictionary")
+  if "build/fuzz/bin/fuzz_$name" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
+    -artifact_prefix="build/fuzz/crash/$name-" "${options[@]}" "$found" "tests/fuzz/corpus/$name" >"$log" 2>&1; then
+    awk -v name="$name" '/number_of_executed_units/ {n = $2} /peak_rss_mb/ {rss = $2} / cov: / {sub(/.* cov: /, ""); cov = $1}
+      END {printf "  %-24s %10d runs  %6d edges  %5d MB\n", name, n, cov, rss}' "$log"
+  else
+    echo "  $name FAILED; its log is $log"
+    tail -n 40 "$log"
+    return 1
+  fi
+}
+
+bad=0
+for ((i = 0; i < ${#names[@]}; i += 2)); do
+  pids=()
+  for name in "${names[@]:i:2}"; do fuzz "$name" & pids+=($!); done
+  for pid in "${pids[@]}"; do wait "$pid" || bad=1; done
+done
+exit "$bad"

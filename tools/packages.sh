@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The one list of Debian 12 packages. Installs what is missing of the named groups:
+#   tools/packages.sh GROUP…          build test ci cross fresh bench
+#   tools/packages.sh --list GROUP…   prints the packages instead
+# Asks for nothing and touches nothing when all is there. Needs root or sudo only when something is missing.
+set -euo pipefail
+
+declare -rA packages=(
+  # the onboard program, the command line and the simulator
+  [build]="g++ cmake ninja-build pkg-config ccache libeigen3-dev liboctomap-dev libpcap-dev libyaml-cpp-dev
+           libspdlog-dev libcli11-dev nlohmann-json3-dev libexpected-dev libzstd-dev libxxhash-dev libpng-dev
+           libembree-dev"
+  [test]="libgtest-dev libgmock-dev libbenchmark-dev"
+  [bench]="libbenchmark-dev jq"
+  [ci]="clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev shellcheck git"
+  [cross]="g++-aarch64-linux-gnu qemu-user-static mmdebstrap"
+  [fresh]="mmdebstrap git"
+  # for another architecture, into a sysroot: Debian has no Embree for arm64, so the simulator is left out there
+  [sysroot]="libc6-dev libstdc++-12-dev linux-libc-dev libeigen3-dev liboctomap-dev libpcap-dev libyaml-cpp-dev
+             libspdlog-dev libcli11-dev nlohmann-json3-dev libexpected-dev libzstd-dev libxxhash-dev libpng-dev
+             libgtest-dev libgmock-dev"
+)
+
+list() {
+  local group
+  for group in "$@"; do
+    [[ -n ${packages[$group]:-} ]] || { echo "packages.sh: no group '$group' (${!packages[*]})" >&2; return 2; }
+    # shellcheck disable=SC2086  # split into one name a line on purpose
+    printf '%s\n' ${packages[$group]}
+  done | sort -u
+}
+
+missing() {  # of the names on stdin, those that are not installed
+  local -a wanted
+  mapfile -t wanted
+  comm -23 <(printf '%s\n' "${wanted[@]}") \
+    <(dpkg-query -W -f '${db:Status-Abbrev}${Package}\n' "${wanted[@]}" 2>/dev/null | sed -n 's/^ii *//p' | sort -u)
+}
+
+install() {
+  local as_root=() log
+  if ((EUID != 0)); then
+    command -v sudo >/dev/null || {
+      printf 'Neither root nor sudo here. Run this as root, then try again:\n  apt-get install %s\n' "$*" >&2
+      return 1
+    }
+    as_root=(sudo)
+  fi
+  printf 'Installing %s packages: %s\n' $# "$*" >&2
+  log=$(mktemp)
+  local -a apt=("${as_root[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -o DPkg::Lock::Timeout=600)
+  if ! { "${apt[@]}" update && "${apt[@]}" install -y --no-install-recommends "$@"; } >"$log" 2>&1 </dev/null; then
+    tail -n 40 "$log" >&2
+    echo "Installing failed; all of its output is in $log" >&2
+    return 1
+  fi
+  rm -f "$log"
+}
+
+if [[ ${1:-} == --list ]]; then
+  shift
+  list "$@"
+  exit
+fi
+names=$(list "$@")
+if ! command -v apt-get >/dev/null; then
+  printf 'Not a Debian machine: nothing is installed. These are needed, as Debian names them:\n%s\n' "$names" >&2
+  exit 0
+fi
+mapfile -t absent < <(missing <<<"$names")
+((${#absent[@]} == 0)) || install "${absent[@]}"
