@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/result.hpp"
+#include "hal/se3.hpp"
+#include "hal/time.hpp"
+
+namespace cairn::recording {
+
+/// Kinds of source that a recording may hold.
+inline constexpr std::string_view kVelodyne = "velodyne";  ///< `file` is a pcap of Velodyne datagrams (lidar.pcap)
+inline constexpr std::string_view kScans = "scans";  ///< `file` lists sweeps without packets (data.csv, scan_file.hpp)
+
+/// One source of a recording. Its index in Recording::sources is the SourceId of its packets.
+struct SourceEntry {
+  std::string id;     ///< unique in the recording: letters, digits, `_`, `-`, `.`
+  std::string kind;   ///< kVelodyne or kScans
+  std::string file;   ///< relative to the recording's folder, with `/`; never absolute, never with `..`
+  std::string frame;  ///< frame of the sensor (REP-105 style, such as `lidar`)
+  std::string model;  ///< velodyne: the sensor (`VLP-16`, …); scans: what recorded it; may be empty
+  /// T_base_sensor as x y z roll pitch yaw (metres, radians, fixed axes); kept as numbers so that files keep their
+  /// bits.
+  std::optional<Vector6> base_sensor_xyz_rpy{};
+  std::uint16_t data_port = 2368;      ///< velodyne: UDP port of the data packets
+  std::uint16_t position_port = 8308;  ///< velodyne: UDP port of the position packets
+  bool deskewed = false;               ///< scans: whoever recorded them compensated the motion already (KITTI)
+
+  /// Pose of the sensor in base_link; identity where the recording does not say.
+  [[nodiscard]] SE3 T_base_sensor() const {
+    return base_sensor_xyz_rpy ? SE3::from_xyz_rpy(*base_sensor_xyz_rpy) : SE3();
+  }
+};
+
+/// What recording.yaml says. Stamps in the native files are UTC where the format says so (pcap); the robot's monotonic
+/// time line is Time = UTC − realtime_offset. Simulated and imported recordings may choose an offset of zero.
+struct Recording {
+  std::string robot;                    ///< letters, digits, `_`, `-`, `.`
+  std::string profile;                  ///< robot profile it was made with; may be empty
+  std::int64_t start_utc_ns = 0;        ///< wall time of the start, nanoseconds since 1970; metadata only
+  std::int64_t realtime_offset_ns = 0;  ///< CLOCK_REALTIME − CLOCK_MONOTONIC at the start
+  std::vector<SourceEntry> sources;
+  std::string notes;
+
+  [[nodiscard]] std::int64_t utc_ns(Time t) const { return t.time_since_epoch().count() + realtime_offset_ns; }
+};
+
+inline constexpr const char* kIndexFile = "recording.yaml";
+inline constexpr std::size_t kMaxSources = 64;
+/// UTC stamps and offsets are below this, as the pcap format can hold them (the year 2106).
+inline constexpr std::int64_t kMaxUtcNs = (std::int64_t{1} << 32) * 1'000'000'000 - 1;
+
+/// Reads `dir`/recording.yaml and checks that every source's file is a regular file inside `dir`. All faults (unknown
+/// or repeated keys, wrong kinds, missing files, paths that leave the folder) come in one Error, one line each:
+/// "file:line: key: cause".
+[[nodiscard]] Result<Recording> load_recording(const std::filesystem::path& dir);
+
+/// Writes `dir`/recording.yaml (atomically); `dir` must exist. Refuses what load_recording would refuse, except that
+/// the files of the sources need not exist yet.
+[[nodiscard]] Result<void> save_recording(const std::filesystem::path& dir, const Recording& recording);
+
+/// The text of recording.yaml alone, without a look at the files it names; `name` is used in messages.
+[[nodiscard]] Result<Recording> parse_recording(std::string_view yaml, std::string_view name);
+[[nodiscard]] std::string to_yaml(const Recording& recording);
+
+/// Why `file` may not be named in a recording (absolute, `..`, empty, odd characters); null when it may.
+[[nodiscard]] const char* path_fault(std::string_view file);
+/// `dir`/`file` when that is an existing regular file inside `dir`, symbolic links followed; otherwise an Error.
+[[nodiscard]] Result<std::filesystem::path> resolve_inside(const std::filesystem::path& dir, std::string_view file);
+
+}  // namespace cairn::recording
