@@ -1,0 +1,30 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Lays out a Debian 12 arm64 root to compile and link against: toolchains/make_sysroot.sh [FOLDER]
+# No foreign code runs: packages are only unpacked, from the machine's own package sources. Does nothing when the folder
+# holds what tools/packages.sh lists for it. The toolchain file finds it at CAIRN_SYSROOT or at sysroot-arm64.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+sysroot=${1:-${CAIRN_SYSROOT:-$PWD/sysroot-arm64}}
+wanted=$(tools/packages.sh --list sysroot)
+done_list=$sysroot/.cairn-packages
+[[ -f $done_list && $(<"$done_list") == "$wanted" ]] && exit 0
+
+tools/packages.sh cross
+if [[ -d $sysroot/usr ]]; then rm -rf "${sysroot:?}"; fi
+sources=()
+for file in /etc/apt/sources.list /etc/apt/sources.list.d/*.list /etc/apt/sources.list.d/*.sources; do
+  [[ -s $file ]] && sources+=("$file")
+done
+# merged-usr: Debian 12's packages assume that /lib is a link to /usr/lib, which maintainer scripts would make.
+mmdebstrap --quiet --variant=extract --architectures=arm64 --hook-dir=/usr/share/mmdebstrap/hooks/merged-usr \
+  --include="$(paste -sd, <<<"$wanted")" bookworm "$sysroot" "${sources[@]}" >/dev/null
+
+# The linker would follow an absolute link into the root of this machine.
+find "$sysroot/usr" "$sysroot/etc" -type l -lname '/*' | while IFS= read -r link; do
+  ln -sfn "$(realpath -m --relative-to="$(dirname "$(realpath -s "$link")")" "$sysroot$(readlink "$link")")" "$link"
+done
+rm -rf "$sysroot"/usr/share/{doc,man,locale,info} "$sysroot"/var/cache/apt "$sysroot"/var/lib/apt/lists
+printf '%s\n' "$wanted" >"$done_list"
+echo "$sysroot: $(du -sh "$sysroot" | cut -f1)"
