@@ -15,7 +15,7 @@ declare -rA packages=(
   [bench]="libbenchmark-dev jq"
   [ci]="clang-14 clang-format-14 clang-tidy-14 libclang-rt-14-dev shellcheck git"
   [cross]="g++-aarch64-linux-gnu qemu-user-static mmdebstrap"
-  [fresh]="mmdebstrap git"
+  [fresh]="debootstrap git"
   # for another architecture, into a sysroot: Debian has no Embree for arm64, so the simulator is left out there
   [sysroot]="libc6-dev libstdc++-12-dev linux-libc-dev libeigen3-dev liboctomap-dev libpcap-dev libyaml-cpp-dev
              libspdlog-dev libcli11-dev nlohmann-json3-dev libexpected-dev libzstd-dev libxxhash-dev libpng-dev
