@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "hal/result.hpp"
+#include "hal/workers.hpp"
+#include "onboard/mapping/map_tile.hpp"
+#include "onboard/mapping/mapping_config.hpp"
+#include "onboard/mapping/semantic_octree.hpp"
+
+namespace cairn {
+
+/// What became of one scan.
+struct InsertReport {
+  std::size_t points = 0;         ///< given
+  std::size_t not_finite = 0;     ///< of these, left out because a coordinate is NaN or infinite
+  std::size_t outside_map = 0;    ///< of these, left out because they lie outside of the ±2¹⁵ voxels of a tree
+  std::size_t rays = 0;           ///< marched, after points in the same voxel became one
+  std::size_t changed_tiles = 0;  ///< see Mapper::changed_tiles()
+};
+
+/// Keeps the map of one robot. Inserting a scan leaves exactly the tree, inner nodes and log-odds bits included, that
+/// octomap::OcTree::insertPointCloud(points, origin, max_range, lazy_eval = false, discretize = true) would leave for
+/// the points that were accepted. The result does not depend on the number of threads.
+class Mapper {
+ public:
+  /// `workers` must outlive the mapper.
+  Mapper(const MappingConfig& config, Workers& workers);
+  ~Mapper();
+  Mapper(const Mapper&) = delete;
+  Mapper& operator=(const Mapper&) = delete;
+
+  /// `points_map` and the sensor's position `origin_map`, in metres in the map frame. On an error (origin outside of
+  /// the map, scan or map beyond its memory) the map is as before.
+  Result<InsertReport> insert(std::span<const Eigen::Vector3f> points_map, const Eigen::Vector3f& origin_map);
+
+  [[nodiscard]] const SemanticOcTree& tree() const { return tree_; }
+  [[nodiscard]] const MappingConfig& config() const { return config_; }
+
+  /// Tiles in which, since the last take_changed_tiles(), a voxel became known or went from free to occupied or back;
+  /// in canonical order, each once. Log-odds that merely move do not count: in the open, every scan moves nearly all.
+  [[nodiscard]] std::span<const TileKey> changed_tiles() const { return changed_; }
+  [[nodiscard]] std::vector<TileKey> take_changed_tiles();
+
+ private:
+  MappingConfig config_;
+  Workers& workers_;
+  SemanticOcTree tree_;
+  std::vector<TileKey> changed_, scratch_;
+};
+
+}  // namespace cairn

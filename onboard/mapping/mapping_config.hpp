@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hal/config.hpp"
+
+namespace cairn {
+
+/// Defaults of the sensor model are OctoMap's, and give its log-odds to the bit.
+struct MappingConfig {
+  double resolution_m = 0.1;
+  double max_range_m = 30.0;
+  double prob_hit = 0.7;
+  double prob_miss = 0.4;
+  double clamping_min = 0.1192;
+  double clamping_max = 0.971;
+  int reserve_mb = 0;
+  int max_mb = 4096;
+};
+
+inline void declare(config::Section& s, MappingConfig& c) {
+  s.number("resolution_m", c.resolution_m, {0.01, 10.0}, "m", "edge of a voxel");
+  s.number("max_range_m", c.max_range_m, {-1.0, 1000.0}, "m",
+           "beams are cut here: free space up to it, no hit beyond; negative: no limit");
+  s.number("prob_hit", c.prob_hit, {0.5, 0.99}, "", "probability that a hit voxel is occupied");
+  s.number("prob_miss", c.prob_miss, {0.01, 0.5}, "", "probability that a voxel seen through is occupied");
+  s.number("clamping_min", c.clamping_min, {0.001, 0.5}, "", "occupancy probability is never below");
+  s.number("clamping_max", c.clamping_max, {0.5, 0.999}, "", "occupancy probability is never above");
+  s.integer("reserve_mb", c.reserve_mb, {0, 65536}, "MB", "memory for nodes that is taken and touched at the start");
+  s.integer("max_mb", c.max_mb, {16, 65536}, "MB", "no further scan is inserted when the nodes take more memory");
+}
+
+}  // namespace cairn

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <octomap/octomap.h>
+
+#include <cstddef>
+#include <cstring>
+#include <sstream>
+#include <string>
+
+#include "onboard/mapping/semantic_octree.hpp"
+
+namespace cairn {
+
+/// Nodes, inner ones included, in which two trees differ: key, depth, leafness or a bit of the log-odds. A difference
+/// in structure ends the comparison.
+template <class TreeA, class TreeB>
+std::size_t differing_nodes(const TreeA& a, const TreeB& b) {
+  std::size_t differ = a.size() == b.size() && a.calcNumNodes() == a.size() ? 0 : 1;
+  auto x = a.begin_tree();
+  auto y = b.begin_tree();
+  for (; x != a.end_tree() && y != b.end_tree(); ++x, ++y) {
+    if (x.getDepth() != y.getDepth() || x.getKey() != y.getKey() || x.isLeaf() != y.isLeaf()) return differ + 1;
+    const float u = x->getLogOdds(), v = y->getLogOdds();
+    differ += std::memcmp(&u, &v, sizeof u) != 0 ? 1 : 0;
+  }
+  return differ + (x != a.end_tree() || y != b.end_tree() ? 1 : 0);
+}
+
+/// What OctoMap's writeData() gives.
+template <class Tree>
+std::string data_of(const Tree& tree) {
+  std::ostringstream out;
+  tree.writeData(out);
+  return out.str();
+}
+
+}  // namespace cairn
