@@ -5,7 +5,9 @@
 
 #include <cmath>
 #include <numbers>
-#include <set>
+#include <vector>
+
+#include "drivers/velodyne/device_time.hpp"
 
 namespace cairn::velodyne {
 namespace {
@@ -43,16 +45,17 @@ TEST(Models, RingsAreThoseOfTheManuals) {
                                    11, 29, 28, 13, 14, 31, 30, 16));
 }
 
-// All beams leave through one point: offset = f·tan(−elevation), with f of ecosystem.md §1.3.
+// All beams leave through one point: offset = f·tan(−elevation), with f of ecosystem.md §1.3. The Hi-Res manual's table
+// was evidently made by halving steps and is up to 0.42 mm off that.
 TEST(Models, VerticalOffsetsFollowTheFocalDistance) {
-  const std::pair<const char*, double> focal_mm[] = {
-      {"VLP-16", 41.91}, {"VLP-16-HiRes", 41.91}, {"HDL-32E", 28.83}, {"VLP-32C", 42.4}};
-  for (const auto& [name, f] : focal_mm) {
+  const std::tuple<const char*, double, double> focal_mm[] = {
+      {"VLP-16", 41.91, 0.06}, {"VLP-16-HiRes", 41.91, 0.42}, {"HDL-32E", 28.83, 0.09}, {"VLP-32C", 42.4, 1e-6}};
+  for (const auto& [name, f, tolerance] : focal_mm) {
     const Model& m = *find_model(name);
     for (int c = 0; c < m.channel_count; ++c) {
       const Channel& channel = m.channels[static_cast<std::size_t>(c)];
-      const double expected = f * 1e-3 * std::tan(-channel.elevation_deg * std::numbers::pi / 180.0);
-      EXPECT_NEAR(channel.vertical_offset_m, expected, 1.2e-4) << name << " channel " << c;
+      const double expected_mm = f * std::tan(-channel.elevation_deg * std::numbers::pi / 180.0);
+      EXPECT_NEAR(1e3 * channel.vertical_offset_m, expected_mm, tolerance) << name << " channel " << c;
     }
   }
 }
@@ -76,7 +79,7 @@ TEST(Models, FiringTimes) {
   EXPECT_EQ(find_model("VLP-32C")->firing_offset(3, 31, false).count(), 3 * 55296 + 15 * 2304);
 }
 
-// Firings never go back in time within a packet, and the last ends before the next packet's first.
+// Firings never go back in time within a packet, and leave the share of its span that DeviceTime counts on.
 TEST(Models, FiringsAreOrdered) {
   for (const Model& m : models()) {
     for (const bool dual : {false, true}) {
@@ -89,7 +92,7 @@ TEST(Models, FiringsAreOrdered) {
           last = t;
         }
       }
-      EXPECT_LT(last, m.packet_span(dual));
+      EXPECT_LE(last, DeviceTime::busy_share(m.packet_span(dual)));
     }
   }
 }

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "drivers/velodyne/config.hpp"
+#include "drivers/velodyne/data_packet.hpp"
+#include "drivers/velodyne/device_time.hpp"
+#include "drivers/velodyne/nmea.hpp"
+#include "drivers/velodyne/point_decoder.hpp"
+#include "drivers/velodyne/position_packet.hpp"
+#include "drivers/velodyne/scan_assembler.hpp"
+#include "hal/monitor.hpp"
+#include "hal/ports.hpp"
+
+namespace cairn::velodyne {
+
+/// What came in and what became of it.
+struct Counters {
+  std::uint64_t packets = 0;           ///< all that were given to decode()
+  std::uint64_t data_packets = 0;      ///< decoded
+  std::uint64_t position_packets = 0;  ///< read
+
+  // refused, by cause
+  std::uint64_t truncated = 0;     ///< cut by the transport
+  std::uint64_t wrong_length = 0;  ///< neither 1206 nor 512 bytes, or on the other's port
+  std::uint64_t wrong_port = 0;
+  std::uint64_t malformed = 0;      ///< flag, azimuth, return mode, PPS state
+  std::uint64_t wrong_product = 0;  ///< of another sensor model
+  std::uint64_t duplicates = 0;     ///< same device time again
+  std::uint64_t late = 0;           ///< overtaken by a later packet
+  std::uint64_t bad_nmea = 0;       ///< in position packets that were otherwise read
+
+  std::uint64_t lost_packets = 0;     ///< missing by device time, whatever the cause
+  std::uint64_t time_jumps = 0;       ///< of the device's counter or of arrival
+  std::uint64_t over_the_hour = 0;    ///< device times of 3600 s and more
+  std::uint64_t discarded_scans = 0;  ///< running at a time jump
+  std::uint64_t revolutions = 0;      ///< scans closed by the cut angle
+  std::uint64_t scans = 0;            ///< all scans given out
+
+  double rpm = 0;  ///< latest; 0 while the motor stands
+  std::optional<PpsState> pps;
+  std::optional<NmeaTime> nmea;             ///< latest that was readable
+  std::optional<std::int64_t> utc_us;       ///< of the latest data packet, while PPS is locked
+  int top_board_c = 0, bottom_board_c = 0;  ///< °C, latest
+};
+
+/// Velodyne packets → scans: the same for a live sensor, a recording and a simulation. Allocates nothing once its two
+/// scans have grown. Events go to the monitor, which is used by decode(), expire() and flush() only.
+class Lidar final : public ScanDecoder {
+ public:
+  /// `monitor` must outlive it. Error: kInvalidConfig.
+  static Result<std::unique_ptr<Lidar>> create(const Config& config, SourceId source, Monitor& monitor);
+
+  /// Packet::channel is the UDP destination port and says what the packet is. An Error means that it was refused.
+  Result<const Scan*> decode(const Packet& packet) override;
+  const Scan* expire(Time now) override;
+  const Scan* flush() override;
+
+  /// UTC − Time of this computer or recording, where known. Decides the hour of the device's UTC, and in the time
+  /// source "pps" also puts it on the robot's time line.
+  void set_utc_offset(Duration utc_minus_time) { utc_offset_ = utc_minus_time; }
+  [[nodiscard]] const Counters& counters() const { return counters_; }
+  [[nodiscard]] const Model& model() const { return model_; }
+
+  static constexpr Duration kPositionTimeout =
+      std::chrono::seconds(5);  ///< PPS counts as absent without position packets
+
+ private:
+  Lidar(const Config& config, const Model& model, SourceId source, Monitor& monitor);
+
+  Result<const Scan*> decode_data(const Packet& packet);
+  Result<const Scan*> decode_position(const Packet& packet);
+  Error refuse(DataFault fault, const Packet& packet);
+  void note_mode(const DataPacket& data, Time arrival);
+  DeviceTime::Stamp stamp(const DataPacket& data, Time arrival);
+  std::optional<Time> exact_time(const DataPacket& data, Time arrival);
+  void note_jump(Time arrival);
+  void note_nmea(const PositionPacket& position, Time arrival);
+  void count_lost(Duration step, double azimuth_deg);
+  void update_rotation(const DataPacket& data);
+  void assemble(const DataPacket& data, Time first_firing);
+  const Scan* count(const Scan* scan);
+  [[nodiscard]] Duration period() const { return from_seconds(360.0 / rate_deg_s_); }
+
+  Config config_;
+  const Model& model_;
+  Monitor& monitor_;
+  PointDecoder decoder_;
+  ScanAssembler assembler_;
+  DeviceTime device_time_;
+  Counters counters_;
+  double rate_deg_s_;        // the last plausible one
+  Duration nominal_step_{};  // from the last packet to its successor
+  double last_azimuth_deg_ = 0;
+  std::optional<Duration> utc_offset_;
+  std::optional<Time> locked_at_;  // arrival of the last position packet that said locked and valid
+  std::int64_t nmea_utc_us_ = 0;   // latest valid date and time, and when it arrived
+  Time nmea_arrival_{};
+  bool mode_noted_ = false;
+  bool product_noted_ = false;
+};
+
+}  // namespace cairn::velodyne

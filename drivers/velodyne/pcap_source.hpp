@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/ports.hpp"
+
+struct pcap;
+
+namespace cairn::velodyne {
+
+/// Replays the UDP datagrams of a capture file (pcap or pcapng, nanosecond precision) as fast as they are asked for.
+/// Packet::arrival is the record's time, so the recording's time line is what its clock was (UTC in a tcpdump).
+class PcapSource final : public Source {
+ public:
+  struct Options {
+    SourceId source{};
+    std::vector<std::uint16_t> ports;             ///< destination ports to let through; empty: all
+    std::optional<std::uint32_t> source_address;  ///< as in Datagram; none: any
+  };
+  struct Counters {
+    std::uint64_t records = 0;
+    std::uint64_t delivered = 0;
+    std::uint64_t filtered = 0;   ///< other ports or senders
+    std::uint64_t foreign = 0;    ///< not UDP over IPv4, or fragments
+    std::uint64_t malformed = 0;  ///< frames that contradict themselves or end in a header
+    std::uint64_t truncated = 0;  ///< delivered, but marked Packet::truncated
+    bool truncated_tail = false;  ///< the file ended inside its last record
+  };
+
+  /// Error: kNotFound, kMalformed (no capture file), kUnsupported (link type).
+  static Result<std::unique_ptr<PcapSource>> open(const std::filesystem::path& path, const Options& options);
+  /// Takes ownership of `file`; `name` is for messages.
+  static Result<std::unique_ptr<PcapSource>> from_stream(std::FILE* file, std::string name, const Options& options);
+  ~PcapSource() override;
+
+  /// A record cut off by the file's end is the end. Any other damage is one Error with the offset, then the end.
+  /// Returns kTimeout after kMaxSkipped records that are not wanted; `timeout` itself is not used.
+  Result<Poll> next(Packet& packet, Duration timeout) override;
+  [[nodiscard]] const Counters& counters() const { return counters_; }
+
+  static constexpr int kMaxSkipped = 4096;
+
+ private:
+  struct Close {
+    void operator()(pcap* handle) const;
+  };
+  PcapSource(std::unique_ptr<pcap, Close> handle, std::string name, const Options& options);
+  Result<Poll> end_of_file(int status);
+  bool wanted(std::uint32_t address, std::uint16_t port) const;
+
+  std::unique_ptr<pcap, Close> handle_;
+  std::string name_;
+  Options options_;
+  int link_type_;
+  Counters counters_;
+  bool ended_ = false;
+};
+
+}  // namespace cairn::velodyne
