@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hal/se3.hpp"
+#include "onboard/odometry/normal_equations.hpp"
+
+namespace cairn {
+
+/// How uncertain the pose was when each part of the map was made. Registration can only be as good as the planes it
+/// refers to: standing still among old planes adds nothing to the drift, moving into new ones does.
+///
+/// Time is cut into epochs, one per stretch of motion; the last kCapacity are kept, older ones count as the oldest
+/// kept.
+class DriftHistory {
+ public:
+  DriftHistory();
+
+  /// Forgets everything; the first epoch begins here.
+  void reset(const SE3& T_odom_base, const Matrix6& covariance);
+  /// Begins a new epoch if the base has moved or turned enough since the last one began. `covariance` is that of a left
+  /// perturbation of T_odom_base.
+  void advance(const SE3& T_odom_base, const Matrix6& covariance);
+  /// The epoch that new points belong to.
+  [[nodiscard]] float epoch() const { return static_cast<float>(newest_); }
+
+  /// Covariance (left perturbation) of the planes in use: the weighted mean of their epochs', which is exact when their
+  /// errors are fully correlated and too large otherwise.
+  [[nodiscard]] Matrix6 average(std::span<const KeypointUse> uses);
+
+  static constexpr std::size_t kCapacity = 2048;
+
+ private:
+  std::vector<Matrix6> covariance_;  // ring, by epoch modulo capacity
+  std::vector<double> weight_;
+  SE3 begun_;
+  std::uint64_t oldest_ = 0, newest_ = 0;
+};
+
+}  // namespace cairn

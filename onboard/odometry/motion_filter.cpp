@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/odometry/motion_filter.hpp"
+
+#include <Eigen/Cholesky>
+
+namespace cairn {
+namespace {
+
+/// Hessian of ½·Σ w r² over (δ, ν), see NormalEquations.
+Matrix12 information(const NormalEquations& n, double correlation) {
+  Matrix12 H;
+  H << n.aa, -n.taa, -n.taa, n.ttaa;
+  return H / correlation;
+}
+
+Matrix12 inverse_of(const Matrix12& m) { return m.ldlt().solve(Matrix12::Identity()); }
+
+Matrix12 symmetric(const Matrix12& m) { return 0.5 * (m + m.transpose()); }
+
+}  // namespace
+
+MotionState operator+(const MotionState& x, const Vector12& step) {
+  return {x.T_odom_base * SE3::exp(step.head<6>()), x.twist + step.tail<6>()};
+}
+
+void MotionFilter::reset(const MotionState& state, const Uncertainty& uncertainty) {
+  state_ = state;
+  uncertainty_ = uncertainty;
+  step_covariance_.setZero();
+}
+
+void MotionFilter::predict(double dt, const MotionNoise& noise) {
+  const Vector6 xi = dt * state_.twist;
+  const SE3 motion = SE3::exp(xi);
+  transition_.setIdentity();
+  transition_.topLeftCorner<6, 6>() = motion.inverse().adjoint();
+  transition_.topRightCorner<6, 6>() = dt * right_jacobian(xi);
+  Vector6 acceleration;
+  acceleration << Eigen::Vector3d::Constant(noise.linear), Eigen::Vector3d::Constant(noise.angular);
+  const Matrix6 q = acceleration.cwiseAbs2().asDiagonal();
+  // ⅓ instead of ¼: an acceleration that varies within the step; it also keeps the matrix invertible.
+  process_ << q * (dt * dt * dt * dt / 3), q * (dt * dt * dt / 2), q * (dt * dt * dt / 2), q * (dt * dt);
+  local_before_ = uncertainty_.local;
+  uncertainty_.local = symmetric(transition_ * uncertainty_.local * transition_.transpose() + process_);
+  uncertainty_.total = symmetric(transition_ * uncertainty_.total * transition_.transpose() + process_);
+  state_.T_odom_base = state_.T_odom_base * motion;
+  Matrix12 carried = transition_;
+  carried.topLeftCorner<6, 6>().setZero();
+  step_covariance_ = (carried * local_before_ * carried.transpose() + process_).topLeftCorner<6, 6>();
+}
+
+Vector12 MotionFilter::step(const MotionState& x, const NormalEquations& n, double correlation) const {
+  const Matrix12 prior = inverse_of(uncertainty_.local);
+  Vector12 from_prior;
+  from_prior << (state_.T_odom_base.inverse() * x.T_odom_base).log(), x.twist - state_.twist;
+  Vector12 gradient;
+  gradient << n.ar, -n.tar;
+  gradient = gradient / correlation + prior * from_prior;
+  return -(information(n, correlation) + prior).ldlt().solve(gradient);
+}
+
+void MotionFilter::update(const MotionState& x, const NormalEquations& n, double correlation,
+                          const Matrix6& map_covariance) {
+  const Matrix12 H = information(n, correlation);
+  const Matrix12 prior = inverse_of(uncertainty_.local);
+  const Matrix12 posterior = symmetric(inverse_of(H + prior));
+  const Matrix12 keep = posterior * prior;  // what remains of the prediction's error
+  const Matrix12 noise = symmetric(posterior * H * posterior);
+  const Matrix12x6 follow = posterior * H.leftCols<6>();
+  const Matrix6 ad = x.T_odom_base.inverse().adjoint();
+  const Matrix6 map_error = ad * map_covariance * ad.transpose();
+  uncertainty_.total =
+      symmetric(keep * uncertainty_.total * keep.transpose() + follow * map_error * follow.transpose() + noise);
+  uncertainty_.local = posterior;
+  // Error of the motion = new error − the old one carried along.
+  Matrix12 carried = Matrix12::Zero();
+  carried.topLeftCorner<6, 6>() = transition_.topLeftCorner<6, 6>();
+  const Matrix12 G = keep * transition_ - carried;
+  step_covariance_ =
+      (G * local_before_ * G.transpose() + keep * process_ * keep.transpose() + noise).topLeftCorner<6, 6>();
+  state_ = x;
+}
+
+}  // namespace cairn

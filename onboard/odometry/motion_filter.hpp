@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "hal/se3.hpp"
+#include "onboard/odometry/normal_equations.hpp"
+
+namespace cairn {
+
+using Vector12 = Eigen::Matrix<double, 12, 1>;
+using Matrix12 = Eigen::Matrix<double, 12, 12>;
+using Matrix12x6 = Eigen::Matrix<double, 12, 6>;
+
+/// Where the base is and how it moves. Error state: T·exp(δ), twist + ν, ordered (δ, ν).
+struct MotionState {
+  SE3 T_odom_base;
+  Vector6 twist = Vector6::Zero();  ///< of base_link in base_link: m/s, rad/s
+};
+
+/// White acceleration, constant within one step.
+struct MotionNoise {
+  double linear = 3.0;   ///< m/s²
+  double angular = 3.0;  ///< rad/s²
+};
+
+/// An iterated extended Kalman filter with the constant-twist model. It carries two covariances of the same state:
+/// `local` of the error against the map, which sets the gains, and `total` of the error against the start, which also
+/// inherits the errors that the map's planes were placed with.
+class MotionFilter {
+ public:
+  struct Uncertainty {
+    Matrix12 local = Matrix12::Zero();
+    Matrix12 total = Matrix12::Zero();
+  };
+
+  void reset(const MotionState& state, const Uncertainty& uncertainty);
+  /// Moves the state by `dt` seconds (> 0).
+  void predict(double dt, const MotionNoise& noise);
+
+  /// One Gauss–Newton step from `x` towards the maximum of the posterior; `n` was linearised at x.
+  [[nodiscard]] Vector12 step(const MotionState& x, const NormalEquations& n, double correlation) const;
+  /// Ends the iteration at x. `map_covariance` is that of the matched planes' common displacement, as the covariance of
+  /// a left perturbation of T_odom_base.
+  void update(const MotionState& x, const NormalEquations& n, double correlation, const Matrix6& map_covariance);
+
+  [[nodiscard]] const MotionState& state() const { return state_; }
+  [[nodiscard]] const Uncertainty& uncertainty() const { return uncertainty_; }
+  /// Covariance of exp(δ) in T_previous_now·exp(δ) for the last predict() and update().
+  [[nodiscard]] const Matrix6& step_covariance() const { return step_covariance_; }
+
+ private:
+  MotionState state_;
+  Uncertainty uncertainty_;
+  Matrix12 transition_ = Matrix12::Identity();  // of the last predict()
+  Matrix12 local_before_ = Matrix12::Zero();    // before the last predict()
+  Matrix12 process_ = Matrix12::Zero();
+  Matrix6 step_covariance_ = Matrix6::Zero();
+};
+
+[[nodiscard]] MotionState operator+(const MotionState& x, const Vector12& step);
+
+}  // namespace cairn

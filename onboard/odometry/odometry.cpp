@@ -1,0 +1,220 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/odometry/odometry.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cairn {
+namespace {
+
+// A revolution takes at most 0.2 s (5 Hz); an older point has a broken stamp.
+constexpr double kMaxAge = 0.25;
+
+PlaneMap::Config map_config(const OdometryConfig& c) {
+  PlaneCriteria criteria;
+  criteria.noise_floor_m = static_cast<float>(c.noise_floor_m);
+  criteria.max_thickness_m = static_cast<float>(c.max_thickness_m);
+  return {c.finest_block_m, c.max_blocks, c.max_points_per_block, criteria};
+}
+
+bool finite(const Eigen::Vector3f& p) { return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()); }
+
+}  // namespace
+
+LidarOdometry::LidarOdometry(const OdometryConfig& config, const SE3& T_base_lidar, Workers& workers)
+    : config_(config),
+      T_base_lidar_(T_base_lidar),
+      workers_(workers),
+      map_(map_config(config)),
+      linearise_(static_cast<std::size_t>(2 * config.keypoints)),
+      keypoint_spacing_m_(static_cast<float>(3 * config.insert_spacing_m)) {}
+
+Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget) {
+  if (const auto good = check(scan); !good) return good.error();
+  take(scan);
+  choose_keypoints();
+  if (!last_stamp_) return start(scan.valid.end);
+
+  const double dt = to_seconds(scan.valid.end - *last_stamp_);
+  last_stamp_ = scan.valid.end;
+  T_odom_previous_ = filter_.state().T_odom_base;
+  filter_.predict(dt, {config_.linear_acceleration, config_.angular_acceleration});
+  const Fit found = fit(budget);
+
+  OdometryUpdate update;
+  update.stamp = scan.valid.end;
+  update.iterations = found.iterations;
+  update.converged = found.converged;
+  const NormalEquations& n = found.equations;
+  update.inlier_ratio = n.matched > 0 ? static_cast<double>(n.inliers) / n.matched : 0.0;
+  update.rms_m = n.robust > 0 ? std::sqrt(n.squared_distance / n.robust) : 0.0;
+  update.degenerate_directions = found.degeneracy.count;
+  update.degenerate = found.degeneracy.directions;
+  update.degenerate_length_m = found.degeneracy.length_m;
+  if (plausible(found, dt))
+    accept(found);
+  else
+    lose_track(update);
+  deskew_all(filter_.state().twist);
+  if (!update.lost || update.reinitialised) insert();
+  fill(update);
+  return update;
+}
+
+Result<void> LidarOdometry::check(const Scan& scan) const {
+  const PointCloud& cloud = scan.cloud;
+  if (cloud.xyz.size() > kMaxPoints) return Error{Errc::kLimit, "scan has too many points"};
+  if (cloud.offset_ns.size() != cloud.xyz.size() && !scan.deskewed)
+    return Error{Errc::kMalformed, "scan has points without a firing time"};
+  if (last_stamp_ && scan.valid.end <= *last_stamp_)
+    return Error{Errc::kMalformed, "scan is not later than the one before"};
+  return {};
+}
+
+void LidarOdometry::take(const Scan& scan) {
+  const std::vector<Eigen::Vector3f>& xyz = scan.cloud.xyz;
+  const double span_s = to_seconds(scan.valid.end - scan.valid.start);
+  duration_s_ = scan.deskewed ? 0.0 : std::clamp(span_s, 0.0, kMaxAge);
+  points_lidar_.clear();
+  age_s_.clear();
+  in_range_.clear();
+  points_lidar_.reserve(xyz.size());
+  age_s_.reserve(xyz.size());
+  in_range_.reserve(xyz.size());
+  const auto near = static_cast<float>(config_.min_range_m * config_.min_range_m);
+  const auto far = static_cast<float>(config_.max_range_m * config_.max_range_m);
+  for (std::size_t i = 0; i < xyz.size(); ++i) {
+    if (!finite(xyz[i])) continue;
+    const double age = scan.deskewed ? 0.0 : std::clamp(span_s - 1e-9 * scan.cloud.offset_ns[i], 0.0, duration_s_);
+    const float squared = xyz[i].squaredNorm();
+    if (squared >= near && squared <= far) in_range_.push_back(static_cast<std::uint32_t>(points_lidar_.size()));
+    points_lidar_.push_back(xyz[i]);
+    age_s_.push_back(static_cast<float>(age));
+  }
+}
+
+void LidarOdometry::choose_keypoints() {
+  dense_points_ = dense_(points_lidar_, in_range_, static_cast<float>(config_.insert_spacing_m));
+  const auto chosen = sparse_(points_lidar_, dense_points_, keypoint_spacing_m_);
+  const auto most = static_cast<std::size_t>(2 * config_.keypoints);
+  const std::size_t stride = chosen.size() / most + 1;
+  keypoints_.clear();
+  keypoints_.reserve(most);
+  for (std::size_t i = 0; i < chosen.size(); i += stride)
+    keypoints_.push_back({points_lidar_[chosen[i]], age_s_[chosen[i]]});
+  // The next scan will look much the same: let the spacing follow.
+  const double ratio = static_cast<double>(chosen.size()) / config_.keypoints;
+  if (ratio > 1.1) keypoint_spacing_m_ *= ratio > 1.5 ? 1.2F : 1.05F;
+  if (ratio < 0.9) keypoint_spacing_m_ /= 1.05F;
+  keypoint_spacing_m_ = std::clamp(keypoint_spacing_m_, static_cast<float>(config_.insert_spacing_m), 3.0F);
+}
+
+OdometryUpdate LidarOdometry::start(Time stamp) {
+  last_stamp_ = stamp;
+  Vector6 speed;
+  speed << Eigen::Vector3d::Constant(config_.initial_speed), Eigen::Vector3d::Constant(config_.initial_angular_speed);
+  MotionFilter::Uncertainty uncertainty;
+  uncertainty.local.bottomRightCorner<6, 6>() = speed.cwiseAbs2().asDiagonal();
+  uncertainty.total = uncertainty.local;
+  filter_.reset({}, uncertainty);
+  begin_map();
+  deskew_all(filter_.state().twist);
+  insert();
+  OdometryUpdate update;
+  update.stamp = stamp;
+  update.converged = true;
+  fill(update);
+  return update;
+}
+
+LidarOdometry::Fit LidarOdometry::fit(Budget& budget) {
+  Fit found;
+  found.state = filter_.state();
+  // Look as far as the prediction may be off, then narrower: the kernel follows the gate.
+  const double least = 0.2;
+  const double deviation = std::sqrt(filter_.uncertainty().local.topLeftCorner<3, 3>().trace());
+  double gate = std::clamp(3 * deviation, least, 2.0);
+  while (found.iterations < config_.max_iterations && budget.one_more()) {
+    const Linearisation at{found.state.T_odom_base, found.state.twist, T_base_lidar_, duration_s_, gate};
+    const NormalEquations all = linearise_(keypoints_, map_, at, workers_);
+    found.degeneracy = find_degeneracy(all, config_.degenerate_std_m, config_.correlation_factor);
+    found.equations = without_degenerate(all, found.degeneracy);
+    const Vector12 step = filter_.step(found.state, found.equations, config_.correlation_factor);
+    found.state = found.state + step;
+    ++found.iterations;
+    found.converged = gate <= least && step.head<3>().norm() < 2e-4 && step.segment<3>(3).norm() < 2e-5;
+    if (found.converged) break;
+    gate = std::max(least, 0.5 * gate);
+  }
+  return found;
+}
+
+bool LidarOdometry::plausible(const Fit& found, double dt) const {
+  const NormalEquations& n = found.equations;
+  if (n.matched < config_.min_matches || n.inliers < config_.min_inlier_ratio * n.matched) return false;
+  const SE3 motion = T_odom_previous_.inverse() * found.state.T_odom_base;
+  return motion.translation().norm() <= config_.max_speed * dt &&
+         rotation_angle(motion) <= config_.max_angular_speed * dt;
+}
+
+void LidarOdometry::accept(const Fit& found) {
+  lost_in_a_row_ = 0;
+  const double misfit = found.equations.robust > 0 ? found.equations.chi2 / found.equations.robust : 1.0;
+  filter_.update(found.state, found.equations, config_.correlation_factor * std::max(1.0, misfit),
+                 drift_.average(linearise_.uses()));
+}
+
+void LidarOdometry::lose_track(OdometryUpdate& update) {
+  update.lost = true;
+  update.converged = false;
+  ++lost_in_a_row_;
+  if (lost_in_a_row_ < config_.reinitialise_after && map_.planes() > 0) return;
+  update.reinitialised = true;
+  lost_in_a_row_ = 0;
+  begin_map();
+}
+
+void LidarOdometry::begin_map() {
+  map_.clear();
+  drift_.reset(filter_.state().T_odom_base, odom_covariance());
+  T_odom_pruned_ = filter_.state().T_odom_base;
+}
+
+Matrix6 LidarOdometry::odom_covariance() const {
+  const Matrix6 ad = filter_.state().T_odom_base.adjoint();
+  return ad * filter_.uncertainty().total.topLeftCorner<6, 6>() * ad.transpose();
+}
+
+void LidarOdometry::deskew_all(const Vector6& twist) {
+  constexpr std::size_t kChunk = 4096;
+  const Deskew deskew(twist, T_base_lidar_, duration_s_);
+  points_base_.resize(points_lidar_.size());
+  workers_.for_each((points_lidar_.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    const std::size_t end = std::min(points_lidar_.size(), (chunk + 1) * kChunk);
+    for (std::size_t i = chunk * kChunk; i < end; ++i) points_base_[i] = deskew(points_lidar_[i], age_s_[i]);
+  });
+}
+
+void LidarOdometry::insert() {
+  const SE3& T = filter_.state().T_odom_base;
+  drift_.advance(T, odom_covariance());
+  const Eigen::Matrix3d R = T.rotation();
+  map_points_.clear();
+  map_points_.reserve(dense_points_.size());
+  for (const std::uint32_t i : dense_points_)
+    map_points_.push_back({R * points_base_[i].cast<double>() + T.translation(), points_lidar_[i].norm()});
+  if ((T.translation() - T_odom_pruned_.translation()).norm() > 0.1 * config_.window_m) {
+    map_.keep_within(T.translation(), config_.window_m);
+    T_odom_pruned_ = T;
+  }
+  map_.insert(map_points_, drift_.epoch(), workers_);
+}
+
+void LidarOdometry::fill(OdometryUpdate& update) const {
+  const SE3& T = filter_.state().T_odom_base;
+  update.T_odom_base = {T, filter_.uncertainty().total.topLeftCorner<6, 6>()};
+  update.T_previous_base = {T_odom_previous_.inverse() * T, filter_.step_covariance()};
+  update.points_base = points_base_;
+}
+
+}  // namespace cairn

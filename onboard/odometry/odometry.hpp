@@ -1,0 +1,117 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hal/budget.hpp"
+#include "hal/point_cloud.hpp"
+#include "hal/result.hpp"
+#include "hal/se3.hpp"
+#include "hal/workers.hpp"
+#include "onboard/odometry/config.hpp"
+#include "onboard/odometry/degeneracy.hpp"
+#include "onboard/odometry/drift_history.hpp"
+#include "onboard/odometry/motion_filter.hpp"
+#include "onboard/odometry/normal_equations.hpp"
+#include "onboard/odometry/plane_map.hpp"
+#include "onboard/odometry/subsample.hpp"
+
+namespace cairn {
+
+/// What one scan told about the robot's motion.
+struct OdometryUpdate {
+  Time stamp{};                   ///< = scan.valid.end; all poses are of this instant
+  UncertainPose T_odom_base;      ///< since the start, where T_odom_base was the identity
+  UncertainPose T_previous_base;  ///< since the scan before
+  /// The scan's finite points (all of them, as a rule) in the scan's order, deskewed, in base_link at `stamp`. Owned by
+  /// the odometry and valid until the next update.
+  std::span<const Eigen::Vector3f> points_base;
+
+  int iterations = 0;
+  bool converged = false;
+  double inlier_ratio = 0;  ///< points within 3 σ of a plane / points whose neighbourhood holds planes
+  double rms_m = 0;         ///< point-to-plane distance, robustly weighted
+  /// Directions the surroundings do not determine; along them the pose is the prediction and the covariance grows.
+  int degenerate_directions = 0;
+  /// The first `degenerate_directions` are valid: unit (translation, rotation·length) in base_link.
+  std::array<Vector6, 6> degenerate{};
+  double degenerate_length_m = 1;  ///< the lever arm at which rotations were compared with translations
+
+  bool lost = false;           ///< the scan did not fit: the pose is predicted, the map was left alone
+  bool reinitialised = false;  ///< lost for too long: this scan began a new map at the predicted pose
+};
+
+/// LiDAR odometry: predict, deskew and register every scan against planes of the recent past.
+///
+/// An iterated Kalman filter over pose and twist; the twist deskews the scan inside the iteration, so distorted points
+/// take part in estimating it. Same input, same bits, for any number of workers.
+class LidarOdometry {
+ public:
+  /// `T_base_lidar` takes a point of the sensor to base_link. `workers` must outlive the odometry.
+  LidarOdometry(const OdometryConfig& config, const SE3& T_base_lidar, Workers& workers);
+
+  /// Consumes one scan. Every iteration asks the budget; one is always made. Errors (the state is left as it was):
+  /// kMalformed for a scan that is not later than the last one or whose arrays differ in length, kLimit for too many
+  /// points.
+  Result<OdometryUpdate> update(const Scan& scan, Budget& budget);
+
+  /// Blocks the map holds, for figures and tests.
+  [[nodiscard]] std::size_t map_blocks() const { return map_.blocks(); }
+
+  static constexpr std::size_t kMaxPoints = 400'000;
+
+ private:
+  struct Fit {
+    MotionState state;
+    NormalEquations equations;
+    Degeneracy degeneracy;
+    int iterations = 0;
+    bool converged = false;
+  };
+
+  Result<void> check(const Scan& scan) const;
+  void take(const Scan& scan);
+  void choose_keypoints();
+  Fit fit(Budget& budget);
+  [[nodiscard]] bool plausible(const Fit& fit, double dt) const;
+  void accept(const Fit& fit);
+  OdometryUpdate start(Time stamp);
+  void lose_track(OdometryUpdate& update);
+  void begin_map();
+  void insert();
+  void deskew_all(const Vector6& twist);
+  [[nodiscard]] Matrix6 odom_covariance() const;
+  void fill(OdometryUpdate& update) const;
+
+  OdometryConfig config_;
+  SE3 T_base_lidar_;
+  Workers& workers_;
+
+  PlaneMap map_;
+  MotionFilter filter_;
+  DriftHistory drift_;
+  Linearise linearise_;
+  Subsample dense_, sparse_;
+  float keypoint_spacing_m_;
+
+  std::optional<Time> last_stamp_;
+  SE3 T_odom_previous_;
+  int lost_in_a_row_ = 0;
+  SE3 T_odom_pruned_;
+
+  // The scan at hand.
+  std::vector<Eigen::Vector3f> points_lidar_;
+  std::vector<float> age_s_;
+  double duration_s_ = 0;
+  std::vector<std::uint32_t> in_range_;
+  std::span<const std::uint32_t> dense_points_;
+  std::vector<Keypoint> keypoints_;
+  std::vector<Eigen::Vector3f> points_base_;
+  std::vector<MapPoint> map_points_;
+};
+
+}  // namespace cairn
