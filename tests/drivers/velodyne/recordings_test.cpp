@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <map>
+#include <numbers>
 #include <string>
 
 #include "drivers/velodyne/lidar.hpp"
@@ -81,6 +82,8 @@ void expect_sound(const Replay& r, const Config& c) {
   }
 }
 
+// A revolution is counted where the firings cross the cut angle (0°, forward): the turn that was running when the
+// recording began counts, the one that was running when it ended does not.
 TEST(Recordings, Vlp16WithGps) {
   SKIP_WITHOUT_DATA();
   const Replay r = replay("vlp16_gps_single_return.pcap", config("VLP-16"));
@@ -115,6 +118,108 @@ TEST(Recordings, Hdl32) {
   for (const Scan& s : r.scans)
     std::printf("%zu points %d lost %u %f\n", s.cloud.size(), s.incomplete, s.lost_packets,
                 to_seconds(s.valid.end - s.valid.start));
+}
+
+/// The cloud that another project's decoder gives for one revolution of vlp16_dual_return.pcap.
+struct ExpectedPoint {
+  float x, y, z;
+  std::uint8_t intensity, return_type;
+  std::uint16_t channel;
+  float azimuth, elevation, distance;
+  std::uint32_t time_stamp;
+};
+static_assert(sizeof(ExpectedPoint) == 32);
+
+std::vector<ExpectedPoint> expected_points() {
+  const auto bytes = read_file(data_folder() / "vlp16_dual_return.expected.pcd", 1 << 20).value();
+  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  const std::string_view mark = "DATA binary\n";
+  const std::span body = std::span(bytes).subspan(text.find(mark) + mark.size());
+  std::vector<ExpectedPoint> points(body.size() / sizeof(ExpectedPoint));
+  std::memcpy(points.data(), body.data(), points.size() * sizeof(ExpectedPoint));
+  return points;
+}
+
+/// The other decoder leaves the lasers' vertical offsets out (its z is d·sin(elevation) exactly); ours are up to 11 mm.
+Eigen::Vector3f offset_of_ring(std::uint8_t ring) {
+  for (const Channel& c : find_model("VLP-16")->channels)
+    if (c.ring == ring) return {0, 0, static_cast<float>(c.vertical_offset_m)};
+  return {0, 0, 0};
+}
+
+/// The other decoder turns by the difference to the next block's azimuth, and the last pair of a dual-return packet has
+/// no next: the second firing of that pair keeps the azimuth of the first, 55 µs before.
+bool lacks_rotation(const ExpectedPoint& e) {
+  constexpr std::uint32_t kSequence = 55'296, kLastPair = 20 * kSequence;  // its times count blocks, not pairs
+  return e.time_stamp >= kLastPair && e.time_stamp / kSequence % 2 == 1;
+}
+
+std::vector<Eigen::Vector3f> positions(const std::vector<ExpectedPoint>& expected, double repair_deg) {
+  const Eigen::AngleAxisf repair(static_cast<float>(-repair_deg * std::numbers::pi / 180), Eigen::Vector3f::UnitZ());
+  std::vector<Eigen::Vector3f> out;
+  for (const ExpectedPoint& e : expected) {
+    const Eigen::Vector3f p(e.x, e.y, e.z);
+    out.push_back(lacks_rotation(e) ? repair * p : p);
+  }
+  return out;
+}
+
+/// Distances in metres to the nearest of our points in the same ring; ascending.
+std::vector<double> distances(const std::vector<ExpectedPoint>& expected, const std::vector<Scan>& ours,
+                              double repair_deg) {
+  std::array<std::vector<Eigen::Vector3f>, 16> rings;
+  for (const Scan& s : ours)
+    for (std::size_t i = 0; i < s.cloud.size(); ++i)
+      rings[s.cloud.ring[i]].push_back(s.cloud.xyz[i] - offset_of_ring(s.cloud.ring[i]));
+  const auto points = positions(expected, repair_deg);
+  std::vector<double> out;
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    float nearest = std::numeric_limits<float>::infinity();
+    for (const auto& p : rings.at(expected[i].channel)) nearest = std::min(nearest, (p - points[i]).squaredNorm());
+    out.push_back(std::sqrt(nearest));
+  }
+  std::sort(out.begin(), out.end());
+  return out;
+}
+
+double share_within(const std::vector<double>& ascending, double limit) {
+  return static_cast<double>(std::upper_bound(ascending.begin(), ascending.end(), limit) - ascending.begin()) /
+         static_cast<double>(ascending.size());
+}
+
+// Channels of the expected cloud are rings; its frame is REP-103 like ours. It is our last revolution.
+TEST(Recordings, Vlp16DualReturnAgreesWithAnotherDecoder) {
+  SKIP_WITHOUT_DATA();
+  const Replay r = replay("vlp16_dual_return.pcap", config("VLP-16"));
+  expect_sound(r, config("VLP-16"));
+  EXPECT_EQ(r.counters.data_packets, 603U);
+  EXPECT_EQ(r.counters.revolutions, 4U);
+  EXPECT_EQ(r.counters.lost_packets, 0U);
+  const auto expected = expected_points();
+  ASSERT_EQ(expected.size(), 14'831U);
+  ASSERT_EQ(r.revolutions.size(), 4U);
+
+  const auto as_is = distances(expected, {r.revolutions.back()}, 0);
+  EXPECT_LE(as_is[as_is.size() / 2], 1e-3);  // measured 0.13 mm
+  EXPECT_GE(share_within(as_is, 0.02), 0.990);
+  const auto in_all = distances(expected, r.scans, 0);
+  EXPECT_GE(share_within(in_all, 0.02), 0.9935) << "99.4 %";
+  const double turn_per_sequence_deg = r.counters.rpm * 6.0 * to_seconds(find_model("VLP-16")->sequence);
+  const auto repaired = distances(expected, {r.revolutions.back()}, turn_per_sequence_deg);
+  EXPECT_LE(repaired[repaired.size() / 2], 1e-3);
+  EXPECT_GE(share_within(repaired, 0.02), 0.999);
+  EXPECT_LE(repaired.back(), 0.035);
+}
+
+TEST(Recordings, DualReturnsAreMerged) {
+  SKIP_WITHOUT_DATA();
+  const Replay r = replay("vlp16_dual_return.pcap", config("VLP-16"));
+  std::map<ReturnType, std::size_t> count;
+  for (const ReturnType t : r.revolutions.back().cloud.return_type) ++count[t];
+  // 14455 of the other decoder's points are "identical"; of the others as many are strongest as last.
+  EXPECT_NEAR(static_cast<double>(count[ReturnType::kBoth]), 14'455, 60);
+  EXPECT_NEAR(static_cast<double>(count[ReturnType::kLast]), 188, 20);
+  EXPECT_NEAR(static_cast<double>(count[ReturnType::kStrongest]), 188, 20);
 }
 
 TEST(Recordings, WrongModelIsRefusedWithItsRemedy) {
