@@ -1,41 +1,72 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/mapping/mapper.hpp"
 
-#include <octomap/Pointcloud.h>
-
+#include <algorithm>
+#include <iterator>
+#include <string>
 #include <utility>
 
 namespace cairn {
+namespace {
+
+constexpr std::size_t kMegabyte = std::size_t{1} << 20U;
+
+std::size_t megabytes(int n) { return static_cast<std::size_t>(n) * kMegabyte; }
+
+}  // namespace
 
 Mapper::Mapper(const MappingConfig& config, Workers& workers)
-    : config_(config), workers_(workers), tree_(config.resolution_m) {
+    : config_(config),
+      workers_(workers),
+      tree_(config.resolution_m),
+      rays_(config.resolution_m, config.max_range_m),
+      footprints_(workers.threads(), Footprint(megabytes(config.max_scan_mb) / sizeof(BrickBits) / 2)) {
   tree_.setProbHit(config.prob_hit);
   tree_.setProbMiss(config.prob_miss);
   tree_.setClampingThresMin(config.clamping_min);
   tree_.setClampingThresMax(config.clamping_max);
-  tree_.reserve_bytes(static_cast<std::size_t>(config.reserve_mb) << 20U);
+  tree_.reserve_bytes(megabytes(config.reserve_mb));
 }
-
-Mapper::~Mapper() = default;
 
 Result<InsertReport> Mapper::insert(std::span<const Eigen::Vector3f> points_map, const Eigen::Vector3f& origin_map) {
-  InsertReport report;
-  report.points = points_map.size();
-  octomap::Pointcloud cloud;
-  for (const Eigen::Vector3f& p : points_map) {
-    octomap::OcTreeKey key;
-    if (!p.allFinite())
-      ++report.not_finite;
-    else if (!tree_.coordToKeyChecked(octomap::point3d(p.x(), p.y(), p.z()), key))
-      ++report.outside_map;
-    else
-      cloud.push_back(p.x(), p.y(), p.z());
-  }
-  (void)workers_;
-  tree_.insertPointCloud(cloud, {origin_map.x(), origin_map.y(), origin_map.z()}, config_.max_range_m, false, true);
-  return report;
+  if (tree_.memoryUsage() > std::max(megabytes(config_.max_mb), megabytes(config_.reserve_mb) + kMegabyte))
+    return Error{Errc::kLimit, "the map is as large as allowed", {}, {}, std::to_string(config_.max_mb) + " MB"};
+  const auto counts = rays_.prepare(points_map, origin_map, footprints_.front());
+  if (!counts) return counts.error();
+  if (!march())
+    return Error{Errc::kLimit, "the scan touches too much space", {}, {}, "limit the range or use coarser voxels"};
+  changed_now_.clear();
+  applier_.apply(footprints_.front(), tree_, workers_, changed_now_);
+  note_changed();
+  return InsertReport{points_map.size(), counts->not_finite, counts->outside_map, rays_.ray_count(),
+                      changed_now_.size()};
 }
 
-std::vector<TileKey> Mapper::take_changed_tiles() { return std::exchange(changed_, {}); }
+/// A set does not depend on how its parts were found: here the number of parts may depend on the number of threads.
+bool Mapper::march() {
+  Footprint& whole = footprints_.front();
+  const std::size_t parts = footprints_.size();
+  for (std::size_t i = 1; i < parts; ++i) footprints_[i].reset(whole.grid());
+  const MarchRays march_rays = best_march(whole);
+  workers_.for_each(parts, [&](std::size_t i) {
+    const std::size_t rays = rays_.ray_count();
+    rays_.march(rays * i / parts, rays * (i + 1) / parts, march_rays, footprints_[i]);
+  });
+  for (std::size_t i = 1; i < parts; ++i) whole.merge(footprints_[i]);
+  return !whole.overflown();
+}
+
+void Mapper::note_changed() {
+  merged_.clear();
+  std::set_union(changed_.begin(), changed_.end(), changed_now_.begin(), changed_now_.end(),
+                 std::back_inserter(merged_));
+  std::swap(changed_, merged_);
+}
+
+std::vector<TileKey> Mapper::take_changed_tiles() {
+  std::vector<TileKey> taken = changed_;  // a copy, so that inserting goes on without allocating
+  changed_.clear();
+  return taken;
+}
 
 }  // namespace cairn

@@ -10,8 +10,11 @@
 
 #include "hal/result.hpp"
 #include "hal/workers.hpp"
+#include "onboard/mapping/footprint.hpp"
+#include "onboard/mapping/footprint_applier.hpp"
 #include "onboard/mapping/map_tile.hpp"
 #include "onboard/mapping/mapping_config.hpp"
+#include "onboard/mapping/scan_rays.hpp"
 #include "onboard/mapping/semantic_octree.hpp"
 
 namespace cairn {
@@ -32,7 +35,6 @@ class Mapper {
  public:
   /// `workers` must outlive the mapper.
   Mapper(const MappingConfig& config, Workers& workers);
-  ~Mapper();
   Mapper(const Mapper&) = delete;
   Mapper& operator=(const Mapper&) = delete;
 
@@ -49,10 +51,16 @@ class Mapper {
   [[nodiscard]] std::vector<TileKey> take_changed_tiles();
 
  private:
+  [[nodiscard]] bool march();
+  void note_changed();
+
   MappingConfig config_;
   Workers& workers_;
   SemanticOcTree tree_;
-  std::vector<TileKey> changed_, scratch_;
+  ScanRays rays_;
+  std::vector<Footprint> footprints_;  // one per thread; all end up in the first
+  FootprintApplier applier_;
+  std::vector<TileKey> changed_, changed_now_, merged_;
 };
 
 }  // namespace cairn

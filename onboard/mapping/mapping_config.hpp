@@ -15,6 +15,7 @@ struct MappingConfig {
   double clamping_max = 0.971;
   int reserve_mb = 0;
   int max_mb = 4096;
+  int max_scan_mb = 256;
 };
 
 inline void declare(config::Section& s, MappingConfig& c) {
@@ -27,6 +28,7 @@ inline void declare(config::Section& s, MappingConfig& c) {
   s.number("clamping_max", c.clamping_max, {0.5, 0.999}, "", "occupancy probability is never above");
   s.integer("reserve_mb", c.reserve_mb, {0, 65536}, "MB", "memory for nodes that is taken and touched at the start");
   s.integer("max_mb", c.max_mb, {16, 65536}, "MB", "no further scan is inserted when the nodes take more memory");
+  s.integer("max_scan_mb", c.max_scan_mb, {8, 4096}, "MB", "scans that touch more space than fits are refused");
 }
 
 }  // namespace cairn
