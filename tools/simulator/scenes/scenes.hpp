@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tools/simulator/world.hpp"
+
+/// One function per scene: it draws the mesh, names the places and gives the ground. Layouts use fixed seeds.
+namespace cairn::simulator::scenes {
+
+/// 20 × 5 × 3 m. Nothing in it tells how far along one is: smooth walls, flush doors, and dark glass at both ends that
+/// returns nothing. For a LiDAR the long axis is degenerate, as in the corridors that real robots get lost in.
+[[nodiscard]] World corridor();
+/// 40 × 15 × 3 m entrance hall: columns, reception, seats, plants, lifts, a glass front.
+[[nodiscard]] World lobby();
+/// 50 × 40 × 3 m office floor: three parallel corridors, three cross corridors and 52 rooms that look much alike.
+[[nodiscard]] World office();
+/// 48 × 32 × 2.8 m parking deck: columns, beams, kerbs, parked cars, a ramp and a stairwell.
+[[nodiscard]] World carpark();
+/// 60 × 60 m of sloping, undulating forest floor with trees, bushes, rocks and fallen logs.
+[[nodiscard]] World forest();
+
+}  // namespace cairn::simulator::scenes

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/result.hpp"
+#include "tools/simulator/mesh.hpp"
+
+namespace cairn::simulator {
+
+/// A place to drive in. The same scene is the same world in every run; only what robots do in it depends on the seed.
+/// z up; x and y along the building.
+struct World {
+  std::string name;
+  Mesh mesh;
+  Eigen::AlignedBox3d bounds;                    ///< of the mesh
+  Eigen::Vector3d inner_size{0, 0, 0};           ///< clear length, width, height of the hall, building or plot
+  std::vector<Eigen::Vector2d> places;           ///< where robots may start and go
+  std::function<double(double, double)> ground;  ///< height of what the wheels stand on, smooth in x and y
+};
+
+/// The names that make_world knows.
+[[nodiscard]] const std::vector<std::string>& scene_names();
+
+/// Errc::kNotFound, with the known names in `detail`, for any other name.
+[[nodiscard]] Result<World> make_world(std::string_view name);
+
+}  // namespace cairn::simulator
