@@ -151,6 +151,16 @@ SE3 align(std::span<const MatchedPose> matched, Alignment alignment) {
   return alignment == Alignment::kFirst ? first : least_squares(matched, first);
 }
 
+std::vector<StampedPose> truth_in_estimate_frame(std::span<const StampedPose> estimate,
+                                                 std::span<const StampedPose> truth, Duration max_gap) {
+  std::vector<StampedPose> moved(truth.begin(), truth.end());
+  const std::vector<MatchedPose> matched = match_by_time(estimate, truth, max_gap);
+  if (matched.empty()) return moved;
+  const SE3 T_estimate_truth = align(matched, Alignment::kFirst).inverse();
+  for (StampedPose& p : moved) p.pose = T_estimate_truth * p.pose;
+  return moved;
+}
+
 Result<TrajectoryError> trajectory_error(std::span<const StampedPose> estimate, std::span<const StampedPose> truth,
                                          const TrajectoryErrorOptions& options) {
   const std::vector<MatchedPose> matched = match_by_time(estimate, truth, options.max_gap);

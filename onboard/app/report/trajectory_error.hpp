@@ -7,11 +7,13 @@
 #include <string_view>
 #include <vector>
 
+#include "drivers/recording/trajectory_file.hpp"
 #include "hal/result.hpp"
 #include "hal/se3.hpp"
-#include "onboard/app/report/stamped_pose.hpp"
 
 namespace cairn {
+
+using recording::StampedPose;
 
 /// How the estimate is laid over the ground truth before absolute errors are taken.
 enum class Alignment {
@@ -44,6 +46,11 @@ struct MatchedPose {
 /// What least squares leaves open (the roll about a straight line, any rotation of a robot that stood still) is taken
 /// from the first poses.
 [[nodiscard]] SE3 align(std::span<const MatchedPose> matched, Alignment alignment);
+
+/// The ground truth as the robot would have drawn it: moved into the estimate's frame by the first common pose.
+/// Unchanged where there is none.
+[[nodiscard]] std::vector<StampedPose> truth_in_estimate_frame(std::span<const StampedPose> estimate,
+                                                               std::span<const StampedPose> truth, Duration max_gap);
 
 /// Relative errors over a set of segments.
 struct RelativeError {
