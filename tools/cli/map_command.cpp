@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/map_command.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <system_error>
+
+#include "drivers/recording/trajectory_file.hpp"
+#include "hal/file.hpp"
+#include "onboard/app/report/map_measures.hpp"
+#include "onboard/app/report/map_paint.hpp"
+#include "onboard/app/report/map_picture.hpp"
+#include "onboard/app/report/report_json.hpp"
+#include "onboard/app/report/trajectory_error.hpp"
+#include "onboard/mapping/map_file.hpp"
+
+namespace cairn::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  fs::path file, other, out, trajectory, ground_truth;
+  std::string view = "top";
+  std::optional<double> height_min_m, height_max_m;
+  double pixels_per_m = 0;
+  bool json = false;
+};
+
+int wrong(const std::string& message) {
+  std::cerr << "cairn: " << message << '\n';
+  return kWrongArguments;
+}
+
+int info(const Options& options) {
+  const auto map = load_map(options.file);
+  if (!map) return fail(at(options.file.string(), map.error()));
+  const MapSummary summary = summarise(**map);
+  const bool checked = options.file.extension() == ".cairn";
+  Json json{{"file", options.file.string()}};
+  std::error_code ignored;
+  json["file_bytes"] = fs::file_size(options.file, ignored);
+  json["checksum"] = checked ? "ok" : "none";
+  json.update(to_json(summary));
+  json["sensor_model"] = {{"hit", (*map)->getProbHit()},
+                          {"miss", (*map)->getProbMiss()},
+                          {"clamping_min", (*map)->getClampingThresMin()},
+                          {"clamping_max", (*map)->getClampingThresMax()},
+                          {"occupancy_threshold", (*map)->getOccupancyThres()}};
+  if (options.json) {
+    std::cout << to_text(json);
+    return kDone;
+  }
+  const Eigen::Vector3d size = summary.max_m - summary.min_m;
+  std::cout << fmt::format(
+      "{}\n  resolution    {} m\n  occupied      {} voxels, {} labelled\n  free          {} voxels\n"
+      "  known volume  {:.1f} m³ in a box of {:.1f} × {:.1f} × {:.1f} m from ({:.1f}, {:.1f}, {:.1f})\n"
+      "  nodes         {}, {} of them leaves\n  size          {:.2f} MiB in memory, {:.2f} MiB in the file\n"
+      "  checksum      {}\n",
+      options.file.string(), summary.resolution_m, summary.occupied, summary.labelled, summary.free,
+      summary.known_volume_m3(), size.x(), size.y(), size.z(), summary.min_m.x(), summary.min_m.y(), summary.min_m.z(),
+      summary.nodes, summary.leaves, static_cast<double>(summary.memory_bytes) / 0x1p20,
+      json["file_bytes"].get<double>() / 0x1p20, checked ? "correct" : "this format has none");
+  if (summary.mean_entropy_occupancy)
+    std::cout << fmt::format("  mean entropy  {:.4f} bit over occupied voxels ({:.4f} as −p log2 p), {:.4f} over all\n",
+                             *summary.mean_entropy_occupancy, *summary.mean_entropy_book, *summary.mean_entropy_known);
+  return kDone;
+}
+
+int compare_maps(const Options& options) {
+  const auto a = load_map(options.file), b = load_map(options.other);
+  if (!a) return fail(at(options.file.string(), a.error()));
+  if (!b) return fail(at(options.other.string(), b.error()));
+  const auto c = compare(**a, **b);
+  if (!c) return fail(at(options.other.string(), c.error()));
+  const MapSummary summary_a = summarise(**a), summary_b = summarise(**b);
+  if (options.json) {
+    Json json = to_json(*c);
+    const auto add = [&](const char* name, const std::optional<double>& v) {
+      json[name] = v ? Json(*v) : Json(nullptr);
+    };
+    add("mean_entropy_occupancy", summary_a.mean_entropy_occupancy);
+    add("mean_entropy_occupancy_b", summary_b.mean_entropy_occupancy);
+    add("mean_entropy_book", summary_a.mean_entropy_book);
+    add("mean_entropy_book_b", summary_b.mean_entropy_book);
+    // Maps carry no label evidence yet.
+    for (const char* name : {"label_agreement", "miou", "mean_entropy_label"}) json[name] = nullptr;
+    std::cout << to_text(json);
+    return kDone;
+  }
+  std::cout << fmt::format(
+      "same         {} voxels ({} of them with other log-odds)\ndisagreeing  {}\nonly a       {}\nonly b       {}\n"
+      "occupied     {} in a, {} in b, {} in both\nfree         {} in a, {} in b\n",
+      c->same, c->differing_log_odds < c->disagreeing ? 0 : c->differing_log_odds - c->disagreeing, c->disagreeing,
+      c->only_a, c->only_b, c->occupied_a, c->occupied_b, c->occupied_both, c->free_a, c->free_b);
+  if (const auto iou = c->iou_occupied()) std::cout << fmt::format("occupied IoU {:.4f}\n", *iou);
+  return kDone;
+}
+
+MapPath projected(MapView view, const std::vector<StampedPose>& poses, bool dashed) {
+  MapPath path{{}, dashed};
+  for (const StampedPose& p : poses) path.points.push_back(project(view, p.pose.translation()));
+  return path;
+}
+
+/// The trajectory and, under it, the ground truth in the trajectory's frame. Empty names are left out.
+Result<std::vector<MapPath>> read_paths(const Options& options, MapView view) {
+  std::vector<MapPath> paths;
+  std::vector<StampedPose> trajectory, truth;
+  if (!options.trajectory.empty()) {
+    auto read = recording::read_tum(options.trajectory);
+    if (!read) return at(options.trajectory.string(), read.error());
+    trajectory = std::move(*read);
+  }
+  if (!options.ground_truth.empty()) {
+    auto read = recording::read_tum(options.ground_truth);
+    if (!read) return at(options.ground_truth.string(), read.error());
+    truth = std::move(*read);
+    if (!trajectory.empty()) truth = truth_in_estimate_frame(trajectory, truth, TrajectoryErrorOptions{}.max_gap);
+    paths.push_back(projected(view, truth, true));
+  }
+  if (!trajectory.empty()) paths.insert(paths.begin(), projected(view, trajectory, false));
+  return paths;
+}
+
+int render(const Options& options) {
+  const auto view = map_view_from(options.view);
+  if (!view) return wrong("--view " + options.view + ": choose top, side or front");
+  const auto map = load_map(options.file);
+  if (!map) return fail(at(options.file.string(), map.error()));
+  const auto picture = look_at(**map, {*view, options.height_min_m, options.height_max_m});
+  if (!picture) return fail(at(options.file.string(), picture.error()));
+  auto paths = read_paths(options, *view);
+  if (!paths) return fail(paths.error());
+  const auto image = draw_map(*picture, {options.pixels_per_m, std::move(*paths)});
+  if (!image) return fail(at(options.out.string(), image.error()));
+  const auto png = encode_png(*image);
+  if (!png) return fail(at(options.out.string(), png.error()));
+  if (const auto written = write_file_atomic(options.out, *png); !written) return fail(written.error());
+  Json json{{"out", options.out.string()}};
+  json["width"] = image->width();
+  json["height"] = image->height();
+  json["pixels_per_m"] = pixels_per_metre(*picture, {options.pixels_per_m, {}});
+  json["cut_above_m"] = picture->cut_m ? Json(*picture->cut_m) : Json(nullptr);
+  if (options.json) {
+    std::cout << to_text(json);
+  } else {
+    std::cout << fmt::format("{}: {} × {} pixels\n", options.out.string(), image->width(), image->height());
+    if (picture->cut_m)
+      std::cout << fmt::format("cut open at z = {:.2f} m, below a ceiling; --height-max shows it\n", *picture->cut_m);
+  }
+  return kDone;
+}
+
+int export_map(const Options& options) {
+  using Save = Result<void> (*)(const SemanticOcTree&, const fs::path&);
+  struct Format {
+    const char* extension;
+    Save save;
+  };
+  const std::array formats{
+      Format{".cairn", [](const SemanticOcTree& t, const fs::path& p) { return save_cairn(t, p); }},
+      Format{".ot", save_ot}, Format{".bt", save_bt}, Format{".ply", save_ply}, Format{".pcd", save_pcd}};
+  const auto format = std::find_if(formats.begin(), formats.end(),
+                                   [&](const Format& f) { return options.out.extension() == f.extension; });
+  if (format == formats.end())
+    return wrong("--out " + options.out.string() + ": the name must end in .cairn, .ot, .bt, .ply or .pcd");
+  const auto map = load_map(options.file);
+  if (!map) return fail(at(options.file.string(), map.error()));
+  if (const auto saved = format->save(**map, options.out); !saved) return fail(at(options.out.string(), saved.error()));
+  std::error_code ignored;
+  Json json{{"out", options.out.string()}};
+  json["bytes"] = fs::file_size(options.out, ignored);
+  std::cout << (options.json ? to_text(json)
+                             : fmt::format("{}: {} bytes\n", options.out.string(), json["bytes"].dump()));
+  return kDone;
+}
+
+CLI::App* add(Commands& commands, CLI::App& map, const std::string& name, const std::string& description,
+              const std::shared_ptr<Options>& options, int (*job)(const Options&)) {
+  CLI::App* sub = map.add_subcommand(name, description);
+  sub->add_option("file", options->file, ".cairn, .ot or .bt")->required();
+  sub->add_flag("--json", options->json, "one JSON object on stdout");
+  sub->callback([&commands, options, job] { commands.job = [options, job] { return job(*options); }; });
+  return sub;
+}
+
+}  // namespace
+
+void add_map_command(Commands& commands) {
+  CLI::App& map = *commands.app.add_subcommand("map", "what is in a map, how two differ, a picture, other formats");
+  map.require_subcommand(1);
+  const auto options = std::make_shared<Options>();
+  add(commands, map, "info", "counts, size, volume, entropy and sensor model", options, info);
+  CLI::App* two =
+      add(commands, map, "compare", "two maps of one frame and resolution, voxel by voxel", options, compare_maps);
+  two->add_option("other", options->other, "the second map")->required();
+  CLI::App* picture = add(commands, map, "render", "a PNG of the map", options, render);
+  picture->add_option("--out", options->out, "file to write")->required();
+  picture->add_option("--view", options->view, "top, side or front")->capture_default_str();
+  picture->add_option("--height-min", options->height_min_m, "leave out what is lower, m");
+  picture->add_option("--height-max", options->height_max_m,
+                      "leave out what is higher, m; without it, a view from above is cut open below a ceiling");
+  picture->add_option("--trajectory", options->trajectory, "path to draw over the map (TUM)");
+  picture->add_option("--ground-truth", options->ground_truth,
+                      "path to draw dashed (TUM); moved into the trajectory's frame where one is given");
+  picture
+      ->add_option("--scale", options->pixels_per_m, "pixels per metre; chosen from the size of the map if not given")
+      ->check(CLI::PositiveNumber);
+  CLI::App* other = add(commands, map, "export", "the map in another format", options, export_map);
+  other->add_option("--out", options->out, "file to write: .cairn, .ot, .bt, .ply or .pcd")->required();
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tools/cli/command.hpp"
+
+namespace cairn::cli {
+
+/// `cairn map info|compare|render|export FILE…`: what is in a map, how two differ, a picture, another format.
+void add_map_command(Commands& commands);
+
+}  // namespace cairn::cli
