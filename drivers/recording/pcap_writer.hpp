@@ -6,8 +6,9 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
-#include <vector>
+#include <utility>
 
+#include "drivers/recording/append_file.hpp"
 #include "hal/result.hpp"
 
 namespace cairn::recording {
@@ -23,38 +24,25 @@ class PcapWriter {
  public:
   /// Creates or empties `path`.
   [[nodiscard]] static Result<PcapWriter> create(const std::filesystem::path& path);
-  PcapWriter(PcapWriter&& other) noexcept;
-  PcapWriter& operator=(PcapWriter&& other) noexcept;
-  PcapWriter(const PcapWriter&) = delete;
-  PcapWriter& operator=(const PcapWriter&) = delete;
-  /// Writes what is buffered; call close() to learn whether that worked.
-  ~PcapWriter();
-
   /// Appends one datagram. `utc_ns`: nanoseconds since 1970, 0 … kMaxUtcNs. `truncated` marks a payload of which the
   /// transport delivered only the beginning; it is recorded as caplen < len. At most kMaxPayload bytes.
   /// After an I/O error every further call returns that error.
   [[nodiscard]] Result<void> write(std::int64_t utc_ns, Ipv4 source_ip, std::uint16_t destination_port,
                                    std::span<const std::byte> payload, bool truncated = false);
   /// Hands everything buffered to the operating system.
-  [[nodiscard]] Result<void> flush();
+  [[nodiscard]] Result<void> flush() { return file_.flush(); }
   /// Flushes, syncs to the disk and closes. Says so when any write since create() failed.
-  [[nodiscard]] Result<void> close();
+  [[nodiscard]] Result<void> close() { return file_.close(); }
 
   [[nodiscard]] std::uint64_t packets() const { return packets_; }  ///< accepted so far
 
   static constexpr std::size_t kMaxPayload = 65'000;
 
  private:
-  PcapWriter(int fd, std::filesystem::path path);
-  Error fail(int error);
+  explicit PcapWriter(AppendFile file) : file_(std::move(file)) {}
 
-  int fd_ = -1;
-  std::filesystem::path path_;
-  std::vector<std::byte> buffer_;         // whole records only
-  std::vector<std::size_t> record_ends_;  // in buffer_
-  std::uint64_t file_bytes_ = 0;          // handed to the system, whole records only
+  AppendFile file_;
   std::uint64_t packets_ = 0;
-  int error_ = 0;  // errno of the first failed write
 };
 
 }  // namespace cairn::recording

@@ -44,21 +44,17 @@ Result<Recording> load_recording(const fs::path& dir) {
   const fs::path index = dir / kIndexFile;
   const auto bytes = read_file(index, kMaxYamlBytes);
   if (!bytes) return bytes.error();
-  auto recording = parse_recording({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, index.string());
-  if (!recording) return recording;
-  std::string faults;
-  for (const SourceEntry& s : recording->sources)
-    if (const auto file = resolve_inside(dir, s.file); !file)
-      faults += "\n" + index.string() + ": source " + s.id + ": " + to_string(file.error());
-  if (!faults.empty())
-    return Error{Errc::kNotFound, "files of the recording cannot be used", index.string(), {}, faults};
-  return recording;
+  const auto check = [&](std::string_view file) -> std::optional<Error> {
+    const auto path = resolve_inside(dir, file);
+    return path ? std::nullopt : std::optional(path.error());
+  };
+  return parse_recording({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, index.string(), check);
 }
 
 Result<void> save_recording(const fs::path& dir, const Recording& recording) {
   const fs::path index = dir / kIndexFile;
   if (recording.start_utc_ns < 0 || recording.start_utc_ns > kMaxUtcNs)
-    return Error{Errc::kMalformed, "the start time must lie in 1970 … 2105", index.string(), {}, {}};
+    return Error{Errc::kMalformed, "the start time must lie in 1970 … 2043", index.string(), {}, {}};
   const std::string text = to_yaml(recording);
   if (auto checked = parse_recording(text, index.string()); !checked) return checked.error();
   return write_file_atomic(index, text);

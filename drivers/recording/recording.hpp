@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -53,8 +54,8 @@ struct Recording {
 
 inline constexpr const char* kIndexFile = "recording.yaml";
 inline constexpr std::size_t kMaxSources = 64;
-/// UTC stamps and offsets are below this, as the pcap format can hold them (the year 2106).
-inline constexpr std::int64_t kMaxUtcNs = (std::int64_t{1} << 32) * 1'000'000'000 - 1;
+/// UTC stamps, offsets and times are at most this far from zero (the year 2043), so that sums of two cannot overflow.
+inline constexpr std::int64_t kMaxUtcNs = (std::int64_t{1} << 61) - 1;
 
 /// Reads `dir`/recording.yaml and checks that every source's file is a regular file inside `dir`. All faults (unknown
 /// or repeated keys, wrong kinds, missing files, paths that leave the folder) come in one Error, one line each:
@@ -65,8 +66,11 @@ inline constexpr std::int64_t kMaxUtcNs = (std::int64_t{1} << 32) * 1'000'000'00
 /// the files of the sources need not exist yet.
 [[nodiscard]] Result<void> save_recording(const std::filesystem::path& dir, const Recording& recording);
 
-/// The text of recording.yaml alone, without a look at the files it names; `name` is used in messages.
-[[nodiscard]] Result<Recording> parse_recording(std::string_view yaml, std::string_view name);
+/// What is wrong with the file of a source, or nothing.
+using FileCheck = std::function<std::optional<Error>(std::string_view file)>;
+/// The text of recording.yaml; `name` is used in messages, `check_file` is asked about each well-formed file name.
+[[nodiscard]] Result<Recording> parse_recording(std::string_view yaml, std::string_view name,
+                                                const FileCheck& check_file = {});
 [[nodiscard]] std::string to_yaml(const Recording& recording);
 
 /// Why `file` may not be named in a recording (absolute, `..`, empty, odd characters); null when it may.

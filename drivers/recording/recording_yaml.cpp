@@ -44,7 +44,7 @@ using TextCheck = const char* (*)(std::string_view);
 /// Walks the document and collects faults; what is right is set at once, and dropped by the caller if anything is not.
 class Checker {
  public:
-  explicit Checker(std::string_view file) : file_(file) {}
+  Checker(std::string_view file, const FileCheck& check_file) : file_(file), check_file_(check_file) {}
 
   void recording(const YAML::Node& node, Recording& r);
   void fault(const YAML::Node& node, const std::string& key, const std::string& cause) {
@@ -74,6 +74,7 @@ class Checker {
   void unique(const YAML::Node& node, const std::vector<SourceEntry>& list);
 
   std::string_view file_;
+  const FileCheck& check_file_;
   std::string faults_;
 };
 
@@ -124,7 +125,8 @@ Checker::Setter Checker::flag(bool& target) {
 Checker::Setter Checker::utc(std::int64_t& target) {
   return [this, &target](const YAML::Node& node, const std::string& key) {
     const auto ns = node.IsScalar() ? parse_iso_utc(node.Scalar()) : std::nullopt;
-    if (!ns) return fault(node, key, "must be a time such as 2026-01-31T12:00:00.000000000Z, 1970 … 2105");
+    if (!ns || *ns > kMaxUtcNs)
+      return fault(node, key, "must be a time such as 2026-01-31T12:00:00.000000000Z, 1970 … 2042");
     target = *ns;
   };
 }
@@ -152,12 +154,20 @@ void Checker::source(const YAML::Node& node, const std::string& prefix, SourceEn
     s.kind = n.IsScalar() ? n.Scalar() : "";
     if (s.kind != kVelodyne && s.kind != kScans) fault(n, key, "must be velodyne or scans");
   };
-  const std::array keys{
-      Key{"id", true, text(s.id, id_fault)},          Key{"kind", true, kind},
-      Key{"file", true, text(s.file, path_fault)},    Key{"frame", true, text(s.frame, text_fault)},
-      Key{"model", false, text(s.model, text_fault)}, Key{"T_base_sensor", false, pose(s.base_sensor_xyz_rpy)},
-      Key{"data_port", false, port(s.data_port)},     Key{"position_port", false, port(s.position_port)},
-      Key{"deskewed", false, flag(s.deskewed)}};
+  const Setter file = [&](const YAML::Node& n, const std::string& key) {
+    text(s.file, path_fault)(n, key);
+    const auto unusable = s.file.empty() || !check_file_ ? std::nullopt : check_file_(s.file);
+    if (unusable) fault(n, key, to_string(*unusable));
+  };
+  const std::array keys{Key{"id", true, text(s.id, id_fault)},
+                        Key{"kind", true, kind},
+                        Key{"file", true, file},
+                        Key{"frame", true, text(s.frame, text_fault)},
+                        Key{"model", false, text(s.model, text_fault)},
+                        Key{"T_base_sensor", false, pose(s.base_sensor_xyz_rpy)},
+                        Key{"data_port", false, port(s.data_port)},
+                        Key{"position_port", false, port(s.position_port)},
+                        Key{"deskewed", false, flag(s.deskewed)}};
   mapping(node, prefix, keys);
 }
 
@@ -223,9 +233,9 @@ std::string source_text(const SourceEntry& s) {
 
 }  // namespace
 
-Result<Recording> parse_recording(std::string_view yaml, std::string_view name) {
+Result<Recording> parse_recording(std::string_view yaml, std::string_view name, const FileCheck& check_file) {
   Recording recording;
-  Checker checker(name);
+  Checker checker(name, check_file);
   try {
     const std::vector<YAML::Node> documents = YAML::LoadAll(std::string(yaml));
     if (documents.size() != 1)

@@ -17,8 +17,9 @@ class LineReader {
 
   /// The next line, or null at the end.
   std::optional<std::string_view> next();
-  [[nodiscard]] std::uint64_t line() const { return line_; }      ///< of the last line returned, counted from 1
-  [[nodiscard]] std::uint64_t offset() const { return offset_; }  ///< where that line starts
+  [[nodiscard]] std::uint64_t line() const { return line_; }         ///< of the last line returned, counted from 1
+  [[nodiscard]] std::uint64_t offset() const { return offset_; }     ///< where that line starts
+  [[nodiscard]] std::uint64_t next_offset() const { return next_; }  ///< where the following line starts
   /// An Error at the last line returned.
   [[nodiscard]] Error fault(Errc code, std::string_view cause, const std::string& detail = {}) const;
 

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/recording/import.hpp"
+
+#include <string>
+
+namespace cairn::recording {
+
+const std::vector<std::string>& import_kinds() {
+  static const std::vector<std::string> kinds{"velodyne-pcap", "kitti-odometry", "kitti-raw", "pcd-folder"};
+  return kinds;
+}
+
+Result<ImportReport> import(std::string_view kind, const ImportOptions& options) {
+  if (!(options.rate_hz > 0 && options.rate_hz <= 1000))
+    return Error{Errc::kInvalidConfig, "the rate must lie in 0 … 1000 Hz", "rate", {}, std::to_string(options.rate_hz)};
+  if (kind == "velodyne-pcap") return import_velodyne_pcap(options);
+  if (kind == "kitti-odometry") return import_kitti_odometry(options);
+  if (kind == "kitti-raw") return import_kitti_raw(options);
+  if (kind == "pcd-folder") return import_pcd_folder(options);
+  return Error{Errc::kInvalidConfig, "unknown kind of data to import", std::string(kind), {}, {}};
+}
+
+}  // namespace cairn::recording

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drivers/recording/recording_writer.hpp"
+#include "hal/result.hpp"
+#include "hal/time.hpp"
+
+// Foreign data → recording. Everything is copied, nothing linked; one packet or sweep is in memory at a time.
+namespace cairn::recording {
+
+struct ImportOptions {
+  std::filesystem::path source;
+  std::filesystem::path out;
+  std::string robot = "robot";
+  std::string model;               ///< of the sensor; empty: found out or left open
+  double rate_hz = 10;             ///< of sweeps that carry no time
+  std::optional<bool> deskewed{};  ///< overrides what is known of the data set
+  std::uint16_t data_port = 2368;  ///< velodyne-pcap: UDP destination ports to look for
+  std::uint16_t position_port = 8308;
+  Overwrite overwrite = Overwrite::kNo;
+  std::function<void(std::uint64_t items)> progress{};  ///< called after every packet or sweep
+};
+
+/// What an import brought.
+struct ImportReport {
+  std::uint64_t items = 0;            ///< packets or sweeps written
+  std::uint64_t bytes = 0;            ///< of their payload
+  std::uint64_t rejected_points = 0;  ///< not finite or out of any range
+  std::uint64_t ground_truth_poses = 0;
+  std::string model;
+  Time first{}, last{};       ///< arrival of the first and last item
+  std::vector<Error> damage;  ///< what could not be read; what was good is in the recording (at most kMaxDamage)
+  std::uint64_t damaged = 0;  ///< how many there were in all
+  static constexpr std::size_t kMaxDamage = 16;
+};
+
+/// Copies the Velodyne datagrams (data and position port) out of any pcap or pcapng file, byte for byte, with their
+/// capture stamps as UTC. `options.source` is the file.
+[[nodiscard]] Result<ImportReport> import_velodyne_pcap(const ImportOptions& options);
+
+/// KITTI odometry: a sequence folder (velodyne/*.bin and, where present, calib.txt with Tr, times.txt and
+/// poses_cam0.txt or ../../poses/NN.txt). Intensity 0…1 becomes 0…255; the sweeps are motion-compensated. Poses of the
+/// left camera become ground_truth.tum of base_link, which is the LiDAR's frame, in the frame of the first sweep: T_0_i
+/// = Tr⁻¹·P_0⁻¹·P_i·Tr. (https://www.cvlibs.net/datasets/kitti/eval_odometry.php)
+[[nodiscard]] Result<ImportReport> import_kitti_odometry(const ImportOptions& options);
+
+/// KITTI raw: a drive folder with velodyne_points/{data/*.bin, timestamps.txt, timestamps_end.txt}. The sweeps are not
+/// motion-compensated; firing times follow from the azimuth, as the sensor turns clockwise from behind.
+[[nodiscard]] Result<ImportReport> import_kitti_raw(const ImportOptions& options);
+
+/// A folder of *.pcd files in the order of their names. The time of a sweep is that of its points where they are
+/// absolute, otherwise its name where all are times (nanoseconds, or seconds with a point), otherwise rate_hz.
+[[nodiscard]] Result<ImportReport> import_pcd_folder(const ImportOptions& options);
+
+/// `velodyne-pcap`, `kitti-odometry`, `kitti-raw` or `pcd-folder`.
+[[nodiscard]] Result<ImportReport> import(std::string_view kind, const ImportOptions& options);
+[[nodiscard]] const std::vector<std::string>& import_kinds();
+
+}  // namespace cairn::recording

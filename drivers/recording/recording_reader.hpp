@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <memory>
+
+#include "drivers/recording/merged_source.hpp"
+#include "drivers/recording/recording.hpp"
+#include "hal/ports.hpp"
+
+namespace cairn::recording {
+
+/// Replays a recording folder: the packets of all its sources as they arrived, on the robot's monotonic time line, in
+/// the order of (arrival, source, sequence). Never waits; PacedSource does where that is wanted.
+class RecordingReader final : public Source {
+ public:
+  /// Error when recording.yaml is not usable. A source's file that cannot be opened is not an error here but the first
+  /// thing next() says, so that the other sources go on.
+  [[nodiscard]] static Result<std::unique_ptr<RecordingReader>> open(const std::filesystem::path& dir);
+
+  /// An Error names file and offset of what is damaged in one source; go on calling. What is good before the damage has
+  /// been or will be handed out. kTimeout: nothing wanted among the last records of a capture; go on calling.
+  Result<Poll> next(Packet& packet, Duration timeout) override { return packets_.next(packet, timeout); }
+
+  [[nodiscard]] const Recording& recording() const { return recording_; }
+
+ private:
+  RecordingReader(Recording recording, std::vector<std::unique_ptr<Source>> sources)
+      : recording_(std::move(recording)), packets_(std::move(sources)) {}
+
+  Recording recording_;
+  MergedSource packets_;
+};
+
+}  // namespace cairn::recording

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <variant>
+#include <vector>
+
+#include "drivers/recording/append_file.hpp"
+#include "drivers/recording/pcap_writer.hpp"
+#include "drivers/recording/recording.hpp"
+#include "hal/packet.hpp"
+#include "hal/result.hpp"
+
+namespace cairn::recording {
+
+enum class Overwrite : bool { kNo, kYes };
+
+/// Writes a recording folder. The index comes first and the files grow with whole records, so that a recording whose
+/// program was killed can be read up to its last flush().
+class RecordingWriter {
+ public:
+  /// Makes the folder, recording.yaml and the files of all sources. An existing recording (or a file that would be
+  /// written over) is refused; with Overwrite::kYes the old recording's own files are removed first.
+  [[nodiscard]] static Result<RecordingWriter> create(const std::filesystem::path& dir, const Recording& recording,
+                                                      Overwrite overwrite = Overwrite::kNo);
+
+  /// Appends the packet to the file of its source: a datagram to the port in `channel`, or a sweep with the ScanLayout
+  /// in `channel`. After an error the caller may go on with other sources; what was written before is kept.
+  [[nodiscard]] Result<void> write(const Packet& packet);
+  /// Hands everything buffered to the operating system; call it about once a second.
+  [[nodiscard]] Result<void> flush();
+  /// Flushes, syncs and closes all files; the first error of any of them.
+  [[nodiscard]] Result<void> close();
+
+  [[nodiscard]] std::uint64_t packets() const { return packets_; }
+  [[nodiscard]] std::uint64_t payload_bytes() const { return payload_bytes_; }
+
+ private:
+  struct Scans {
+    AppendFile index;
+    std::string folder;  // relative to the recording
+    std::uint64_t count = 0;
+  };
+  using Output = std::variant<PcapWriter, Scans>;
+
+  RecordingWriter(std::filesystem::path dir, const Recording& recording)
+      : dir_(std::move(dir)), recording_(recording) {}
+  Result<void> open_outputs();
+  Result<void> write_scan(Scans& scans, const Packet& packet);
+
+  std::filesystem::path dir_;
+  Recording recording_;
+  std::vector<Output> outputs_;  // one per source, in its order
+  std::uint64_t packets_ = 0, payload_bytes_ = 0;
+};
+
+}  // namespace cairn::recording

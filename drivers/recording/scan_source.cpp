@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/recording/scan_source.hpp"
+
+#include <fstream>
+#include <string_view>
+#include <system_error>
+#include <utility>
+
+#include "drivers/recording/recording.hpp"
+#include "hal/file.hpp"
+
+namespace cairn::recording {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// read_file() into memory that is there already.
+Result<void> read_into(const fs::path& path, std::vector<std::byte>& bytes) {
+  std::error_code error;
+  const std::uintmax_t size = fs::file_size(path, error);
+  if (error) return Error{Errc::kIo, "cannot look at the file", path.string(), {}, error.message()};
+  if (size > kMaxScanBytes)
+    return Error{Errc::kLimit, "the sweep is too large", path.string(), {}, std::to_string(size) + " bytes"};
+  std::ifstream in(path, std::ios::binary);
+  bytes.resize(static_cast<std::size_t>(size));
+  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+  if (in) return {};
+  return Error{Errc::kIo, "cannot read the sweep", path.string(), static_cast<std::uint64_t>(in.gcount()), {}};
+}
+
+}  // namespace
+
+Result<std::unique_ptr<ScanSource>> ScanSource::open(fs::path dir, const std::string& index) {
+  const auto path = resolve_inside(dir, index);
+  if (!path) return path.error();
+  const auto bytes = read_file(*path, kMaxIndexBytes);
+  if (!bytes) return bytes.error();
+  std::unique_ptr<ScanSource> source(new ScanSource(std::move(dir)));
+  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  if (auto parsed = parse_scan_index(text, path->string(), source->entries_); !parsed) source->damage_ = parsed.error();
+  return source;
+}
+
+Result<Poll> ScanSource::next(Packet& packet, Duration) {
+  if (next_ == entries_.size()) {
+    if (!damage_) return Poll::kEnd;
+    return *std::exchange(damage_, std::nullopt);
+  }
+  const ScanIndexEntry& entry = entries_[next_++];
+  const auto path = resolve_inside(dir_, entry.file);
+  if (!path) return path.error();
+  if (auto read = read_into(*path, packet.bytes); !read) return read.error();
+  packet.channel = static_cast<std::uint16_t>(entry.layout);
+  packet.sequence = next_ - 1;
+  packet.arrival = entry.stamp;
+  packet.truncated = false;
+  return Poll::kPacket;
+}
+
+}  // namespace cairn::recording
