@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <string>
+
+#include "drivers/velodyne/config.hpp"
+#include "hal/clock.hpp"
+#include "hal/ports.hpp"
+
+struct msghdr;
+
+namespace cairn::velodyne {
+
+/// A live sensor: its data and position datagrams as they arrive, with the kernel's receive stamps. Allocates nothing
+/// once the packet has grown.
+class UdpSource final : public Source {
+ public:
+  struct Counters {
+    std::uint64_t delivered = 0;
+    std::uint64_t foreign = 0;       ///< from another sender than Config::source_address
+    std::uint64_t flooded = 0;       ///< above Config::max_packets_per_s
+    std::uint64_t truncated = 0;     ///< longer than any Velodyne datagram; delivered, but marked
+    std::uint64_t unstamped = 0;     ///< without a usable kernel stamp: stamped when read
+    std::uint64_t kernel_drops = 0;  ///< the receive buffer was full (SO_RXQ_OVFL); learnt with the next datagram
+    int receive_buffer_bytes = 0;    ///< what the kernel granted for one socket, its own bookkeeping included
+  };
+
+  /// Binds Config::data_port and Config::position_port (0: any free one) on Config::bind_address. `clock` must outlive
+  /// the source. Errors: kInvalidConfig, kIo with the port and the remedy.
+  static Result<std::unique_ptr<UdpSource>> open(const Config& config, SourceId source, const Clock& clock);
+
+  /// Looks at kMaxLooked datagrams at most, so a flood cannot hold the caller. Packet::channel is the port.
+  Result<Poll> next(Packet& packet, Duration timeout) override;
+
+  [[nodiscard]] const Counters& counters() const { return counters_; }
+  [[nodiscard]] std::uint16_t data_port() const { return sockets_[0].port; }
+  [[nodiscard]] std::uint16_t position_port() const { return sockets_[1].port; }
+
+  static constexpr std::size_t kMaxDatagram = 2048;
+  static constexpr int kMaxLooked = 64;
+
+ private:
+  /// Owns a file descriptor.
+  struct Socket {
+    Socket() = default;
+    Socket(const Socket&) = delete;
+    Socket& operator=(const Socket&) = delete;
+    ~Socket();
+    int fd = -1;
+    std::uint16_t port = 0;
+    std::uint32_t kernel_drops = 0;  // since the socket was made
+  };
+  enum class Received : std::uint8_t { kWanted, kUnwanted, kNothing };
+
+  UdpSource(const Config& config, SourceId source, const Clock& clock);
+  Result<void> bind(Socket& socket, int port, const Config& config);
+  Result<Received> receive(Socket& socket, Packet& packet);
+  Result<Received> receive_any(Packet& packet);
+  void read_stamps(Socket& socket, msghdr& message, Packet& packet);
+  bool within_rate(Time arrival);
+
+  const Clock& clock_;
+  SourceId source_;
+  std::uint32_t source_address_ = 0;  // host byte order; 0: any
+  std::uint64_t max_per_window_;
+  Time window_start_{};
+  std::uint64_t in_window_ = 0;
+  std::array<Socket, 2> sockets_;  // data, position
+  std::size_t turn_ = 0;           // which socket is read first, so that none starves
+  Counters counters_;
+};
+
+}  // namespace cairn::velodyne
