@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/simulate_command.hpp"
+
+#include <unistd.h>
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+
+#include "tools/simulator/simulate.hpp"
+
+namespace cairn::cli {
+namespace {
+
+struct Options {
+  simulator::SimulationConfig simulation;
+  bool json = false;
+};
+
+/// One line on a terminal that overwrites itself; nothing elsewhere.
+simulator::Progress progress_line() {
+  if (isatty(STDERR_FILENO) == 0) return {};
+  return [shown = -1](double done) mutable {
+    const int percent = static_cast<int>(std::floor(100.0 * done));
+    if (percent == shown) return;
+    shown = percent;
+    std::fprintf(stderr, "\rsimulating %3d %%%s", percent, percent >= 100 ? "\n" : "");
+  };
+}
+
+nlohmann::json to_json(const Options& options, const std::vector<simulator::RobotSummary>& robots) {
+  nlohmann::json object{{"scene", options.simulation.scene},
+                        {"seconds", options.simulation.seconds},
+                        {"seed", options.simulation.seed},
+                        {"out", options.simulation.out.string()},
+                        {"robots", nlohmann::json::array()}};
+  for (const simulator::RobotSummary& r : robots) {
+    object["robots"].push_back({{"name", r.name},
+                                {"recording", (options.simulation.out / r.name).string()},
+                                {"distance_m", r.distance_m},
+                                {"data_packets", r.data_packets},
+                                {"position_packets", r.position_packets},
+                                {"shots", r.shots},
+                                {"returns", r.returns},
+                                {"min_clearance_m", r.min_clearance_m}});
+  }
+  return object;
+}
+
+int run(const Options& options) {
+  const auto robots = simulator::simulate(options.simulation, progress_line());
+  if (!robots) return fail(robots.error());
+  if (options.json) return print(to_json(options, *robots));
+  for (const simulator::RobotSummary& r : *robots) {
+    std::printf("%s: %.1f m driven, %llu packets, %.1f %% of the shots returned\n",
+                (options.simulation.out / r.name).string().c_str(), r.distance_m,
+                static_cast<unsigned long long>(r.data_packets),
+                100.0 * static_cast<double>(r.returns) / static_cast<double>(r.shots));
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_simulate_command(Commands& commands) {
+  CLI::App* sub = commands.app.add_subcommand("simulate", "robots in a simulated world → recordings with ground truth");
+  const auto options = std::make_shared<Options>();
+  simulator::SimulationConfig& s = options->simulation;
+  sub->add_option("--scene", s.scene, "the world")->required()->check(CLI::IsMember(simulator::scene_names()));
+  sub->add_option("--out", s.out, "folder to make; gets one recording per robot: robot_1, robot_2, …")->required();
+  sub->add_option("--robots", s.robots, "how many robots")
+      ->check(CLI::Range(1, simulator::kMaxRobots))
+      ->capture_default_str();
+  sub->add_option("--seconds", s.seconds, "length of the recordings, s")
+      ->check(CLI::Range(0.1, simulator::kMaxSeconds))
+      ->capture_default_str();
+  sub->add_option("--seed", s.seed, "same seed, same bytes")->capture_default_str();
+  sub->add_option("--threads", s.threads, "changes nothing but the time it takes")
+      ->check(CLI::Range(1U, 256U))
+      ->capture_default_str();
+  sub->add_option("--range-noise", s.lidar.range_noise_m, "standard deviation of LiDAR ranges, m")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  sub->add_option("--dropout", s.lidar.dropout, "share of LiDAR returns lost at random")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  sub->add_flag("--pps", s.lidar.pps, "the LiDAR's clock is locked to UTC; otherwise it runs freely");
+  sub->add_flag("--json", options->json, "one JSON object on stdout");
+  sub->callback([&commands, options] { commands.job = [options] { return run(*options); }; });
+}
+
+}  // namespace cairn::cli
