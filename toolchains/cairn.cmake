@@ -77,10 +77,12 @@ function(cairn_fuzz name source)
   target_link_libraries(fuzz_${name} PRIVATE cairn_flags ${A_LINK})
 endfunction()
 
-# cairn_bench(NAME SOURCES … [LINK lib …]): a Google Benchmark program bench_NAME.
+# cairn_bench(NAME SOURCES … [LINK lib …]): a Google Benchmark program bench_NAME; the target benchmarks is all of them.
+add_custom_target(benchmarks)
 function(cairn_bench name)
   cmake_parse_arguments(A "" "" "SOURCES;LINK" ${ARGN})
   add_executable(bench_${name} ${A_SOURCES})
   target_link_libraries(bench_${name} PRIVATE cairn_flags ${A_LINK} benchmark::benchmark)
   target_compile_definitions(bench_${name} PRIVATE CAIRN_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+  add_dependencies(benchmarks bench_${name})
 endfunction()

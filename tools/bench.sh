@@ -1,0 +1,31 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Runs the benchmarks and leaves bench.json, a list of {name, ours_ms, peer, peer_ms, ratio, n, note}: CPU time, ratio =
+# peer_ms / ours_ms of the same run, and for inserts differing_voxels.
+#   tools/bench.sh [FILTER]      only benchmarks whose name matches this regular expression
+# A benchmark without counters ours_ms and n gives Google Benchmark's CPU time per iteration; its label is "peer" or
+# "peer: note". All counters are kept in build/bench/NAME.json.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+filter=${1:-.}
+tools/packages.sh build test bench
+[[ -t 1 ]] && quiet=() || quiet=(-- --quiet)
+cmake --preset release -B build/bench --log-level=WARNING
+cmake --build build/bench --target benchmarks "${quiet[@]}"
+
+results=()
+for program in build/bench/bin/bench_*; do
+  out=build/bench/${program##*/}.json
+  rm -f "$out"
+  "$program" --benchmark_filter="$filter" --benchmark_out="$out" --benchmark_out_format=json
+  [[ ! -s $out ]] || results+=("$out")
+done
+jq -s '
+  {ns: 1e-6, us: 1e-3, ms: 1, s: 1e3} as $ms |
+  [.[].benchmarks[] | select(.error_occurred | not) | select(.run_type != "aggregate") |
+   (.ours_ms // .cpu_time * $ms[.time_unit]) as $ours | ((.label // "") | split(": ")) as $label |
+   {name, ours_ms: $ours, peer: ($label[0] // null), peer_ms, n: (.n // .iterations), note: ($label[1:] | join(": "))} +
+   {ratio: (if .peer_ms then .peer_ms / $ours else null end)} +
+   (if has("differing_voxels") then {differing_voxels} else {} end)]' "${results[@]}" >bench.json
+jq -r '.[] | [.name, .ours_ms, .peer_ms // "", .ratio // ""] | map(if type == "number" then . * 1000 | round / 1000 else . end) | @tsv' bench.json
