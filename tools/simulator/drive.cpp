@@ -92,19 +92,21 @@ class Follower {
     wanted_yaw_rate_ = std::clamp(std::max(v_, 0.05) * bend, -most, most);
   }
 
-  /// Moves the nearest point forward, never back and never across to a later part of the path that passes by.
+  /// Moves the nearest point forward, never back, and at most kWindow metres: a later part of the path that passes by
+  /// is left alone, but where the path doubles back the robot may turn before it has reached the very tip.
   void advance() {
-    while (nearest_ + 1 < path_.size() &&
-           (path_[nearest_ + 1] - at_).squaredNorm() <= (path_[nearest_] - at_).squaredNorm()) {
-      ++nearest_;
+    constexpr auto kWindow = static_cast<std::size_t>(0.8 / kPathStep);
+    const std::size_t end = std::min(nearest_ + kWindow, path_.size());
+    for (std::size_t i = nearest_ + 1; i < end; ++i) {
+      if ((path_[i] - at_).squaredNorm() <= (path_[nearest_] - at_).squaredNorm()) nearest_ = i;
     }
   }
 
-  /// The first point at least `reach` metres away, not looking across a sharp turn of the path.
+  /// The first point `reach` metres along the path that is not right here: where the path doubles back, the one behind.
   [[nodiscard]] std::size_t ahead(double reach) const {
     std::size_t i = nearest_;
     double along = 0;
-    while (i + 1 < path_.size() && along < reach) {
+    while (i + 1 < path_.size() && (along < reach || (path_[i] - at_).norm() < 0.6 * reach)) {
       along += (path_[i + 1] - path_[i]).norm();
       ++i;
     }
@@ -145,7 +147,7 @@ Trajectory drive(const World& world, const FloorPlan& plan, const Path& path, Ti
                  const DriveLimits& limits, std::uint64_t seed) {
   constexpr int kSubsteps = 10;
   const double dt = to_seconds(Trajectory::kKnotPeriod) / kSubsteps;
-  const double cruise = limits.speed * kMargin * Random(seed).uniform(0.75, 1.0);
+  const double cruise = limits.speed * Random(seed).uniform(0.75, 1.0);
   Follower follower(plan, path, limits, cruise);
   const auto knots = static_cast<std::size_t>(duration / Trajectory::kKnotPeriod) + 2;
   std::vector<Vector6> poses;

@@ -104,8 +104,10 @@ Path RoutePlanner::roam(std::size_t start, std::uint64_t robot, double length) c
   double driven = 0;
   for (std::size_t goal = meeting_; driven < length;) {
     if (const auto leg = find_path(plan_, path.back(), places_[goal])) {
-      path.insert(path.end(), leg->begin() + 1, leg->end());
-      driven += path_length(*leg);
+      // Leg by leg, so that a dead end is driven to its end: where the robot turns is chosen for turning.
+      const Path even = smooth(plan_, *leg);
+      path.insert(path.end(), even.begin() + 1, even.end());
+      driven += path_length(even);
     }
     visited.push_back(goal);
     if (visited.size() > std::min(kRemembered, places_.size() - 2)) visited.pop_front();
@@ -116,7 +118,7 @@ Path RoutePlanner::roam(std::size_t start, std::uint64_t robot, double length) c
       if (!seen && away >= kNearest && away <= kFarthest) break;
     }
   }
-  return smooth(plan_, path);
+  return path;
 }
 
 Result<std::vector<Path>> RoutePlanner::plan(int robots, double length) const {

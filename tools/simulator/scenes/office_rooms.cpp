@@ -88,11 +88,10 @@ void lounge(Mesh& m, const Room& room) {
 }
 
 void door(Mesh& m, const Room& room) {
-  // The frame's x axis runs along the wall; leaves swing into the room.
-  const Placement at = room.door_wall.at(0, room.door_at, 0, 0.5 * kPi);
+  // The frame's x axis runs along the wall and its y axis into the room. The hinge is near the side wall.
+  const Placement at = room.door_wall.at(0, room.door_at, 0, -0.5 * kPi);
   door_frame(m, at, kDoorWidth, kDoorHead, 0.12);
-  const bool hinge_right = room.door_at > 0;
-  door_leaf(m, at.at(0, -0.07), kDoorWidth, kDoorHead, hinge_right, hinge_right ? room.door_angle : room.door_angle);
+  door_leaf(m, at.at(0, 0.03), kDoorWidth, kDoorHead, room.door_at < 0, room.door_angle);
 }
 
 }  // namespace
