@@ -50,11 +50,11 @@ Error to_error(DataFault fault) {
 }
 
 std::optional<double> rotation_rate_deg_s(const DataPacket& packet, const Model& model) {
-  constexpr double kSlowest = 4 * 360.0, kFastest = 22 * 360.0;
+  constexpr double kFastest = 22 * 360.0;
   const int turned = (packet.azimuth[kBlocks - 1] - packet.azimuth[0] + kAzimuthUnits) % kAzimuthUnits;
   const double seconds = to_seconds(model.firing_offset(kBlocks - 1, 0, packet.dual()));
   const double rate = turned * kAzimuthUnitDeg / seconds;
-  if (rate < kSlowest || rate > kFastest) return std::nullopt;
+  if (rate > kFastest) return std::nullopt;
   return rate;
 }
 

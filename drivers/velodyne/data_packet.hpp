@@ -44,8 +44,8 @@ enum class DataFault : std::uint8_t { kLength, kFlag, kAzimuth, kPair, kReturnMo
 /// Names the fault and where in the packet it is. Allocates nothing.
 [[nodiscard]] Error to_error(DataFault fault);
 
-/// Degrees per second from the packet's first and last azimuth; none when outside 4 … 22 revolutions per second
-/// (a stopped motor, a jump over a blanked sector).
+/// Degrees per second from the packet's first and last azimuth; none above 22 turns per second, faster than any motor
+/// (a jump over a blanked sector, or a step back).
 [[nodiscard]] std::optional<double> rotation_rate_deg_s(const DataPacket& packet, const Model& model);
 
 }  // namespace cairn::velodyne

@@ -38,7 +38,8 @@ Lidar::Lidar(const Config& config, const Model& model, SourceId source, Monitor&
       monitor_(monitor),
       decoder_(model, gates(config)),
       assembler_({source, config.cut_angle_deg, config.timeout_turns, points_per_scan(config, model)}),
-      rate_deg_s_(config.rpm * 6.0) {}
+      rate_deg_s_(config.rpm * 6.0),
+      period_(from_seconds(60.0 / config.rpm)) {}
 
 Result<const Scan*> Lidar::decode(const Packet& packet) {
   ++counters_.packets;
@@ -145,23 +146,26 @@ void Lidar::count_lost(Duration step, double azimuth_deg) {
 }
 
 void Lidar::update_rotation(const DataPacket& data) {
+  constexpr double kSlowestTurn = 4 * 360.0;  // below that the motor starts, stops or stands
   const auto rate = rotation_rate_deg_s(data, model_);
   const bool all_around = wrap_360(config_.field_of_view_deg[0] - config_.field_of_view_deg[1]) == 0;
-  if (!rate && all_around) assembler_.mark_incomplete();
-  if (rate) rate_deg_s_ = *rate;
-  const bool stands = data.azimuth.front() == data.azimuth.back();
-  counters_.rpm = stands ? 0 : rate_deg_s_ / 6.0;
+  const bool turns = rate ? *rate >= kSlowestTurn : !all_around;
+  if (!turns) assembler_.mark_incomplete();
+  if (rate) {
+    rate_deg_s_ = *rate;
+    counters_.rpm = *rate / 6.0;
+    if (turns) period_ = from_seconds(360.0 / *rate);
+  }
   nominal_step_ = model_.packet_span(data.dual());
 }
 
 void Lidar::assemble(const DataPacket& data, Time first_firing) {
   assembler_.begin_packet();
-  const Duration turn = period();
   const int firings = decoder_.firing_count(data.dual());
   for (int i = 0; i < firings; ++i) {
     const Firing firing = decoder_.firing(data, i, rate_deg_s_);
     const Time time = first_firing + firing.offset;
-    assembler_.begin_firing(time, firing.azimuth_deg, decoder_.firing_duration(), turn);
+    assembler_.begin_firing(time, firing.azimuth_deg, decoder_.firing_duration(), period_);
     const auto since_ns = static_cast<std::uint32_t>((time - assembler_.start()).count());
     decoder_.append(data, firing, rate_deg_s_, since_ns, assembler_.cloud());
     last_azimuth_deg_ = firing.azimuth_deg;
@@ -204,7 +208,7 @@ void Lidar::note_nmea(const PositionPacket& position, Time arrival) {
   }
 }
 
-const Scan* Lidar::expire(Time now) { return count(assembler_.expire(now, period())); }
+const Scan* Lidar::expire(Time now) { return count(assembler_.expire(now, period_)); }
 const Scan* Lidar::flush() { return count(assembler_.flush()); }
 
 const Scan* Lidar::count(const Scan* scan) {

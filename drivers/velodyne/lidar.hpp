@@ -40,7 +40,7 @@ struct Counters {
   std::uint64_t revolutions = 0;      ///< scans closed by the cut angle
   std::uint64_t scans = 0;            ///< all scans given out
 
-  double rpm = 0;  ///< latest; 0 while the motor stands
+  double rpm = 0;  ///< latest
   std::optional<PpsState> pps;
   std::optional<NmeaTime> nmea;             ///< latest that was readable
   std::optional<std::int64_t> utc_us;       ///< of the latest data packet, while PPS is locked
@@ -83,7 +83,6 @@ class Lidar final : public ScanDecoder {
   void update_rotation(const DataPacket& data);
   void assemble(const DataPacket& data, Time first_firing);
   const Scan* count(const Scan* scan);
-  [[nodiscard]] Duration period() const { return from_seconds(360.0 / rate_deg_s_); }
 
   Config config_;
   const Model& model_;
@@ -92,7 +91,8 @@ class Lidar final : public ScanDecoder {
   ScanAssembler assembler_;
   DeviceTime device_time_;
   Counters counters_;
-  double rate_deg_s_;        // the last plausible one
+  double rate_deg_s_;        // the last one that was possible
+  Duration period_;          // of one turn, the last time the motor ran
   Duration nominal_step_{};  // from the last packet to its successor
   double last_azimuth_deg_ = 0;
   std::optional<Duration> utc_offset_;

@@ -113,7 +113,7 @@ TEST(DataPacket, DualReturnBlocksComeInPairs) {
 TEST(DataPacket, RotationRate) {
   for (const Model& m : models()) {
     for (const ReturnMode mode : {ReturnMode::kLast, ReturnMode::kDual}) {
-      for (const double hz : {5.0, 10.0, 20.0}) {
+      for (const double hz : {0.0, 1.0, 5.0, 10.0, 20.0}) {
         test::Sensor sensor;
         sensor.model = &m;
         sensor.mode = mode;
@@ -128,9 +128,9 @@ TEST(DataPacket, RotationRate) {
   }
 }
 
-TEST(DataPacket, ImplausibleRotationRateIsNone) {
+TEST(DataPacket, ImpossibleRotationRateIsNone) {
   test::Sensor sensor;
-  for (const double hz : {0.0, 2.0, 30.0, -10.0}) {
+  for (const double hz : {30.0, -10.0}) {
     sensor.rate_deg_s = hz * 360;
     const Bytes bytes = encode(sensor.fields());
     EXPECT_FALSE(rotation_rate_deg_s(parse_data_packet(bytes, vlp16()).value(), vlp16())) << hz;

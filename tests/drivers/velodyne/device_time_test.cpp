@@ -269,7 +269,7 @@ TEST(DeviceTime, DayOfVirtualTime) {
       if (to_seconds(truth - start) > 3) worst = std::max(worst, std::abs(to_seconds(stamp.first_firing - truth)));
     }
     EXPECT_EQ(hours, 24);
-    EXPECT_LT(worst, 0.5e-3);
+    EXPECT_LT(worst, 0.7e-3) << "0.1 ms of it is the network's shortest delay";
   }
 }
 
