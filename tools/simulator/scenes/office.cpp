@@ -130,6 +130,10 @@ World office() {
       if (room.door_angle > 0) world.places.push_back(standing_place(room));
     }
   }
+  for (const double y : {14.4, 25.6}) {  // between rooms that stand back to back
+    wall(m, {{kWestEnd, y}, {kMiddleWest, y}, kHeight});
+    wall(m, {{kMiddleEast, y}, {kEastEnd, y}, kHeight});
+  }
   corridor_furniture(m);
   world.inner_size = {kLength, kWidth, kHeight};
   world.ground = [](double, double) { return 0.0; };
