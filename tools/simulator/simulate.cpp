@@ -35,7 +35,7 @@ struct Stage {
 };
 
 Result<void> check(const SimulationConfig& config) {
-  Error error{Errc::kInvalidConfig, "cannot simulate that", "simulate"};
+  Error error{Errc::kInvalidConfig, "cannot simulate that", "simulate", {}, ""};
   if (config.robots < 1 || config.robots > kMaxRobots) error.detail += "robots must be 1 to 16; ";
   if (!(config.seconds > 0 && config.seconds <= kMaxSeconds)) error.detail += "seconds must be above 0, at most 3600; ";
   if (config.out.empty()) error.detail += "no output folder given; ";
@@ -43,11 +43,16 @@ Result<void> check(const SimulationConfig& config) {
   return {};
 }
 
-Result<void> make_out(const fs::path& out) {
+Result<void> refuse_used(const fs::path& out) {
   std::error_code code;
   if (fs::exists(out, code) && !(fs::is_directory(out, code) && fs::is_empty(out, code))) {
     return Error{Errc::kIo, "already exists and is not an empty folder", out.string(), {}, "choose another --out"};
   }
+  return {};
+}
+
+Result<void> make(const fs::path& out) {
+  std::error_code code;
   fs::create_directories(out, code);
   if (code) return Error{Errc::kIo, "cannot make the folder", out.string(), {}, code.message()};
   return {};
@@ -199,9 +204,10 @@ Result<RobotSummary> run_robot(const SimulationConfig& config, const Stage& stag
 
 Result<std::vector<RobotSummary>> simulate(const SimulationConfig& config, const Progress& progress) {
   if (auto checked = check(config); !checked) return checked.error();
+  if (auto unused = refuse_used(config.out); !unused) return unused.error();
   const auto stage = set_up(config);
   if (!stage) return stage.error();
-  if (auto made = make_out(config.out); !made) return made.error();
+  if (auto made = make(config.out); !made) return made.error();
   Workers workers(config.threads);
   std::vector<RobotSummary> summaries;
   for (std::size_t robot = 0; robot < stage->paths.size(); ++robot) {

@@ -9,6 +9,7 @@ namespace cairn::simulator::scenes {
 namespace {
 
 constexpr double kLength = 48.0, kWidth = 32.0, kHeight = 2.8;
+constexpr double kBay = 2.5, kFirstBay = 0.5;
 constexpr double kPi = std::numbers::pi;
 
 enum class CarKind { kSedan, kHatchback, kVan };
@@ -39,7 +40,6 @@ void car(Mesh& m, const Placement& p, CarKind kind, Material paint) {
 
 /// Bays along x at `y`; cars stand nose in (towards +y when `nose` is +1).
 void bays(Mesh& m, double x0, double x1, double y, double nose, Random& random) {
-  constexpr double kBay = 2.5;
   for (double x = x0 + 0.5 * kBay; x < x1 - 0.4 * kBay; x += kBay) {
     const bool taken = random.uniform() < 0.62;
     const double heading = 0.5 * kPi * (random.uniform() < 0.8 ? nose : -nose) + random.uniform(-0.04, 0.04);
@@ -55,7 +55,7 @@ void bays(Mesh& m, double x0, double x1, double y, double nose, Random& random) 
 
 void columns_and_beams(Mesh& m) {
   for (int i = 0; i < 6; ++i) {
-    const double x = 3.9 + 8.0 * i;
+    const double x = kFirstBay + kBay + 7.5 * i;  // between bays
     for (const double y : {5.3, 13.15, 18.85, 26.7}) {
       if (y < 6 && x > 35) continue;  // the ramp is there
       m.box({x, y, 0, 0}, 0.4, 0.6, kHeight, Material::kConcrete);
@@ -122,10 +122,10 @@ World carpark() {
   columns_and_beams(m);
   ramp(m);
   stairwell_and_islands(m);
-  bays(m, 0.5, 28.5, 2.75, -1, random);
-  bays(m, 10.0, 42.5, 13.2, 1, random);
-  bays(m, 10.0, 42.5, 18.8, -1, random);
-  bays(m, 0.5, 47.5, 29.2, 1, random);
+  bays(m, kFirstBay, 28.0, 2.75, -1, random);
+  bays(m, kFirstBay + 4 * kBay, 43.0, 13.2, 1, random);
+  bays(m, kFirstBay + 4 * kBay, 43.0, 18.8, -1, random);
+  bays(m, kFirstBay, 48.0, 29.2, 1, random);
   world.inner_size = {kLength, kWidth, kHeight};
   world.places = {{3.0, 8.4},   {9.0, 7.6},   {15.0, 8.9},  {21.0, 7.5},  {27.0, 9.0},  {33.0, 8.0},  {39.5, 8.3},
                   {46.2, 9.5},  {46.8, 14.5}, {46.6, 20.0}, {45.6, 23.6}, {39.0, 22.8}, {33.0, 24.3}, {27.0, 22.9},

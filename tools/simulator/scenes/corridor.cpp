@@ -23,6 +23,14 @@ void panelled_wall(Mesh& mesh, double y, std::initializer_list<double> doors) {
   panel(done, kLength, 0, kHeight, Material::kPlaster);
 }
 
+/// Something that runs along the whole corridor, without end faces: they would mark the ends of the long axis.
+void rail(Mesh& mesh, double y, double width, double z0, double z1, Material m) {
+  const double y0 = y - 0.5 * width, y1 = y + 0.5 * width;
+  for (const double z : {z0, z1}) mesh.quad({0, y0, z}, {kLength, y0, z}, {kLength, y1, z}, {0, y1, z}, m);
+  for (const double side : {y0, y1})
+    mesh.quad({0, side, z0}, {kLength, side, z0}, {kLength, side, z1}, {0, side, z1}, m);
+}
+
 }  // namespace
 
 World corridor() {
@@ -35,13 +43,11 @@ World corridor() {
   for (const double x : {0.0, kLength}) {
     m.quad({x, 0, 0}, {x, kWidth, 0}, {x, kWidth, kHeight}, {x, 0, kHeight}, Material::kDarkGlass);
   }
-  // What runs along the whole corridor tells nothing about the long axis either.
-  const Placement middle{0.5 * kLength, 0.5 * kWidth, 0, 0};
   for (const double side : {-1.0, 1.0}) {
-    m.box(middle.at(0, side * (0.5 * kWidth - 0.01)), kLength, 0.02, 0.1, Material::kWood);
-    m.box(middle.at(0, side * 1.9, 2.72), kLength, 0.3, 0.12, Material::kMetal);
+    rail(m, 0.5 * kWidth + side * (0.5 * kWidth - 0.01), 0.02, 0.0, 0.1, Material::kWood);  // skirting board
+    rail(m, 0.5 * kWidth + side * 1.9, 0.3, 2.72, 2.84, Material::kMetal);                  // cable tray
   }
-  m.box(middle.at(0, 0, 2.9), kLength, 0.18, 0.08, Material::kPaint);
+  rail(m, 0.5 * kWidth, 0.18, 2.9, 2.98, Material::kPaint);  // lamps in one line
   world.inner_size = {kLength, kWidth, kHeight};
   world.places = {{1.8, 2.5}, {4.0, 1.7}, {6.5, 3.2}, {9.0, 2.3}, {11.0, 1.8}, {13.0, 3.1}, {15.5, 2.0}, {18.2, 2.6}};
   world.ground = [](double, double) { return 0.0; };

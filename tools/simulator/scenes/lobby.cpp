@@ -48,7 +48,8 @@ void back_wall(Mesh& m) {
     door_leaf(m, {x, kWidth + 0.16, 0, 0}, 1.1, 2.1, false, 0.0);
   }
   // The corridor behind the mouth ends after 2 m.
-  m.quad({22, kWidth, 0}, {25, kWidth, 0}, {25, kWidth + 2.2, 0}, {22, kWidth + 2.2, 0}, Material::kStoneFloor);
+  m.quad({22, kWidth + 0.3, 0}, {25, kWidth + 0.3, 0}, {25, kWidth + 2.2, 0}, {22, kWidth + 2.2, 0},
+         Material::kStoneFloor);
   m.quad({22, kWidth, 2.62}, {25, kWidth, 2.62}, {25, kWidth + 2.2, 2.62}, {22, kWidth + 2.2, 2.62},
          Material::kCeiling);
   wall(m, {{21.95, kWidth}, {21.95, kWidth + 2.2}, 2.62, 0.1});
@@ -111,7 +112,7 @@ void stairs(Mesh& m) {
 World lobby() {
   World world;
   Mesh& m = world.mesh;
-  m.quad({0, -0.2, 0}, {kLength, -0.2, 0}, {kLength, kWidth, 0}, {0, kWidth, 0}, Material::kStoneFloor);
+  m.quad({0, -0.2, 0}, {kLength, -0.2, 0}, {kLength, kWidth + 0.3, 0}, {0, kWidth + 0.3, 0}, Material::kStoneFloor);
   m.quad({0, -0.2, kHeight}, {kLength, -0.2, kHeight}, {kLength, kWidth, kHeight}, {0, kWidth, kHeight},
          Material::kCeiling);
   for (const double x : {-0.1, kLength + 0.1}) wall(m, {{x, 0}, {x, kWidth + 0.2}, kHeight, 0.2});
