@@ -31,7 +31,7 @@ Result<std::size_t> after_protocol(std::span<const std::byte> frame, std::size_t
     if (protocol == kIpv4) return at + 2;
     if (!is_vlan(protocol)) return unsupported("frame does not carry IPv4", at);
   }
-  return unsupported("frame has too many VLAN tags", at);
+  return unsupported("frame has too many VLAN tags", at - 4);
 }
 
 /// A loopback frame begins with the address family, in the byte order of whoever captured it.

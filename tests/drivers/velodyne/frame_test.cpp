@@ -110,7 +110,9 @@ TEST(Frame, ForeignTrafficIsUnsupported) {
   const Bytes ip = ipv4(sample());
   EXPECT_EQ(code_of(ethernet(ip, {}, 0x86DD)), Errc::kUnsupported);  // IPv6
   EXPECT_EQ(code_of(ethernet(ip, {}, 0x0806)), Errc::kUnsupported);  // ARP
-  EXPECT_EQ(code_of(ethernet(ip, {0x8100, 0x8100, 0x8100, 0x8100, 0x8100})), Errc::kUnsupported);
+  const Bytes tagged = ethernet({}, {0x8100, 0x8100, 0x8100, 0x8100, 0x8100}, 0x8100);
+  EXPECT_EQ(code_of(tagged), Errc::kUnsupported);
+  EXPECT_LT(udp_in_frame(1, tagged).error().offset, tagged.size());
   Udp tcp = sample();
   tcp.protocol = 6;
   EXPECT_EQ(code_of(ethernet(ipv4(tcp))), Errc::kUnsupported);
