@@ -11,7 +11,7 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 filter=${1:-.}
 tools/packages.sh build test bench
 [[ -t 1 ]] && quiet=() || quiet=(-- --quiet)
-cmake --preset release -B build/bench --log-level=WARNING
+cmake --preset release -B build/bench >/dev/null
 cmake --build build/bench --target benchmarks "${quiet[@]}"
 
 results=()

@@ -6,6 +6,6 @@ cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 tools/packages.sh build
 [[ -t 1 ]] && quiet=() || quiet=(-- --quiet)
-cmake --preset release -DCAIRN_TESTS=OFF -DCAIRN_BENCHMARKS=OFF --log-level=WARNING
+cmake --preset release -DCAIRN_TESTS=OFF -DCAIRN_BENCHMARKS=OFF >/dev/null
 cmake --build --preset release --target cairn "${quiet[@]}"
 echo "build/release/bin/cairn"

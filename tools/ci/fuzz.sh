@@ -10,8 +10,8 @@ seconds=${1:-30}
 shift || true
 tools/packages.sh build test ci
 [[ -t 1 ]] && quiet=() || quiet=(-- --quiet)
-cmake --preset fuzz --log-level=WARNING
-cmake --build --preset fuzz "${quiet[@]}"
+cmake --preset fuzz >/dev/null
+cmake --build --preset fuzz --target fuzzers "${quiet[@]}"
 
 names=("$@")
 if ((${#names[@]} == 0)); then

@@ -16,23 +16,21 @@ clang-format-14 --dry-run -Werror "${sources[@]}" || { bad=1; echo "remedy: clan
 shellcheck "${scripts[@]}" || bad=1
 
 # Both read the compile commands only; nothing is built. Files that no target compiles (headers) borrow a neighbour's.
-readonly commands=build/clang
-cmake --preset clang --log-level=WARNING >/dev/null
+cmake --preset clang >/dev/null
 
 # shellcheck disable=SC2317  # xargs calls it
 tidy() {  # tidy FILE: clangd runs clang-tidy's checks over the file's own lines
   local out
-  out=$(clangd-14 --check="$1" --check-lines=1-1 --compile-commands-dir="$commands" --background-index=false 2>&1) || true
+  out=$(clangd-14 --check="$1" --check-lines=1-1 --background-index=false 2>&1) || true
   [[ $out != *"All checks completed, 0 errors"* ]] || return 0
   grep '^E\[' <<<"$out" | sed -E "s#^E\[[^]]*\] \[([^]]*)\] Line ([0-9]+): (.*)#$1:\2: \3 [\1]#" || tail -n 5 <<<"$out"
   return 1
 }
 export -f tidy
-export commands
 
 case ${1:-} in
   --full) printf '%s\n' "${sources[@]}" | grep '\.cpp$' |
-    xargs -d '\n' -n 1 -P "$(nproc)" clang-tidy-14 -p "$commands" --quiet 2>/dev/null || bad=1 ;;
+    xargs -d '\n' -n 1 -P "$(nproc)" clang-tidy-14 -p build/clang --quiet 2>/dev/null || bad=1 ;;
   *)
     (($# > 0)) || set -- "${sources[@]}"
     # shellcheck disable=SC2016  # expanded by the inner shell
