@@ -38,8 +38,9 @@ Lidar::Lidar(const Config& config, const Model& model, SourceId source, Monitor&
       monitor_(monitor),
       decoder_(model, gates(config)),
       assembler_({source, config.cut_angle_deg, config.timeout_turns, points_per_scan(config, model)}),
-      rate_deg_s_(config.rpm * 6.0),
-      period_(from_seconds(60.0 / config.rpm)) {}
+      period_(from_seconds(60.0 / config.rpm)) {
+  decoder_.set_rate(config.rpm * 6.0);
+}
 
 Result<const Scan*> Lidar::decode(const Packet& packet) {
   ++counters_.packets;
@@ -152,7 +153,7 @@ void Lidar::update_rotation(const DataPacket& data) {
   const bool turns = rate ? *rate >= kSlowestTurn : !all_around;
   if (!turns) assembler_.mark_incomplete();
   if (rate) {
-    rate_deg_s_ = *rate;
+    decoder_.set_rate(*rate);
     counters_.rpm = *rate / 6.0;
     if (turns) period_ = from_seconds(360.0 / *rate);
   }
@@ -163,11 +164,11 @@ void Lidar::assemble(const DataPacket& data, Time first_firing) {
   assembler_.begin_packet();
   const int firings = decoder_.firing_count(data.dual());
   for (int i = 0; i < firings; ++i) {
-    const Firing firing = decoder_.firing(data, i, rate_deg_s_);
+    const Firing firing = decoder_.firing(data, i);
     const Time time = first_firing + firing.offset;
     assembler_.begin_firing(time, firing.azimuth_deg, decoder_.firing_duration(), period_);
     const auto since_ns = static_cast<std::uint32_t>((time - assembler_.start()).count());
-    decoder_.append(data, firing, rate_deg_s_, since_ns, assembler_.cloud());
+    decoder_.append(data, firing, since_ns, assembler_.cloud());
     last_azimuth_deg_ = firing.azimuth_deg;
   }
 }

@@ -91,7 +91,6 @@ class Lidar final : public ScanDecoder {
   ScanAssembler assembler_;
   DeviceTime device_time_;
   Counters counters_;
-  double rate_deg_s_;        // the last one that was possible
   Duration period_;          // of one turn, the last time the motor ran
   Duration nominal_step_{};  // from the last packet to its successor
   double last_azimuth_deg_ = 0;

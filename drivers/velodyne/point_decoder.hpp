@@ -4,9 +4,11 @@
 #include <Eigen/Geometry>
 #include <array>
 #include <cstdint>
+#include <optional>
 
 #include "drivers/velodyne/data_packet.hpp"
 #include "drivers/velodyne/models.hpp"
+#include "drivers/velodyne/trigonometry.hpp"
 #include "hal/point_cloud.hpp"
 
 namespace cairn::velodyne {
@@ -26,42 +28,47 @@ struct Firing {
   double azimuth_deg = 0;  ///< first laser, clockwise seen from above, 0° = sensor forward, [0, 360)
 };
 
-/// Data packet → points. A pure function of the packet's bytes, the model's table and the rotation rate.
+/// Data packet → points: a pure function of the packet's bytes, the model's table and the rotation rate.
 class PointDecoder {
  public:
   PointDecoder(const Model& model, const Gates& gates);
+
+  /// How fast the sensor turns during the firings that follow, in degrees per second, clockwise, |rate| <= 22·360.
+  void set_rate(double rate_deg_s);
 
   [[nodiscard]] int firing_count(bool dual) const {
     return (dual ? kBlocks / 2 : kBlocks) * model_.sequences_per_block();
   }
   /// Firing `index` (0 … firing_count − 1) in the order of time.
-  [[nodiscard]] Firing firing(const DataPacket& packet, int index, double rate_deg_s) const;
+  [[nodiscard]] Firing firing(const DataPacket& packet, int index) const;
   /// Time from a firing's first laser to its last.
   [[nodiscard]] Duration firing_duration() const { return firing_duration_; }
 
   /// Appends the points of one firing, in the order of its channels, in metres in the sensor's REP-103 frame. `since`:
   /// from the scan's start to the firing's first laser. In dual mode equal distances become one point kBoth, and
   /// otherwise the strongest comes before the last.
-  void append(const DataPacket& packet, const Firing& firing, double rate_deg_s, std::uint32_t since_ns,
-              PointCloud& cloud) const;
+  void append(const DataPacket& packet, const Firing& firing, std::uint32_t since_ns, PointCloud& cloud) const;
 
  private:
-  /// A laser's line at azimuth 0, without motion.
+  /// A laser as it points when the firing's first laser points to azimuth 0.
   struct Ray {
     double x, y, z;            // unit vector
     double vertical_offset_m;  // added to z
-    double slot_s;             // after the firing's first laser
-    std::uint32_t slot_ns;
+    std::uint32_t slot_ns;     // after the firing's first laser
     std::uint8_t ring;
   };
-  void append_return(DataPacket::Return r, const Eigen::Vector3d& direction, const Ray& ray, std::uint32_t since_ns,
-                     ReturnType type, PointCloud& cloud) const;
+  using Rays = std::array<Ray, kBlockChannels>;
+  class Batch;
+  void add_return(DataPacket::Return r, const Ray& ray, const SinCos& azimuth, std::uint32_t since_ns, ReturnType type,
+                  Batch& batch) const;
 
   const Model& model_;
-  Eigen::AlignedBox3f body_;
+  std::optional<Eigen::AlignedBox3f> body_;
   std::uint32_t min_distance_, max_distance_;  // raw, inclusive
   Duration firing_duration_;
-  std::array<Ray, kBlockChannels> rays_{};
+  double rate_deg_s_ = 0;
+  Rays resting_{};  // without rotation
+  Rays rays_{};     // turned on by what the sensor turns from the first laser to each
 };
 
 }  // namespace cairn::velodyne

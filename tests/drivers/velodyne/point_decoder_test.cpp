@@ -17,12 +17,13 @@ using test::DataFields;
 constexpr double kRate = 3600;  // degrees per second
 
 PointCloud decode(const test::Bytes& bytes, const Model& model, const Gates& gates = {}, double rate = kRate) {
-  const PointDecoder decoder(model, gates);
+  PointDecoder decoder(model, gates);
+  decoder.set_rate(rate);
   const DataPacket packet = parse_data_packet(bytes, model).value();
   PointCloud cloud;
   for (int i = 0; i < decoder.firing_count(packet.dual()); ++i) {
-    const Firing f = decoder.firing(packet, i, rate);
-    decoder.append(packet, f, rate, static_cast<std::uint32_t>(f.offset.count()), cloud);
+    const Firing f = decoder.firing(packet, i);
+    decoder.append(packet, f, static_cast<std::uint32_t>(f.offset.count()), cloud);
   }
   return cloud;
 }
@@ -201,10 +202,11 @@ TEST(PointDecoder, AzimuthWrapsBetweenFirings) {
   const Model& model = *find_model("VLP-16");
   const auto bytes = encode(f);
   const DataPacket packet = parse_data_packet(bytes, model).value();
-  const PointDecoder decoder(model, {});
-  EXPECT_NEAR(decoder.firing(packet, 0, kRate).azimuth_deg, 359.99, 1e-9);
-  EXPECT_NEAR(decoder.firing(packet, 1, kRate).azimuth_deg, 359.99 + 3600 * 55.296e-6 - 360, 1e-9);
-  EXPECT_EQ(decoder.firing(packet, 3, kRate).offset.count(), 3 * 55'296);
+  PointDecoder decoder(model, {});
+  decoder.set_rate(kRate);
+  EXPECT_NEAR(decoder.firing(packet, 0).azimuth_deg, 359.99, 1e-9);
+  EXPECT_NEAR(decoder.firing(packet, 1).azimuth_deg, 359.99 + 3600 * 55.296e-6 - 360, 1e-9);
+  EXPECT_EQ(decoder.firing(packet, 3).offset.count(), 3 * 55'296);
 }
 
 }  // namespace
