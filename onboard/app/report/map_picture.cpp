@@ -145,26 +145,52 @@ class Projector {
     picture_.free = area.covered();
   }
 
-  // A ceiling is a height, at least a person above the floor, at which a large part of the known columns is occupied.
+  // A ceiling is a height, at least a person above the floor, at which much more of the known columns is occupied than
+  // the walls take up, and below which most of these columns are free (a terrace has no room below it).
   void cut_below_ceiling() {
-    constexpr double kPerson_m = 1.8, kFloorShare = 0.1, kCeilingShare = 0.2;
+    constexpr double kPerson_m = 1.8, kFloorShare = 0.02, kCeilingShare = 0.15;
+    const std::vector<double> area = occupied_per_height();
+    const double columns =
+        static_cast<double>(std::count(picture_.free.begin(), picture_.free.end(), 1)) * per_cell_ * per_cell_;
+    // Noise spreads a plane over two layers.
+    const auto both = [&](int z) { return area[static_cast<std::size_t>(z)] + area[static_cast<std::size_t>(z + 1)]; };
+    int floor = 0;
+    while (floor < kKeys - 2 && (both(floor) == 0 || both(floor) < kFloorShare * columns)) ++floor;
+    const int lowest = std::min(kKeys - 2, floor + static_cast<int>(kPerson_m / picture_.voxel_m));
+    std::vector<double> between;
+    for (int z = floor + 2; z <= std::max(lowest, floor + 2) && z < kKeys - 1; ++z) between.push_back(both(z));
+    if (between.empty()) return;
+    std::nth_element(between.begin(), between.begin() + static_cast<std::ptrdiff_t>(between.size() / 2), between.end());
+    const double walls = between[between.size() / 2];
+    for (int z = lowest; z < kKeys - 1; ++z) {
+      if (both(z) - walls < kCeilingShare * columns || both(z) == 0 || !is_hollow_below(z)) continue;
+      heights_.high = z - 1;
+      picture_.cut_m = (z - kZeroKey) * picture_.voxel_m;
+      return;
+    }
+  }
+
+  [[nodiscard]] std::vector<double> occupied_per_height() const {
     std::vector<double> area(kKeys, 0.0);
     for_each_cube(map_, heights_, [&](const Cube& c) {
       for (int z = c.low[2]; c.occupied && z < c.low[2] + c.edge; ++z)
         area[static_cast<std::size_t>(z)] += static_cast<double>(c.edge) * c.edge;
     });
-    const double columns =
-        static_cast<double>(std::count(picture_.free.begin(), picture_.free.end(), 1)) * per_cell_ * per_cell_;
-    const auto first_above = [&](int z, double share) {
-      while (z < kKeys && area[static_cast<std::size_t>(z)] < share * columns) ++z;
-      return z;
-    };
-    const int floor = first_above(0, kFloorShare);
-    const int ceiling = first_above(floor + static_cast<int>(kPerson_m / picture_.voxel_m), kCeilingShare);
-    if (columns <= 0 || ceiling >= kKeys) return;
-    // Noise fills the layer below, too; a wall in it stays visible in the layers below that one.
-    heights_.high = ceiling - 2;
-    picture_.cut_m = (ceiling - 1 - kZeroKey) * picture_.voxel_m;
+    return area;
+  }
+
+  [[nodiscard]] bool is_hollow_below(int ceiling) const {
+    AreaCounter above(picture_.width, picture_.height), below(picture_.width, picture_.height);
+    for_each_cube(map_, heights_, [&](const Cube& c) {
+      const Cells cells = cells_of(c);
+      const bool in_ceiling = c.low[2] <= ceiling + 1 && c.low[2] + c.edge > ceiling;
+      if (c.occupied && in_ceiling) above.add(cells.x0, cells.y0, cells.x1, cells.y1);
+      if (!c.occupied && c.low[2] < ceiling - 1) below.add(cells.x0, cells.y0, cells.x1, cells.y1);
+    });
+    const std::vector<std::uint8_t> covered = above.covered(), hollow = below.covered();
+    std::size_t both = 0;
+    for (std::size_t i = 0; i < covered.size(); ++i) both += covered[i] & hollow[i];
+    return 2 * both > static_cast<std::size_t>(std::count(covered.begin(), covered.end(), 1));
   }
 
   void mark_occupied() {

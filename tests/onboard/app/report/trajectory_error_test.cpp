@@ -179,6 +179,14 @@ TEST(MatchByTime, OfDifferentTimeLinesIsAnErrorThatSaysSo) {
   EXPECT_FALSE(trajectory_error({}, {}, {}).has_value());
 }
 
+TEST(TruthInEstimateFrame, LiesOverAnErrorFreeEstimate) {
+  const Trajectory estimate = moved(wild(), kElsewhere);
+  const auto truth = truth_in_estimate_frame(estimate, wild(), from_seconds(0.2));
+  for (std::size_t i = 0; i < truth.size(); ++i)
+    EXPECT_NEAR((truth[i].pose.translation() - estimate[i].pose.translation()).norm(), 0, 1e-9);
+  EXPECT_EQ(truth_in_estimate_frame({}, wild(), from_seconds(0.2)).size(), wild().size());
+}
+
 TEST(Alignment, NamesRoundTrip) {
   for (const Alignment a : {Alignment::kFirst, Alignment::kSe3, Alignment::kNone})
     EXPECT_EQ(alignment_from(to_string(a)), a);

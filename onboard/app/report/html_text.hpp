@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace cairn::html {
+
+/// Text that cannot leave its place in HTML, be it content or a quoted attribute. Control characters other than tab and
+/// newline become U+FFFD.
+[[nodiscard]] std::string escape(std::string_view text);
+
+/// RFC 4648, for data: addresses.
+[[nodiscard]] std::string base64(std::span<const std::byte> bytes);
+
+/// About three digits, without an exponent between 0.001 and a million; "–" for what is not finite.
+[[nodiscard]] std::string number(double value);
+/// 1 234 567, with narrow spaces.
+[[nodiscard]] std::string count(std::uint64_t value);
+/// 512 B, 1.50 KiB, 12.3 MiB …
+[[nodiscard]] std::string bytes(double value);
+/// 35 s, 2:05 min, 1:02:03 h.
+[[nodiscard]] std::string duration(double seconds);
+
+}  // namespace cairn::html

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/report/report_html.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/onboard/app/report/sample_report.hpp"
+
+namespace cairn {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// Empty when every element is closed in the right order and every attribute's value is quoted.
+std::string structure_fault(const std::string& page) {
+  static const std::set<std::string> kVoid{"!doctype", "meta", "br"};
+  std::vector<std::string> open;
+  for (std::size_t at = page.find('<'); at != std::string::npos; at = page.find('<', at)) {
+    const std::size_t end = page.find('>', at);
+    if (end == std::string::npos) return "a tag does not end";
+    const std::string tag = page.substr(at + 1, end - at - 1);
+    const std::string name = tag.substr(0, tag.find_first_of(" \n"));
+    at = name == "style" ? page.find("</style", end) : end;
+    if (std::count(tag.begin(), tag.end(), '"') % 2 != 0) return "a quote is open in <" + tag;
+    if (tag.find('<') != std::string::npos) return "a tag within a tag: <" + tag;
+    if (name[0] == '/') {
+      if (open.empty() || open.back() != name.substr(1)) return "<" + tag + "> closes nothing";
+      open.pop_back();
+    } else if (tag.back() != '/' && kVoid.count(name) == 0) {
+      open.push_back(name);
+    }
+  }
+  return open.empty() ? "" : "<" + open.back() + "> stays open";
+}
+
+TEST(ReportHtml, IsOneWellFormedPageOfAllParts) {
+  const auto run = sample_run(200);
+  const std::string page = to_html(run->report).value();
+  EXPECT_EQ(structure_fault(page), "");
+  for (const char* part : {"28.1", "Worth a look", "data:image/png;base64,iVBORw0KGgo", "class=\"trajectory\"",
+                           "class=\"truth\"", "Accuracy", "Timing", "class=\"bars\"", "Events and faults",
+                           "3 packets lost", "Peers", "robot_3", "max_range_m", "9f86d081884c7d65"})
+    EXPECT_THAT(page, HasSubstr(part == std::string("28.1") ? "distance" : part));
+}
+
+TEST(ReportHtml, LoadsNothingAndRunsNothing) {
+  const std::string page = to_html(sample_run(50)->report).value();
+  for (const char* foreign : {"http:", "https:", "//cdn", "<script", "<link", "@import", "url(", "<iframe", " onload"})
+    EXPECT_THAT(page, Not(HasSubstr(foreign)));
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+}
+
+TEST(ReportHtml, EscapesEveryTextFromOutside) {
+  const auto run = sample_run(50, 0.4, true);
+  const std::string page = to_html(run->report).value();
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("alert(\"")));
+  EXPECT_EQ(page.find('\x01'), std::string::npos);
+  EXPECT_EQ(structure_fault(page), "");
+}
+
+TEST(ReportHtml, OfARunThatDidNothingIsStillAPage) {
+  const std::string page = to_html(RunReport{}).value();
+  EXPECT_EQ(structure_fault(page), "");
+  EXPECT_THAT(page, HasSubstr("Nothing to report"));
+  EXPECT_THAT(page, Not(HasSubstr("nan")));
+  EXPECT_THAT(page, Not(HasSubstr("Accuracy")));
+}
+
+TEST(ReportHtml, OfOnePoseOrALostTrajectoryIsStillAPage) {
+  auto run = sample_run(1);
+  EXPECT_EQ(structure_fault(to_html(run->report).value()), "");
+  run->report.trajectory[0].T_odom_base.mean = SE3(Eigen::Quaterniond::Identity(), {NAN, 0, 0});
+  EXPECT_EQ(structure_fault(to_html(run->report).value()), "");
+}
+
+TEST(ReportHtml, PointsOutClaimsThatDoNotHold) {
+  auto run = sample_run(300);
+  EXPECT_THAT(to_html(run->report).value(), Not(HasSubstr("claimed covariance is too small")));
+  for (PoseEstimate& p : run->report.trajectory) p.T_odom_base.covariance *= 1e-4;
+  EXPECT_THAT(to_html(run->report).value(), HasSubstr("claimed covariance is too small along x"));
+}
+
+TEST(ReportHtml, StaysSmallForALongRun) {
+  auto run = sample_run(600);
+  const std::size_t small = to_html(run->report)->size();
+  run->report.trajectory.clear();
+  run->report.ground_truth.clear();
+  sample::drive(run->report, 20'000, 6e-4);
+  EXPECT_LT(to_html(run->report)->size(), small + 600'000);
+}
+
+}  // namespace
+}  // namespace cairn
