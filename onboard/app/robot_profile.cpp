@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/robot_profile.hpp"
+
+#include <Eigen/Core>
+
+namespace cairn {
+
+RobotConfig RobotProfile::robot() const {
+  return {SE3::from_xyz_rpy(Eigen::Map<const Vector6>(lidar.base_xyz_rpy.data())), odometry, mapping};
+}
+
+void declare(config::Section& s, LidarProfile& p) {
+  declare(s, p.driver);
+  s.numbers("T_base_lidar", p.base_xyz_rpy, {-100, 100}, "m, rad",
+            "pose of the LiDAR in base_link: x, y, z, roll, pitch, yaw (fixed axes)");
+}
+
+void declare(config::Section& s, RobotProfile& p) {
+  s.text("name", p.name, "the robot's name in files and to its peers");
+  s.integer("threads", p.threads, {1, 64}, "", "threads for odometry and mapping; the result does not depend on it");
+  s.group("lidar", p.lidar, "the LiDAR and its mount");
+  s.group("odometry", p.odometry, "scan-to-map registration");
+  s.number("odometry_deadline_s", p.odometry_deadline_s, {0.001, 10}, "s",
+           "live: no further refinement of a pose this long after its last packet");
+  s.group("mapping", p.mapping, "the OctoMap");
+}
+
+Result<RobotProfile> load_profile(const std::filesystem::path& path) {
+  RobotProfile profile;
+  if (path.empty()) return profile;
+  config::Section section;
+  declare(section, profile);
+  if (const auto loaded = config::load(path, section); !loaded) return loaded.error();
+  return profile;
+}
+
+std::string to_yaml(RobotProfile profile) {
+  config::Section section;
+  declare(section, profile);
+  return config::to_yaml(section);
+}
+
+}  // namespace cairn

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "hal/result.hpp"
+#include "hal/time.hpp"
+#include "onboard/app/door.hpp"
+#include "onboard/app/report/run_report.hpp"
+
+namespace cairn {
+
+struct RunOptions {
+  std::filesystem::path config;     ///< empty: the defaults
+  std::filesystem::path recording;  ///< empty: live hardware
+  std::filesystem::path out;
+  Pace pace = Pace::kRecorded;
+  std::optional<int> threads;                             ///< instead of the profile's
+  std::optional<double> seconds;                          ///< ends the run when so much of the robot's time has passed
+  std::function<void(Time, std::size_t scans)> progress;  ///< called after every scan; may be empty
+};
+
+/// What a run leaves behind, beside its files.
+struct RunResult {
+  Monitor monitor;  ///< report.monitor points to it
+  RunReport report;
+};
+
+/// One robot, from its first packet to the last: live until a stop signal, or to the end of a recording. Writes
+/// trajectory.tum, map.cairn, map.ot, report.json, report.html and config.yaml into `out`.
+Result<std::unique_ptr<RunResult>> run(const RunOptions& options);
+
+}  // namespace cairn

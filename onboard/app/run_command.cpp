@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/run_command.hpp"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+#include <string>
+
+#include "onboard/app/report/report_json.hpp"
+#include "onboard/app/run.hpp"
+#include "onboard/app/stop_signal.hpp"
+
+namespace cairn::cli {
+namespace {
+
+struct Arguments {
+  RunOptions run;
+  std::string speed = "real";
+  bool json = false;
+};
+
+void show_progress(Time now, std::size_t scans) {
+  if (scans % 10 == 0) std::fprintf(stderr, "\r%zu scans, t = %.1f s ", scans, to_seconds(now));
+}
+
+void print_summary(const RunReport& r, const std::filesystem::path& out) {
+  std::printf("%s: %zu scans in %.1f s, %.2f m travelled, %llu packets lost\n", r.robot.c_str(),
+              static_cast<std::size_t>(r.scans), r.duration_s, r.distance_m,
+              static_cast<unsigned long long>(r.lost_packets));
+  for (const StageStats& s : r.monitor->stages())
+    std::printf("  %-9s p50 %7.3f ms  p99 %7.3f ms  max %7.3f ms\n", s.name.c_str(),
+                to_milliseconds(s.wall.percentile(0.5)), to_milliseconds(s.wall.percentile(0.99)),
+                to_milliseconds(s.wall.max()));
+  std::printf("  map: %llu occupied and %llu free voxels of %.2f m\n", static_cast<unsigned long long>(r.map.occupied),
+              static_cast<unsigned long long>(r.map.free), r.map.resolution_m);
+  for (const Event& e : r.monitor->events())
+    std::printf("  event: %s: %s (%llu times)\n", e.stage.c_str(), e.what.c_str(),
+                static_cast<unsigned long long>(e.count));
+  std::printf("  output_sha256 %s\n  %s\n", r.output_sha256.c_str(), (out / "report.html").c_str());
+}
+
+int run_robot(Arguments a) {
+  a.run.pace = a.run.recording.empty() ? Pace::kLive : a.speed == "max" ? Pace::kMaximum : Pace::kRecorded;
+  if (::isatty(STDERR_FILENO) != 0) a.run.progress = show_progress;
+  catch_stop_signals();
+  const auto result = cairn::run(a.run);
+  if (a.run.progress) std::fputc('\n', stderr);
+  if (!result) return fail(result.error());
+  const RunReport& report = (*result)->report;
+  if (a.json)
+    std::cout << to_text(to_json(report)) << '\n';
+  else
+    print_summary(report, a.run.out);
+  if (report.scans != 0) return kDone;
+  return fail({Errc::kNotFound,
+               "not one scan came in",
+               report.source,
+               {},
+               "see the events above; `cairn inspect` says what a recording holds"});
+}
+
+}  // namespace
+
+void add_run_command(Commands& commands) {
+  auto* sub = commands.app.add_subcommand("run", "one robot: live hardware, or the same program on a recording");
+  auto a = std::make_shared<Arguments>();
+  sub->add_option("--config", a->run.config, "robot profile, such as config/husky.yaml; defaults without one");
+  sub->add_option("--recording", a->run.recording, "folder of a recording; live hardware without one");
+  sub->add_option("--out", a->run.out, "folder for what the run leaves")->default_val("cairn-out");
+  sub->add_option("--speed", a->speed, "of a recording: as it was made, or as fast as possible in virtual time")
+      ->check(CLI::IsMember({"real", "max"}))
+      ->default_val("real");
+  sub->add_option("--threads", a->run.threads, "instead of the profile's; the result does not depend on it")
+      ->check(CLI::Range(1, 64));
+  sub->add_option("--seconds", a->run.seconds, "end after so much of the robot's time")->check(CLI::PositiveNumber);
+  sub->add_flag("--json", a->json, "print report.json on stdout");
+  sub->callback([&commands, a] { commands.job = [a] { return run_robot(*a); }; });
+}
+
+}  // namespace cairn::cli

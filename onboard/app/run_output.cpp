@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/run_output.hpp"
+
+#include <fstream>
+
+#include "drivers/recording/recording.hpp"
+#include "drivers/recording/trajectory_file.hpp"
+#include "hal/file.hpp"
+#include "onboard/app/allocations.hpp"
+#include "onboard/app/report/sha256.hpp"
+#include "onboard/app/report/write_report.hpp"
+#include "onboard/app/run.hpp"
+#include "onboard/mapping/map_file.hpp"
+
+namespace cairn {
+namespace {
+
+namespace fs = std::filesystem;
+
+Result<void> write_trajectory(const fs::path& file, const std::vector<TrackPoint>& track) {
+  std::vector<recording::StampedPose> poses;
+  poses.reserve(track.size());
+  for (const TrackPoint& p : track) poses.push_back({p.stamp, p.T_odom_base.mean});
+  return recording::write_tum(file, poses);
+}
+
+OdometryStats odometry_stats(const std::vector<TrackPoint>& track) {
+  OdometryStats stats;
+  for (const TrackPoint& p : track) {
+    stats.degenerate_scans += p.degenerate_directions > 0 ? 1U : 0U;
+    stats.lost_scans += p.lost ? 1U : 0U;
+    stats.mean_iterations += static_cast<double>(p.iterations) / static_cast<double>(track.size());
+  }
+  return stats;
+}
+
+double length_m(const std::vector<TrackPoint>& track) {
+  double length = 0;
+  for (std::size_t i = 1; i < track.size(); ++i)
+    length += (track[i].T_odom_base.mean.translation() - track[i - 1].T_odom_base.mean.translation()).norm();
+  return length;
+}
+
+/// Every stage of the odometry and the map, as far as the run got.
+RunReport make_report(const RunFacts& facts) {
+  const auto& track = facts.robot.track();
+  RunReport report;
+  report.robot = facts.profile.name;
+  report.profile = facts.options.config.string();
+  report.source = facts.options.recording.empty() ? "live" : facts.options.recording.string();
+  report.version = CAIRN_VERSION;
+  report.distance_m = length_m(track);
+  report.scans = facts.figures.scans;
+  report.lost_packets = facts.figures.lost_packets;
+  report.ticks.count = facts.figures.scans;
+  report.odometry = odometry_stats(track);
+  report.peak_rss_mb = peak_rss_mb();
+  report.control_thread_allocations = facts.figures.allocations;
+  report.monitor = &facts.monitor;
+  if (facts.figures.start) {
+    report.start = *facts.figures.start;
+    report.duration_s = to_seconds(facts.figures.end - *facts.figures.start);
+  }
+  for (const TrackPoint& p : track) report.trajectory.push_back({p.stamp, p.T_odom_base});
+  report.map = summarise(facts.robot.map());
+  if (auto picture = look_at(facts.robot.map(), {})) report.picture = std::move(*picture);
+  report.effective_config = to_yaml(facts.profile);
+  return report;
+}
+
+/// The truth beside a simulated recording; a run without one is as good as any.
+void add_ground_truth(const RunFacts& facts, RunReport& report) {
+  const fs::path file = facts.options.recording / "ground_truth.tum";
+  if (facts.options.recording.empty() || !fs::exists(file)) return;
+  if (auto truth = recording::read_tum(file))
+    for (const auto& p : *truth) report.ground_truth.push_back({p.stamp, p.pose});
+}
+
+}  // namespace
+
+Result<void> prepare_output(const fs::path& out) {
+  std::error_code error;
+  fs::create_directories(out, error);
+  if (error) return Error{Errc::kIo, "cannot make the output folder", out.string(), {}, error.message()};
+  // A run of an hour should not end with "permission denied".
+  return write_file_atomic(out / "config.yaml", "# the run has not ended\n");
+}
+
+Result<RunReport> write_output(const RunFacts& facts) {
+  const fs::path& out = facts.options.out;
+  RunReport report = make_report(facts);
+  add_ground_truth(facts, report);
+  const std::array<fs::path, 2> hashed{out / "trajectory.tum", out / "map.cairn"};
+  if (const auto r = write_file_atomic(out / "config.yaml", report.effective_config); !r) return r.error();
+  if (const auto r = write_trajectory(hashed[0], facts.robot.track()); !r) return r.error();
+  if (const auto r = save_cairn(facts.robot.map(), hashed[1]); !r) return r.error();
+  if (const auto r = save_ot(facts.robot.map(), out / "map.ot"); !r) return r.error();
+  const auto hash = sha256_of_files(hashed);
+  if (!hash) return hash.error();
+  report.output_sha256 = *hash;
+  std::error_code ignored;
+  report.map_file_bytes = fs::file_size(hashed[1], ignored);
+  if (const auto r = write_report(report, out); !r) return r.error();
+  return report;
+}
+
+}  // namespace cairn

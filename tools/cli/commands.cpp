@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/commands.hpp"
+
+#include "tools/cli/evaluate_command.hpp"
+#include "tools/cli/import_command.hpp"
+#include "tools/cli/inspect_command.hpp"
+#include "tools/cli/map_command.hpp"
+#include "tools/cli/record_command.hpp"
+#ifdef CAIRN_HAS_SIMULATOR
+#include "tools/cli/simulate_command.hpp"
+#endif
+
+namespace cairn::cli {
+
+void add_tool_commands(Commands& commands) {
+  add_record_command(commands);
+#ifdef CAIRN_HAS_SIMULATOR  // it needs Embree, which Debian has for x86-64 only
+  add_simulate_command(commands);
+#endif
+  add_import_command(commands);
+  add_inspect_command(commands);
+  add_map_command(commands);
+  add_evaluate_command(commands);
+}
+
+}  // namespace cairn::cli

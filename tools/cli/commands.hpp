@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "tools/cli/command.hpp"
+
+namespace cairn::cli {
+
+/// Every command but `run`, which belongs to the onboard program.
+void add_tool_commands(Commands& commands);
+
+}  // namespace cairn::cli
