@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/record_command.hpp"
+
+#include <gmock/gmock.h>
+
+#include <fstream>
+
+#include "drivers/recording/recording.hpp"
+#include "tests/tools/cli/run_command.hpp"
+
+namespace cairn::cli {
+namespace {
+
+using ::testing::HasSubstr;
+
+Outcome record(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "record");
+  return run(add_record_command, std::move(arguments));
+}
+
+/// A profile that listens on loopback only, on ports that no sensor uses.
+std::string quiet_profile(const Folder& folder) {
+  std::ofstream(folder / "robot.yaml") << "name: husky_7\nlidar:\n  model: HDL-32E\n  bind_address: 127.0.0.1\n"
+                                          "  data_port: 42368\n  position_port: 48308\n"
+                                          "  T_base_lidar: [0.1, 0, 0.7, 0, 0, 1.5]\n";
+  return folder / "robot.yaml";
+}
+
+TEST(RecordCommand, SilenceIsAFailureThatNamesItsRemedy) {
+  const Folder folder;
+  const Outcome o = record({"--config", quiet_profile(folder), "--out", folder / "r", "--seconds", "0.1", "--json"});
+  EXPECT_EQ(o.exit_code, kFailed);
+  EXPECT_THAT(o.err, HasSubstr("check cable"));
+  EXPECT_EQ(o.json()["packets"], 0);
+  const auto r = recording::load_recording(folder / "r");
+  ASSERT_TRUE(r) << to_string(r.error());
+  EXPECT_EQ(r->robot, "husky_7");
+  EXPECT_EQ(r->profile, "robot.yaml");
+  EXPECT_EQ(r->sources[0].model, "HDL-32E");
+  EXPECT_EQ(r->sources[0].data_port, 42368);
+  EXPECT_EQ(r->sources[0].position_port, 48308);
+  EXPECT_EQ((*r->sources[0].base_sensor_xyz_rpy)[5], 1.5);
+  EXPECT_GT(r->start_utc_ns, 1'700'000'000'000'000'000);
+  EXPECT_THAT(r->notes, HasSubstr("kernel_drops"));
+}
+
+TEST(RecordCommand, AnOldRecordingIsKept) {
+  const Folder folder;
+  const std::vector<std::string> arguments{"--config",   quiet_profile(folder), "--out",
+                                           folder / "r", "--seconds",           "0.05"};
+  record(arguments);
+  EXPECT_THAT(record(arguments).err, HasSubstr("there is a recording already"));
+}
+
+TEST(RecordCommand, AFaultyProfileIsAWrongArgument) {
+  const Folder folder;
+  std::ofstream(folder / "robot.yaml") << "lidar: {modle: VLP-16}\n";
+  const Outcome o = record({"--config", folder / "robot.yaml", "--out", folder / "r", "--seconds", "0.1"});
+  EXPECT_EQ(o.exit_code, kWrongArguments);
+  EXPECT_THAT(o.err, HasSubstr("lidar.modle"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "r"));
+}
+
+}  // namespace
+}  // namespace cairn::cli

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/inspect/inspect.hpp"
+
+#include <array>
+#include <fstream>
+#include <system_error>
+
+#include "drivers/recording/pcd_file.hpp"
+#include "drivers/recording/recording_reader.hpp"
+#include "drivers/recording/trajectory_file.hpp"
+#include "drivers/recording/utc.hpp"
+#include "drivers/velodyne/models.hpp"
+#include "drivers/velodyne/packet.hpp"
+#include "drivers/velodyne/pcap_source.hpp"
+#include "hal/file.hpp"
+#include "onboard/app/report/map_measures.hpp"
+#include "onboard/mapping/map_file.hpp"
+#include "tools/cli/inspect/inspect_stream.hpp"
+
+namespace cairn::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using recording::Recording;
+using recording::SourceEntry;
+
+bool is_capture(const fs::path& path) {
+  std::array<unsigned char, 4> magic{};
+  std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(magic.data()), magic.size());
+  using Magic = std::array<unsigned char, 4>;
+  for (const Magic& known :
+       {Magic{0xD4, 0xC3, 0xB2, 0xA1}, Magic{0xA1, 0xB2, 0xC3, 0xD4}, Magic{0x4D, 0x3C, 0xB2, 0xA1},
+        Magic{0xA1, 0xB2, 0x3C, 0x4D}, Magic{0x0A, 0x0D, 0x0D, 0x0A}})
+    if (magic == known) return true;
+  return false;
+}
+
+Result<Json> write_scan(const InspectOptions& options, const std::optional<Scan>& scan, std::uint64_t scans) {
+  if (!scan)
+    return Error{Errc::kNotFound, "there is no such scan", options.path.string(), {}, std::to_string(scans) + " scans"};
+  if (auto written = write_file_atomic(options.out, recording::to_pcd(scan->cloud)); !written) return written.error();
+  return Json{{"file", options.out.string()},
+              {"points", scan->cloud.size()},
+              {"start_s", to_seconds(scan->valid.start)},
+              {"end_s", to_seconds(scan->valid.end)},
+              {"incomplete", scan->incomplete}};
+}
+
+/// Appends what the stream holds to what is known of it.
+Result<Json> inspect_stream(const InspectOptions& options, const Recording& recording, Source& source, Json json) {
+  auto inspection = StreamInspection::create(recording, options.scan);
+  if (!inspection) return inspection.error();
+  (*inspection)->run(source);
+  json["sources"] = (*inspection)->sources();
+  json["events"] = (*inspection)->events();
+  json["damaged"] = (*inspection)->damaged();
+  json["damage"] = (*inspection)->damage();
+  if (options.out.empty()) return json;
+  auto written = write_scan(options, (*inspection)->kept(), (*inspection)->scans());
+  if (!written) return written.error();
+  json["out"] = std::move(*written);
+  return json;
+}
+
+/// Poses before a fault count, the fault is told.
+Json describe_trajectory(const fs::path& path) {
+  Json json;
+  std::vector<recording::StampedPose> poses;
+  const auto bytes = read_file(path, recording::kMaxTrajectoryBytes);
+  if (!bytes) return {{"damage", to_string(bytes.error())}};
+  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  const auto parsed = recording::parse_tum(text, path.string(), poses);
+  double length = 0;
+  for (std::size_t i = 1; i < poses.size(); ++i)
+    length += (poses[i].pose.translation() - poses[i - 1].pose.translation()).norm();
+  json["poses"] = poses.size();
+  json["length_m"] = length;
+  if (!poses.empty()) {
+    json["first_s"] = to_seconds(poses.front().stamp);
+    json["last_s"] = to_seconds(poses.back().stamp);
+    json["duration_s"] = to_seconds(poses.back().stamp - poses.front().stamp);
+  }
+  json["damage"] = parsed ? Json(nullptr) : Json(to_string(parsed.error()));
+  return json;
+}
+
+Result<Json> inspect_recording(const InspectOptions& options) {
+  auto reader = recording::RecordingReader::open(options.path);
+  if (!reader) return reader.error();
+  Recording recording = (*reader)->recording();
+  if (!options.model.empty())
+    for (SourceEntry& s : recording.sources) s.model = options.model;
+  Json json{{"kind", "recording"},
+            {"path", options.path.string()},
+            {"robot", recording.robot},
+            {"profile", recording.profile},
+            {"start_utc", recording::to_iso_utc(recording.start_utc_ns)},
+            {"realtime_offset_ns", recording.realtime_offset_ns},
+            {"notes", recording.notes}};
+  std::error_code ignored;
+  const fs::path truth = options.path / "ground_truth.tum";
+  json["ground_truth"] = fs::exists(truth, ignored) ? describe_trajectory(truth) : Json(nullptr);
+  return inspect_stream(options, recording, **reader, std::move(json));
+}
+
+/// Ports and model, from the first datagrams of the sensors' sizes.
+SourceEntry recognise(velodyne::PcapSource& capture) {
+  constexpr int kEnough = 10'000;
+  SourceEntry entry{"lidar", std::string(recording::kVelodyne), "", "", ""};
+  bool data = false, position = false;
+  Packet packet;
+  for (int i = 0; i < kEnough && !(data && position); ++i) {
+    const auto poll = capture.next(packet, {});
+    if (!poll || *poll == Poll::kEnd) break;
+    if (*poll == Poll::kTimeout) continue;
+    if (!data && packet.bytes.size() == velodyne::kDataBytes) {
+      data = true;
+      entry.data_port = packet.channel;
+      const auto* model = velodyne::find_model(std::to_integer<std::uint8_t>(packet.bytes[velodyne::kProductOffset]));
+      if (model != nullptr) entry.model = model->name;
+    }
+    if (!position && packet.bytes.size() == velodyne::kPositionBytes) {
+      position = true;
+      entry.position_port = packet.channel;
+    }
+  }
+  return entry;
+}
+
+Result<Json> inspect_capture(const InspectOptions& options) {
+  auto first_look = velodyne::PcapSource::open(options.path, {});
+  if (!first_look) return first_look.error();
+  Recording recording;
+  SourceEntry entry = recognise(**first_look);
+  entry.file = options.path.filename().string();
+  if (!options.model.empty()) entry.model = options.model;
+  if (entry.model.empty())
+    return Error{Errc::kUnsupported,
+                 "no known Velodyne sensor in the capture",
+                 options.path.string(),
+                 {},
+                 "name it with --model: " + velodyne::model_names()};
+  recording.sources.push_back(entry);
+  auto capture = velodyne::PcapSource::open(options.path, {});
+  if (!capture) return capture.error();
+  auto json = inspect_stream(options, recording, **capture, {{"kind", "capture"}, {"path", options.path.string()}});
+  if (!json) return json;
+  const auto& c = (*capture)->counters();
+  (*json)["records"] = {{"whole", c.records},
+                        {"not_udp", c.foreign},
+                        {"malformed", c.malformed},
+                        {"cut_short", c.truncated},
+                        {"ends_inside_a_record", c.truncated_tail}};
+  return json;
+}
+
+Result<Json> inspect_cloud(const InspectOptions& options) {
+  const auto bytes = read_file(options.path, recording::kMaxPcdBytes);
+  if (!bytes) return bytes.error();
+  const auto header = recording::parse_pcd_header(*bytes, options.path.string());
+  if (!header) return header.error();
+  const auto pcd = recording::parse_pcd(*bytes, options.path.string());
+  if (!pcd) return pcd.error();
+  Json json{{"kind", "point cloud"},
+            {"path", options.path.string()},
+            {"points", pcd->cloud.size()},
+            {"rejected", pcd->rejected}};
+  for (const auto& f : header->fields) json["fields"].push_back(f.name);
+  json["has_time"] = pcd->has_time;
+  if (options.out.empty()) return json;
+  Scan scan;
+  scan.cloud = pcd->cloud;
+  auto written = write_scan(options, scan, 1);
+  if (!written) return written.error();
+  json["out"] = std::move(*written);
+  return json;
+}
+
+Result<Json> inspect_map(const InspectOptions& options) {
+  const auto map = load_map(options.path);
+  if (!map) return at(options.path.string(), map.error());
+  Json json{{"kind", "map"}, {"path", options.path.string()}};
+  json.update(to_json(summarise(**map)));
+  return json;
+}
+
+/// "points_per_scan": 3 → "points per scan: 3", nested values indented below.
+void write_plain(std::string& out, const Json& value, const std::string& indent) {
+  const auto scalar = [](const Json& v) {
+    return v.is_string() ? v.get<std::string>() : v.is_null() ? "none" : v.dump();
+  };
+  for (const auto& [key, v] : value.items()) {
+    std::string label = value.is_array() ? "-" : key + ":";
+    for (char& c : label) c = c == '_' ? ' ' : c;
+    if (v.is_structured() && v.empty()) {
+      out += indent + label + " none\n";
+    } else if (v.is_structured()) {
+      out += indent + label + "\n";
+      write_plain(out, v, indent + "  ");
+    } else {
+      out += indent + label + " " + scalar(v) + "\n";
+    }
+  }
+}
+
+}  // namespace
+
+Result<Json> inspect(const InspectOptions& options) {
+  std::error_code error;
+  if (fs::is_directory(options.path, error)) return inspect_recording(options);
+  if (!fs::exists(options.path, error))
+    return Error{Errc::kNotFound, "there is no such file or folder", options.path.string(), {}, {}};
+  if (is_capture(options.path)) return inspect_capture(options);
+  const std::string extension = options.path.extension().string();
+  if (extension == ".pcd") return inspect_cloud(options);
+  if (extension == ".cairn" || extension == ".ot" || extension == ".bt") return inspect_map(options);
+  if (extension != ".tum" && extension != ".txt")
+    return Error{Errc::kUnsupported,
+                 "what this file holds is not known",
+                 options.path.string(),
+                 {},
+                 "known: folders of recordings, pcap, pcapng, .pcd, .cairn, .ot, .bt, .tum"};
+  Json json{{"kind", "trajectory"}, {"path", options.path.string()}};
+  json.update(describe_trajectory(options.path));
+  return json;
+}
+
+std::string to_plain_text(const Json& json) {
+  std::string out;
+  write_plain(out, json, "");
+  return out;
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "hal/result.hpp"
+#include "onboard/app/report/report_json.hpp"
+
+namespace cairn::cli {
+
+struct InspectOptions {
+  std::filesystem::path path;
+  std::string model;                  ///< of a capture, instead of what its packets say
+  std::filesystem::path out;          ///< where to write one scan as PCD; empty: nowhere
+  std::optional<std::uint64_t> scan;  ///< which one, counted from 0; none: the first complete one
+};
+
+/// What is in a folder of a recording, a capture (pcap, pcapng), a map (.cairn, .ot, .bt), a trajectory (.tum, .txt) or
+/// a point cloud (.pcd). Damage that leaves something to tell is told in `damage`, not as an Error.
+[[nodiscard]] Result<Json> inspect(const InspectOptions& options);
+
+/// The same as indented text for people.
+[[nodiscard]] std::string to_plain_text(const Json& json);
+
+}  // namespace cairn::cli

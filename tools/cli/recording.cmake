@@ -1,0 +1,8 @@
+# SPDX-License-Identifier: Apache-2.0
+cairn_library(cli_recording
+  SOURCES ${CMAKE_CURRENT_LIST_DIR}/import_command.cpp ${CMAKE_CURRENT_LIST_DIR}/inspect_command.cpp
+          ${CMAKE_CURRENT_LIST_DIR}/record_command.cpp ${CMAKE_CURRENT_LIST_DIR}/inspect/inspect.cpp
+          ${CMAKE_CURRENT_LIST_DIR}/inspect/inspect_stream.cpp ${CMAKE_CURRENT_LIST_DIR}/inspect/packet_figures.cpp
+          ${CMAKE_CURRENT_LIST_DIR}/inspect/scan_figures.cpp
+  PUBLIC cairn_hal cairn_recording cairn_velodyne CLI11::CLI11 nlohmann_json::nlohmann_json
+  PRIVATE cairn_app cairn_report)
