@@ -38,8 +38,8 @@ void declare(config::Section& s, OdometryConfig& c) {
   s.number("min_inlier_ratio", c.min_inlier_ratio, {0.0, 1.0}, "",
            "lost if a smaller share of the points near planes lies on them");
   s.integer("min_matches", c.min_matches, {6, 10000}, "", "lost if fewer points lie near planes");
-  s.number("degenerate_std_m", c.degenerate_std_m, {0.001, 10.0}, "m",
-           "a direction known worse than this from one scan is degenerate");
+  s.number("min_facing_points", c.min_facing_points, {1.0, 1000.0}, "",
+           "a direction is degenerate if fewer points look at a surface that faces it");
   s.integer("reinitialise_after", c.reinitialise_after, {1, 1000}, "", "lost scans in a row before a new map is begun");
 }
 

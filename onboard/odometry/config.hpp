@@ -33,7 +33,7 @@ struct OdometryConfig {
   double max_gap_s = 1.0;
   double min_inlier_ratio = 0.4;
   int min_matches = 60;
-  double degenerate_std_m = 0.2;
+  double min_facing_points = 10.0;
   int reinitialise_after = 10;
 };
 

@@ -8,38 +8,50 @@
 namespace cairn {
 namespace {
 
-// Corners and half-seen surfaces tilt planes by more than the noise alone would.
-constexpr double kSpuriousFactor = 4.0;
+constexpr float kSquaredSineOfNoise = 0.01F;
+
+/// Stops counting at `enough`: well determined directions are recognised after a few rows.
+bool enough_facing(std::span<const ResidualRow> rows, const Vector6& direction, double enough) {
+  const Eigen::Vector3f shift = direction.head<3>().cast<float>(), turn = direction.tail<3>().cast<float>();
+  double facing = 0;
+  for (const ResidualRow& row : rows) {
+    if (row.robust == 0) continue;
+    const Eigen::Vector3f motion = shift + turn.cross(row.point);
+    const float along_normal = row.normal.dot(motion), squared = motion.squaredNorm();
+    if (along_normal * along_normal < kSquaredSineOfNoise * squared) continue;
+    facing += row.robust * along_normal * along_normal / squared;
+    if (facing >= enough) return true;
+  }
+  return false;
+}
 
 }  // namespace
 
-Degeneracy find_degeneracy(const NormalEquations& n, double max_std_m, double correlation) {
+Degeneracy find_degeneracy(const NormalEquations& n, std::span<const ResidualRow> rows, double min_facing_points) {
   Degeneracy out;
   out.length_m = n.weight > 0 ? std::max(std::sqrt(n.squared_range / n.weight), 0.1) : 1.0;
   Vector6 scale = Vector6::Ones();
   scale.tail<3>().setConstant(1.0 / out.length_m);
   const Matrix6 information = scale.asDiagonal() * n.aa * scale.asDiagonal();
-  const Matrix6 spurious = scale.asDiagonal() * n.spurious * scale.asDiagonal();
   const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(information);
-  Vector6 kept;
+  const Matrix6& V = eigen.eigenvectors();
+  Vector6 lost = Vector6::Zero();
   for (int k = 0; k < 6; ++k) {
-    const Vector6 v = eigen.eigenvectors().col(k);
-    const double all = std::max(eigen.eigenvalues()[k], 0.0);
-    const double real = std::max(all - kSpuriousFactor * v.dot(spurious * v), 0.0);
-    const bool vague = real * max_std_m * max_std_m < correlation;
-    kept[k] = all > 0 ? std::sqrt(real / all) : 0.0;
-    if (2 * real >= all && !vague) continue;
-    kept[k] = 2 * real >= all ? kept[k] : 0.0;
-    out.directions[static_cast<std::size_t>(out.count++)] = v;
+    if (enough_facing(rows, scale.asDiagonal() * V.col(k), min_facing_points)) continue;
+    lost[k] = 1.0;
+    out.directions[static_cast<std::size_t>(out.count++)] = V.col(k);
   }
-  out.keep = scale.cwiseInverse().asDiagonal() * eigen.eigenvectors() * kept.asDiagonal() *
-             eigen.eigenvectors().transpose() * scale.asDiagonal();
+  if (out.count == 0) return out;
+  const Matrix6 lose = V * lost.asDiagonal() * V.transpose();
+  out.undetermined = scale.asDiagonal() * lose * scale.cwiseInverse().asDiagonal();
+  out.keep = Matrix6::Identity() - out.undetermined.transpose();
   return out;
 }
 
 NormalEquations without_degenerate(const NormalEquations& n, const Degeneracy& d) {
+  if (d.count == 0) return n;
   NormalEquations out = n;
-  const Matrix6 P = d.keep;
+  const Matrix6& P = d.keep;
   out.aa = P * n.aa * P.transpose();
   out.taa = P * n.taa * P.transpose();
   out.ttaa = P * n.ttaa * P.transpose();

@@ -17,6 +17,17 @@ Matrix12 inverse_of(const Matrix12& m) { return m.ldlt().solve(Matrix12::Identit
 
 Matrix12 symmetric(const Matrix12& m) { return 0.5 * (m + m.transpose()); }
 
+/// The covariance without what couples the undetermined motions to the others. The directions themselves are known to a
+/// few milliradians only: with metres of uncertainty along one of them, the coupling would let a perfectly measured
+/// other direction pretend to measure it too.
+Matrix12 decoupled(const Matrix12& P, const Degeneracy& d) {
+  if (d.count == 0) return P;
+  Matrix12 lose = Matrix12::Zero();
+  lose.topLeftCorner<6, 6>() = lose.bottomRightCorner<6, 6>() = d.undetermined;
+  const Matrix12 keep = Matrix12::Identity() - lose;
+  return lose * P * lose.transpose() + keep * P * keep.transpose();
+}
+
 }  // namespace
 
 MotionState operator+(const MotionState& x, const Vector12& step) {
@@ -49,28 +60,29 @@ void MotionFilter::predict(double dt, const MotionNoise& noise) {
   step_covariance_ = (carried * local_before_ * carried.transpose() + process_).topLeftCorner<6, 6>();
 }
 
-Vector12 MotionFilter::step(const MotionState& x, const NormalEquations& n, double correlation) const {
-  const Matrix12 prior = inverse_of(uncertainty_.local);
+Vector12 MotionFilter::step(const MotionState& x, const Measurement& m) const {
+  const NormalEquations& n = m.equations;
+  const Matrix12 prior = inverse_of(decoupled(uncertainty_.local, m.degeneracy));
   Vector12 from_prior;
   from_prior << (state_.T_odom_base.inverse() * x.T_odom_base).log(), x.twist - state_.twist;
   Vector12 gradient;
   gradient << n.ar, -n.tar;
-  gradient = gradient / correlation + prior * from_prior;
-  return -(information(n, correlation) + prior).ldlt().solve(gradient);
+  gradient = gradient / m.misfit + prior * from_prior;
+  return -(information(n, m.misfit) + prior).ldlt().solve(gradient);
 }
 
-void MotionFilter::update(const MotionState& x, const NormalEquations& n, double correlation,
-                          const Matrix6& map_covariance) {
-  const Matrix12 H = information(n, correlation);
-  const Matrix12 prior = inverse_of(uncertainty_.local);
+void MotionFilter::update(const MotionState& x, const Measurement& m, const Matrix6& map_covariance) {
+  const NormalEquations& n = m.equations;
+  const Matrix12 H = information(n, m.misfit);
+  const Matrix12 prior = inverse_of(decoupled(uncertainty_.local, m.degeneracy));
   const Matrix12 posterior = symmetric(inverse_of(H + prior));
   const Matrix12 keep = posterior * prior;  // what remains of the prediction's error
   const Matrix12 noise = symmetric(posterior * H * posterior);
   const Matrix12x6 follow = posterior * H.leftCols<6>();
   const Matrix6 ad = x.T_odom_base.inverse().adjoint();
   const Matrix6 map_error = ad * map_covariance * ad.transpose();
-  uncertainty_.total =
-      symmetric(keep * uncertainty_.total * keep.transpose() + follow * map_error * follow.transpose() + noise);
+  uncertainty_.total = symmetric(keep * uncertainty_.total * keep.transpose() +
+                                 follow * map_error * follow.transpose() + m.correlation * noise);
   uncertainty_.local = posterior;
   // Error of the motion = new error − the old one carried along.
   Matrix12 carried = Matrix12::Zero();

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "hal/se3.hpp"
+#include "onboard/odometry/degeneracy.hpp"
 #include "onboard/odometry/normal_equations.hpp"
 
 namespace cairn {
@@ -24,6 +25,14 @@ struct MotionNoise {
   double angular = 3.0;  ///< rad/s²
 };
 
+/// What one scan says, linearised at one state.
+struct Measurement {
+  const NormalEquations& equations;
+  const Degeneracy& degeneracy;  ///< `equations` are already without it
+  double misfit;       ///< Σ (r/σ)² per point, at least 1: by how much the variances of single points are too small
+  double correlation;  ///< by how much the drift exceeds what independent points would give
+};
+
 /// An iterated extended Kalman filter with the constant-twist model. It carries two covariances of the same state:
 /// `local` of the error against the map, which sets the gains, and `total` of the error against the start, which also
 /// inherits the errors that the map's planes were placed with.
@@ -39,10 +48,10 @@ class MotionFilter {
   void predict(double dt, const MotionNoise& noise);
 
   /// One Gauss–Newton step from `x` towards the maximum of the posterior; `n` was linearised at x.
-  [[nodiscard]] Vector12 step(const MotionState& x, const NormalEquations& n, double correlation) const;
+  [[nodiscard]] Vector12 step(const MotionState& x, const Measurement& m) const;
   /// Ends the iteration at x. `map_covariance` is that of the matched planes' common displacement, as the covariance of
   /// a left perturbation of T_odom_base.
-  void update(const MotionState& x, const NormalEquations& n, double correlation, const Matrix6& map_covariance);
+  void update(const MotionState& x, const Measurement& m, const Matrix6& map_covariance);
 
   [[nodiscard]] const MotionState& state() const { return state_; }
   [[nodiscard]] const Uncertainty& uncertainty() const { return uncertainty_; }

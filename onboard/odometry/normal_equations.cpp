@@ -6,17 +6,31 @@
 namespace cairn {
 namespace {
 
-/// Geman–McClure: full weight at the plane, a quarter at the scale, nothing far off.
-float robust_weight(float squared_distance, float squared_scale) {
-  const float k = squared_scale / (squared_scale + squared_distance);
+/// Σ (distance / σ)² over the rows.
+float mahalanobis(const PatchMatch& m) {
+  float sum = 0;
+  for (int k = 0; k < m.rows; ++k) {
+    const PatchMatch::Row& row = m.row[static_cast<std::size_t>(k)];
+    sum += row.distance * row.distance / row.variance;
+  }
+  return sum;
+}
+
+bool is_inlier(const PatchMatch& m) { return m.kind == PatchMatch::Kind::kOn && mahalanobis(m) < 9.0F; }
+
+/// Geman–McClure: full weight on the patch, a quarter at 3 σ (or at a third of the gate, while that is wider).
+float robust_weight(const PatchMatch& m, float gate) {
+  const float scale = std::max(9.0F, 0.1F * gate * gate / m.row[0].variance);
+  const float k = scale / (scale + mahalanobis(m));
   return k * k;
 }
 
 /// Running sums of one chunk, in the layout the compiler can keep in registers.
 class Accumulator {
  public:
-  void add(const Eigen::Vector3f& q, float age, const Eigen::Vector3f& n_base, const PlaneMatch& match, float robust) {
-    const double w = robust / match.variance, r = match.distance, t = age;
+  void add(const Eigen::Vector3f& q, float age, const Eigen::Vector3f& n_base, const PatchMatch::Row& row,
+           float robust) {
+    const double w = robust / row.variance, r = row.distance, t = age;
     Vector6 a;
     a << n_base.cast<double>(), q.cross(n_base).cast<double>();
     const Vector6 wa = w * a;
@@ -26,7 +40,6 @@ class Accumulator {
     sum_.ttaa += (t * t) * waa;
     sum_.ar += r * wa;
     sum_.tar += (t * r) * wa;
-    add_tilt(q.cast<double>(), w * match.tilt_variance);
     sum_.weight += w;
     sum_.robust += robust;
     sum_.squared_range += w * q.squaredNorm();
@@ -38,26 +51,10 @@ class Accumulator {
     sum_.inliers += inlier ? 1 : 0;
   }
 
-  [[nodiscard]] NormalEquations finish() const {
-    NormalEquations out = sum_;
-    out.spurious.topLeftCorner<3, 3>().diagonal().setConstant(tilt_);
-    out.spurious.bottomLeftCorner<3, 3>() = hat(tilt_q_);
-    out.spurious.topRightCorner<3, 3>() = -hat(tilt_q_);
-    out.spurious.bottomRightCorner<3, 3>() = tilt_qq_.trace() * Eigen::Matrix3d::Identity() - tilt_qq_;
-    return out;
-  }
+  [[nodiscard]] const NormalEquations& sum() const { return sum_; }
 
  private:
-  void add_tilt(const Eigen::Vector3d& q, double w) {
-    tilt_ += w;
-    tilt_q_ += w * q;
-    tilt_qq_ += w * q * q.transpose();
-  }
-
   NormalEquations sum_;
-  double tilt_ = 0;
-  Eigen::Vector3d tilt_q_ = Eigen::Vector3d::Zero();
-  Eigen::Matrix3d tilt_qq_ = Eigen::Matrix3d::Zero();
 };
 
 }  // namespace
@@ -68,7 +65,6 @@ void NormalEquations::operator+=(const NormalEquations& o) {
   ttaa += o.ttaa;
   ar += o.ar;
   tar += o.tar;
-  spurious += o.spurious;
   squared_range += o.squared_range;
   weight += o.weight;
   robust += o.robust;
@@ -81,32 +77,39 @@ void NormalEquations::operator+=(const NormalEquations& o) {
 Linearise::Linearise(std::size_t max_keypoints) {
   partial_.reserve(max_keypoints / kChunk + 1);
   uses_.reserve(max_keypoints);
+  rows_.reserve(2 * max_keypoints);
 }
 
-NormalEquations Linearise::operator()(std::span<const Keypoint> keypoints, const PlaneMap& map, const Linearisation& at,
+NormalEquations Linearise::operator()(std::span<const Keypoint> keypoints, const PatchMap& map, const Linearisation& at,
                                       Workers& workers) {
   const Deskew deskew(at.twist, at.T_base_lidar, at.duration_s);
   const Eigen::Matrix3d R = at.T_odom_base.rotation();
   const Eigen::Vector3d t = at.T_odom_base.translation();
   const Eigen::Matrix3f R_base_odom = R.transpose().cast<float>();
+  const Eigen::Vector3d lidar = R * at.T_base_lidar.translation();
   const auto gate = static_cast<float>(at.gate_m);
   partial_.resize((keypoints.size() + kChunk - 1) / kChunk);
   uses_.assign(keypoints.size(), {});
+  rows_.assign(2 * keypoints.size(), {});
   workers.for_each(partial_.size(), [&](std::size_t chunk) {
     Accumulator sum;
     const std::size_t end = std::min(keypoints.size(), (chunk + 1) * kChunk);
     for (std::size_t i = chunk * kChunk; i < end; ++i) {
       const Eigen::Vector3f q = deskew(keypoints[i].p_lidar, keypoints[i].age_s);
-      const PlaneMatch match = map.match(R * q.cast<double>() + t, gate);
-      const float squared = match.distance * match.distance;
-      const bool on = match.kind == PlaneMatch::Kind::kOn;
-      sum.count(match.kind != PlaneMatch::Kind::kNone, on && squared < 9.0F * match.variance);
-      if (!on) continue;
-      const float robust = robust_weight(squared, std::max(9.0F * match.variance, 0.1F * gate * gate));
-      uses_[i] = {robust / match.variance, match.epoch};
-      sum.add(q, keypoints[i].age_s, R_base_odom * match.normal, match, robust);
+      const Eigen::Vector3d ray = R * q.cast<double>();
+      const PatchMatch match = map.match(ray + t, (lidar - ray).cast<float>(), gate);
+      sum.count(match.kind != PatchMatch::Kind::kNone, is_inlier(match));
+      if (match.kind != PatchMatch::Kind::kOn) continue;
+      const float robust = robust_weight(match, gate);
+      uses_[i] = {robust / match.row[0].variance, match.epoch};
+      for (int k = 0; k < match.rows; ++k) {
+        const PatchMatch::Row& row = match.row[static_cast<std::size_t>(k)];
+        const Eigen::Vector3f n_base = R_base_odom * row.direction;
+        rows_[2 * i + static_cast<std::size_t>(k)] = {n_base, q, robust};
+        sum.add(q, keypoints[i].age_s, n_base, row, robust);
+      }
     }
-    partial_[chunk] = sum.finish();
+    partial_[chunk] = sum.sum();
   });
   NormalEquations total;
   for (const NormalEquations& p : partial_) total += p;

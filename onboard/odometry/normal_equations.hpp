@@ -9,7 +9,7 @@
 #include "hal/se3.hpp"
 #include "hal/workers.hpp"
 #include "onboard/odometry/deskew.hpp"
-#include "onboard/odometry/plane_map.hpp"
+#include "onboard/odometry/patch_map.hpp"
 
 namespace cairn {
 
@@ -29,15 +29,13 @@ struct NormalEquations {
   Matrix6 ttaa = Matrix6::Zero();  ///< Σ w τ² a aᵀ
   Vector6 ar = Vector6::Zero();    ///< Σ w a r
   Vector6 tar = Vector6::Zero();   ///< Σ w τ a r
-  /// Σ w·var(tilt)·B, B = M Mᵀ with M = [I; hat(q)]: the part of `aa` that noisy normals alone would give.
-  Matrix6 spurious = Matrix6::Zero();
-  double squared_range = 0;     ///< Σ w |q|²
-  double weight = 0;            ///< Σ w
-  double robust = 0;            ///< Σ w·variance = Σ of the robust weights
-  double chi2 = 0;              ///< Σ w r²
-  double squared_distance = 0;  ///< Σ robust weight · r²
-  int matched = 0;              ///< points whose neighbourhood holds a plane
-  int inliers = 0;              ///< of these, within 3 σ of it
+  double squared_range = 0;        ///< Σ w |q|²
+  double weight = 0;               ///< Σ w
+  double robust = 0;               ///< Σ w·variance = Σ of the robust weights
+  double chi2 = 0;                 ///< Σ w r²
+  double squared_distance = 0;     ///< Σ robust weight · r²
+  int matched = 0;                 ///< points whose neighbourhood holds a plane
+  int inliers = 0;                 ///< of these, within 3 σ of it
 
   void operator+=(const NormalEquations& o);
 };
@@ -57,19 +55,28 @@ struct KeypointUse {
   float epoch = 0;
 };
 
+/// One residual: a point and the direction in which its patch holds it, both in base_link. robust 0: not used.
+struct ResidualRow {
+  Eigen::Vector3f normal = Eigen::Vector3f::Zero();
+  Eigen::Vector3f point = Eigen::Vector3f::Zero();
+  float robust = 0;  ///< robust weight, 0…1
+};
+
 /// Sums over all keypoints in chunks of fixed size, reduced in order: the same bits for any number of threads.
 class Linearise {
  public:
   explicit Linearise(std::size_t max_keypoints);
-  NormalEquations operator()(std::span<const Keypoint> keypoints, const PlaneMap& map, const Linearisation& at,
+  NormalEquations operator()(std::span<const Keypoint> keypoints, const PatchMap& map, const Linearisation& at,
                              Workers& workers);
   /// Of the last call, one per keypoint.
   [[nodiscard]] std::span<const KeypointUse> uses() const { return uses_; }
+  [[nodiscard]] std::span<const ResidualRow> rows() const { return rows_; }
 
  private:
   static constexpr std::size_t kChunk = 128;
   std::vector<NormalEquations> partial_;
   std::vector<KeypointUse> uses_;
+  std::vector<ResidualRow> rows_;  // two per keypoint
 };
 
 }  // namespace cairn

@@ -10,8 +10,8 @@ namespace {
 // A revolution takes at most 0.2 s (5 Hz); an older point has a broken stamp.
 constexpr double kMaxAge = 0.25;
 
-PlaneMap::Config map_config(const OdometryConfig& c) {
-  PlaneCriteria criteria;
+PatchMap::Config map_config(const OdometryConfig& c) {
+  PatchCriteria criteria;
   criteria.noise_floor_m = static_cast<float>(c.noise_floor_m);
   criteria.max_thickness_m = static_cast<float>(c.max_thickness_m);
   return {c.finest_block_m, c.max_blocks, c.max_points_per_block, criteria};
@@ -137,9 +137,10 @@ LidarOdometry::Fit LidarOdometry::fit(Budget& budget) {
   while (found.iterations < config_.max_iterations && budget.one_more()) {
     const Linearisation at{found.state.T_odom_base, found.state.twist, T_base_lidar_, duration_s_, gate};
     const NormalEquations all = linearise_(keypoints_, map_, at, workers_);
-    found.degeneracy = find_degeneracy(all, config_.degenerate_std_m, config_.correlation_factor);
+    found.degeneracy = find_degeneracy(all, linearise_.rows(), config_.min_facing_points);
     found.equations = without_degenerate(all, found.degeneracy);
-    const Vector12 step = filter_.step(found.state, found.equations, config_.correlation_factor);
+    const Vector12 step =
+        filter_.step(found.state, {found.equations, found.degeneracy, 1.0, config_.correlation_factor});
     found.state = found.state + step;
     ++found.iterations;
     found.converged = gate <= least && step.head<3>().norm() < 2e-4 && step.segment<3>(3).norm() < 2e-5;
@@ -160,15 +161,15 @@ bool LidarOdometry::plausible(const Fit& found, double dt) const {
 void LidarOdometry::accept(const Fit& found) {
   lost_in_a_row_ = 0;
   const double misfit = found.equations.robust > 0 ? found.equations.chi2 / found.equations.robust : 1.0;
-  filter_.update(found.state, found.equations, config_.correlation_factor * std::max(1.0, misfit),
-                 drift_.average(linearise_.uses()));
+  const Measurement measurement{found.equations, found.degeneracy, std::max(1.0, misfit), config_.correlation_factor};
+  filter_.update(found.state, measurement, drift_.average(linearise_.uses()));
 }
 
 void LidarOdometry::lose_track(OdometryUpdate& update) {
   update.lost = true;
   update.converged = false;
   ++lost_in_a_row_;
-  if (lost_in_a_row_ < config_.reinitialise_after && map_.planes() > 0) return;
+  if (lost_in_a_row_ < config_.reinitialise_after && map_.patches() > 0) return;
   update.reinitialised = true;
   lost_in_a_row_ = 0;
   begin_map();
@@ -202,12 +203,14 @@ void LidarOdometry::insert() {
   map_points_.clear();
   map_points_.reserve(dense_points_.size());
   for (const std::uint32_t i : dense_points_)
-    map_points_.push_back({R * points_base_[i].cast<double>() + T.translation(), points_lidar_[i].norm()});
+    map_points_.push_back(R * points_base_[i].cast<double>() + T.translation());
   if ((T.translation() - T_odom_pruned_.translation()).norm() > 0.1 * config_.window_m) {
     map_.keep_within(T.translation(), config_.window_m);
     T_odom_pruned_ = T;
   }
-  map_.insert(map_points_, drift_.epoch(), workers_);
+  const SE3 T_odom_lidar = T * T_base_lidar_;
+  const PatchGrid::Sensor sensor{T_odom_lidar.translation(), T_odom_lidar.rotation().col(2).cast<float>()};
+  map_.insert(map_points_, sensor, drift_.epoch(), workers_);
 }
 
 void LidarOdometry::fill(OdometryUpdate& update) const {

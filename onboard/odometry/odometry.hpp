@@ -17,7 +17,7 @@
 #include "onboard/odometry/drift_history.hpp"
 #include "onboard/odometry/motion_filter.hpp"
 #include "onboard/odometry/normal_equations.hpp"
-#include "onboard/odometry/plane_map.hpp"
+#include "onboard/odometry/patch_map.hpp"
 #include "onboard/odometry/subsample.hpp"
 
 namespace cairn {
@@ -91,7 +91,7 @@ class LidarOdometry {
   SE3 T_base_lidar_;
   Workers& workers_;
 
-  PlaneMap map_;
+  PatchMap map_;
   MotionFilter filter_;
   DriftHistory drift_;
   Linearise linearise_;
@@ -111,7 +111,7 @@ class LidarOdometry {
   std::span<const std::uint32_t> dense_points_;
   std::vector<Keypoint> keypoints_;
   std::vector<Eigen::Vector3f> points_base_;
-  std::vector<MapPoint> map_points_;
+  std::vector<Eigen::Vector3d> map_points_;
 };
 
 }  // namespace cairn

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/odometry/plane_grid.hpp"
+#include "onboard/odometry/patch_grid.hpp"
 
 #include <algorithm>
 #include <bit>
@@ -14,93 +14,101 @@ constexpr float kRefitGrowth = 1.25F;
 
 }  // namespace
 
-PlaneGrid::PlaneGrid(float edge, bool staggered, const Limits& limits)
+PatchGrid::PatchGrid(float edge, bool staggered, const Limits& limits)
     : edge_(edge), half_(staggered ? 0.0 : 0.5), limits_(limits), slots_(std::bit_ceil(2 * limits.blocks)) {
   index_.reserve(limits.blocks);
+  side_.reserve(limits.blocks);
   moments_.reserve(limits.blocks);
-  planes_.reserve(limits.blocks);
+  patches_.reserve(limits.blocks);
   fitted_.reserve(limits.blocks);
   grown_.reserve(limits.blocks);
 }
 
-std::size_t PlaneGrid::slot_of(const BlockIndex& at) const {
-  const std::uint64_t key = voxel_key(at.x, at.y, at.z);
+std::uint64_t PatchGrid::key_of(const BlockIndex& at, Side side) {
+  return voxel_key(at.x, at.y, at.z) | static_cast<std::uint64_t>(side) << 63;
+}
+
+std::size_t PatchGrid::slot_of(const BlockIndex& at, Side side) const {
+  const std::uint64_t key = key_of(at, side);
   const std::size_t mask = slots_.size() - 1;
   std::size_t slot = voxel_hash(key) & mask;
   while (slots_[slot].block != kNone && slots_[slot].key != key) slot = (slot + 1) & mask;
   return slot;
 }
 
-std::uint32_t PlaneGrid::find_or_make(const BlockIndex& at) {
-  Slot& slot = slots_[slot_of(at)];
+std::uint32_t PatchGrid::find_or_make(const BlockIndex& at, Side side) {
+  Slot& slot = slots_[slot_of(at, side)];
   if (slot.block != kNone || index_.size() == limits_.blocks) return slot.block;
-  slot = {voxel_key(at.x, at.y, at.z), static_cast<std::uint32_t>(index_.size())};
+  slot = {key_of(at, side), static_cast<std::uint32_t>(index_.size())};
   index_.push_back(at);
+  side_.push_back(side);
   moments_.emplace_back();
-  planes_.emplace_back();
+  patches_.emplace_back();
   fitted_.push_back(0);
   return slot.block;
 }
 
-void PlaneGrid::add(const BlockIndex& at, const Eigen::Vector3d& p, float epoch) {
-  const std::uint32_t block = find_or_make(at);
+void PatchGrid::add(const BlockIndex& at, const Eigen::Vector3d& p, const Eigen::Vector3f& to_sensor, float epoch) {
+  std::uint32_t block = find_or_make(at, kFront);
+  if (block != kNone && seen_from_behind(patches_[block], to_sensor)) block = find_or_make(at, kBack);
   if (block == kNone) return;
   Moments& m = moments_[block];
   if (m.count >= limits_.points) return;
   m.add((p - centre(at)).cast<float>(), epoch);
-  // Marked once: the mark is the sign, which refit() clears.
   if (fitted_[block] >= 0 && m.count >= kRefitGrowth * fitted_[block]) {
     fitted_[block] = -m.count;
     grown_.push_back(block);
   }
 }
 
-void PlaneGrid::refit(const PlaneCriteria& criteria) {
+void PatchGrid::refit(const PatchCriteria& criteria, const Sensor& sensor) {
   for (const std::uint32_t block : grown_) {
-    planes_[block] = fit_plane(moments_[block], static_cast<float>(edge_), criteria);
+    const Viewpoint from{(sensor.position - centre(index_[block])).cast<float>(), sensor.up};
+    patches_[block] = fit_patch(moments_[block], static_cast<float>(edge_), criteria, from);
     fitted_[block] = moments_[block].count;
   }
   grown_.clear();
 }
 
-void PlaneGrid::keep_within(const Eigen::Vector3d& centre_kept, double radius) {
+void PatchGrid::keep_within(const Eigen::Vector3d& centre_kept, double radius) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < index_.size(); ++i) {
     if ((centre(index_[i]) - centre_kept).squaredNorm() > radius * radius) continue;
     index_[kept] = index_[i];
+    side_[kept] = side_[i];
     moments_[kept] = moments_[i];
-    planes_[kept] = planes_[i];
+    patches_[kept] = patches_[i];
     fitted_[kept] = fitted_[i];
     ++kept;
   }
   if (kept == index_.size()) return;
   index_.resize(kept);
+  side_.resize(kept);
   moments_.resize(kept);
-  planes_.resize(kept);
+  patches_.resize(kept);
   fitted_.resize(kept);
   rehash();
 }
 
-void PlaneGrid::rehash() {
+void PatchGrid::rehash() {
   std::fill(slots_.begin(), slots_.end(), Slot{});
-  for (std::size_t i = 0; i < index_.size(); ++i) {
-    const BlockIndex& at = index_[i];
-    slots_[slot_of(at)] = {voxel_key(at.x, at.y, at.z), static_cast<std::uint32_t>(i)};
-  }
+  for (std::size_t i = 0; i < index_.size(); ++i)
+    slots_[slot_of(index_[i], side_[i])] = {key_of(index_[i], side_[i]), static_cast<std::uint32_t>(i)};
 }
 
-void PlaneGrid::clear() {
+void PatchGrid::clear() {
   index_.clear();
+  side_.clear();
   moments_.clear();
-  planes_.clear();
+  patches_.clear();
   fitted_.clear();
   grown_.clear();
   rehash();
 }
 
-std::size_t PlaneGrid::planes() const {
+std::size_t PatchGrid::patches() const {
   return static_cast<std::size_t>(
-      std::count_if(planes_.begin(), planes_.end(), [](const Plane& p) { return p.count > 0; }));
+      std::count_if(patches_.begin(), patches_.end(), [](const Patch& p) { return p.kind != Patch::Kind::kNone; }));
 }
 
 }  // namespace cairn
