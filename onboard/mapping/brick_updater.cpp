@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/mapping/brick_updater.hpp"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 
@@ -25,14 +26,63 @@ Summary summarise(const std::uint64_t* free, const std::uint64_t* occupied) {
   return s;
 }
 
-/// The blocks below the children of `node` are needed soon, and rarely cached.
-void prefetch_grandchildren(const SemanticNode* node, std::uint64_t touched) {
-  const SemanticNode* block = node->block();
-  for (unsigned i = 0; i < SemanticNode::kChildren; ++i) {
-    if ((touched >> (8 * i) & 0xFF) == 0) continue;
-    __builtin_prefetch(block[i].block());
-    __builtin_prefetch(block[i].block() + SemanticNode::kChildren / 2);
+/// Four voxels at a time; plain vectors that GCC and clang map to whatever the machine has.
+using Floats = float __attribute__((vector_size(16)));
+using Masks = std::int32_t __attribute__((vector_size(16)));  // all bits of an element set, or none
+
+Floats choose(Masks mask, Floats a, Floats b) {
+  return reinterpret_cast<Floats>((mask & reinterpret_cast<Masks>(a)) | (~mask & reinterpret_cast<Masks>(b)));
+}
+Floats all(float value) { return Floats{value, value, value, value}; }
+bool any(Masks mask) { return (mask[0] | mask[1] | mask[2] | mask[3]) != 0; }
+
+/// The update of the eight voxels of one block, without branches: which of them are touched, known or saturated cannot
+/// be predicted. The rules are those of SensorModel::update() and first(); 0 lies between the clamping values.
+struct VoxelUpdate {
+  VoxelUpdate(const SemanticNode* voxels, unsigned free, unsigned occupied, const SensorModel& model) {
+    const Masks bits{1, 2, 4, 8};
+    Masks changes{}, state_changes{}, news{};
+    for (unsigned half = 0; half < 2; ++half) {
+      const SemanticNode* four = voxels + 4 * half;
+      const Floats old{four[0].getLogOdds(), four[1].getLogOdds(), four[2].getLogOdds(), four[3].getLogOdds()};
+      const auto hits = static_cast<std::int32_t>(occupied >> (4 * half)),
+                 misses = static_cast<std::int32_t>(free >> (4 * half));
+      const Masks hit = (bits & hits) != 0;
+      const Masks touched = (bits & (hits | misses)) != 0;
+      const Masks known = old != SemanticNode::kAbsent;
+      const Floats before = choose(known, old, all(0.0F));
+      Floats after = before + choose(hit, all(model.hit), all(model.miss));
+      after = choose(after < model.min, all(model.min), after);
+      after = choose(after > model.max, all(model.max), after);
+      const Masks saturated = (hit & (before >= model.max)) | (~hit & (before <= model.min));
+      after = choose(touched, choose(saturated, before, after), old);
+      changes |= after != old;
+      news -= touched & ~known;
+      state_changes |= touched & (~known | ((old >= model.occupied) ^ (after >= model.occupied)));
+      values[half] = after;
+    }
+    const Masks unequal = (values[0] != values[0][0]) | (values[1] != values[0][0]);
+    changed = any(changes);
+    state_changed = any(state_changes);
+    all_equal = !any(unequal);
+    added = news[0] + news[1] + news[2] + news[3];
+    const Floats higher = choose(values[0] > values[1], values[0], values[1]);
+    highest = std::max(std::max(higher[0], higher[1]), std::max(higher[2], higher[3]));
   }
+
+  void write(SemanticNode* voxels) const {
+    for (unsigned i = 0; i < SemanticNode::kChildren; ++i) voxels[i].setLogOdds(values[i / 4][i % 4]);
+  }
+
+  Floats values[2];
+  float highest;
+  int added;  // voxels that were unknown
+  bool changed, state_changed, all_equal;
+};
+
+bool same_labels(const SemanticNode* block) {
+  return std::all_of(block, block + SemanticNode::kChildren,
+                     [block](const SemanticNode& n) { return n.label_id() == block->label_id(); });
 }
 
 }  // namespace
@@ -76,6 +126,7 @@ bool BrickUpdater::update_tile(SemanticNode* tile, bool made, const std::uint64_
   }
   for (unsigned i = 0; i < SemanticNode::kChildren; ++i) {
     if ((free[i] | occupied[i]) == 0) continue;
+    look_ahead_.step();
     bool made_word = false;
     SemanticNode* word = writer_.child(tile, i, made_word);
     changed |= update_word(word, made_word, free[i] & ~occupied[i], occupied[i]);
@@ -92,7 +143,6 @@ bool BrickUpdater::update_word(SemanticNode* node, bool made, std::uint64_t free
     changed = true;
   }
   const std::uint64_t touched = free | occupied;
-  if (!changed) prefetch_grandchildren(node, touched);
   for (unsigned i = 0; i < SemanticNode::kChildren; ++i) {
     if ((touched >> (8 * i) & 0xFF) == 0) continue;
     bool made_parent = false;
@@ -114,22 +164,16 @@ bool BrickUpdater::update_voxels(SemanticNode* parent, bool made, unsigned free,
       changed = true;
     }
   }
-  SemanticNode* voxels = parent->block();
-  for (unsigned left = free | occupied; left != 0; left &= left - 1) {
-    const auto i = static_cast<unsigned>(std::countr_zero(left));
-    const float delta = (occupied >> i & 1) != 0 ? model_.hit : model_.miss;
-    if (voxels[i].present()) {
-      const float before = voxels[i].getLogOdds(), after = model_.update(before, delta);
-      changed |= after != before;
-      set(voxels[i], after);
-    } else {
-      voxels[i].setLogOdds(model_.first(delta));
-      writer_.count(1);
-      changed = state_changed_ = true;
-    }
-  }
-  if (changed) writer_.refresh(parent);
-  return changed;
+  const VoxelUpdate update(parent->block(), free, occupied, model_);
+  state_changed_ |= update.state_changed;
+  if (!changed && !update.changed) return false;
+  update.write(parent->block());
+  writer_.count(update.added);
+  if (update.all_equal && same_labels(parent->block()))
+    writer_.collapse(parent);
+  else
+    parent->setLogOdds(update.highest);
+  return true;
 }
 
 BrickUpdater::Leaf BrickUpdater::update_leaf(SemanticNode* leaf, bool any_occupied, bool all_free) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "onboard/mapping/look_ahead.hpp"
 #include "onboard/mapping/node_writer.hpp"
 #include "onboard/mapping/sensor_model.hpp"
 
@@ -21,10 +22,12 @@ class BrickUpdater {
     std::uint8_t changed_octants = 0;  ///< the tiles (8³) in which a voxel became known, or free ↔ occupied
   };
 
-  BrickUpdater(NodeWriter& writer, const SensorModel& model) : writer_(writer), model_(model) {}
+  BrickUpdater(NodeWriter& writer, const SensorModel& model, LookAhead& look_ahead)
+      : writer_(writer), model_(model), look_ahead_(look_ahead) {}
 
   /// `free` and `occupied` are BrickBits; occupied wins. `made`: the node was just created, so everything below it is
   /// unknown, while otherwise a node without children is a pruned leaf.
+  /// `look_ahead` has turned to this brick.
   Outcome update(SemanticNode* brick, bool made, const std::uint64_t* free, const std::uint64_t* occupied);
 
  private:
@@ -47,6 +50,7 @@ class BrickUpdater {
 
   NodeWriter& writer_;
   SensorModel model_;
+  LookAhead& look_ahead_;
   bool state_changed_ = false;  // in the tile at hand
 };
 

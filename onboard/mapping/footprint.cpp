@@ -64,32 +64,31 @@ std::uint32_t Footprint::add_brick(std::uint64_t brick) {
     occupied_.resize(words);
   }
   bricks_.push_back(brick);
-  enter(brick, slot);
-  return slot;
+  enter(brick, slot * static_cast<std::uint32_t>(kWords));
+  return slot * static_cast<std::uint32_t>(kWords);
 }
 
-void Footprint::enter(std::uint64_t brick, std::uint32_t slot) {
+void Footprint::enter(std::uint64_t brick, std::uint32_t words) {
   if (flat_) {
-    table_[brick] = slot;
+    table_[brick] = words;
     return;
   }
-  table_[hash_place(brick)] = slot;
+  table_[hash_place(brick)] = words;
   if (bricks_.size() * 2 > table_.size()) rehash(table_.size() * 2);
 }
-
-std::uint32_t Footprint::find(std::uint64_t brick) const { return table_[hash_place(brick)]; }
 
 /// The place of the brick, or the free one where it belongs. Linear probing; the table is never more than half full.
 std::size_t Footprint::hash_place(std::uint64_t brick) const {
   const std::size_t mask = std::bit_floor(table_.size()) - 1;
   std::size_t place = (brick * 0x9E3779B97F4A7C15U >> 20U) & mask;
-  while (table_[place] != 0 && bricks_[table_[place]] != brick) place = (place + 1) & mask;
+  while (table_[place] != 0 && bricks_[table_[place] / kWords] != brick) place = (place + 1) & mask;
   return place;
 }
 
 void Footprint::rehash(std::size_t places) {
   table_.assign(places, 0U);
-  for (std::uint32_t slot = 1; slot < bricks_.size(); ++slot) table_[hash_place(bricks_[slot])] = slot;
+  for (std::uint32_t slot = 1; slot < bricks_.size(); ++slot)
+    table_[hash_place(bricks_[slot])] = slot * static_cast<std::uint32_t>(kWords);
 }
 
 }  // namespace cairn

@@ -38,7 +38,12 @@ class Footprint {
   template <bool kFlat>
   void mark_free(std::uint64_t index) {
     const std::size_t word = words_of<kFlat>(index >> BrickGrid::kBrickShift) + ((index >> 6) & 63);
-    free_[word] |= std::uint64_t{1} << (index & 63);
+    free_.data()[word] |= std::uint64_t{1} << (index & 63);  // data(): unchecked, this is the innermost loop
+  }
+  /// mark_free<true>(index) for an index that comes in parts: index >> 12, index >> 6 & 63, and itself.
+  void mark_free_flat(std::uint64_t brick, std::uint64_t word, std::uint64_t index) {
+    const std::size_t at = words_of<true>(brick) + word;  // first: it may move the words
+    free_.data()[at] |= std::uint64_t{1} << (index & 63);
   }
   /// Returns false if the voxel was marked before.
   bool mark_occupied(std::uint64_t index);
@@ -60,22 +65,23 @@ class Footprint {
  private:
   static constexpr unsigned kMaxFlatBits = 22;  // a table of 16 MiB
 
-  /// Where the words of a brick start. Table entries are 0 for untouched bricks; slot 0 takes what must be dropped.
+  /// Where the words of a brick start: slot × 64. 0 stands for an untouched brick in the table, and as a result for
+  /// words that take what must be dropped.
   template <bool kFlat>
   std::size_t words_of(std::uint64_t brick) {
-    const std::uint32_t slot = kFlat ? table_[brick] : find(brick);
-    return (slot != 0 ? slot : add_brick(brick)) * kWords;
+    const std::uint32_t words = kFlat ? table_.data()[brick] : find(brick);
+    return words != 0 ? words : add_brick(brick);
   }
-  [[nodiscard]] std::uint32_t find(std::uint64_t brick) const;
+  [[nodiscard]] std::uint32_t find(std::uint64_t brick) const { return table_[hash_place(brick)]; }
   [[gnu::noinline]] std::uint32_t add_brick(std::uint64_t brick);
-  void enter(std::uint64_t brick, std::uint32_t slot);
+  void enter(std::uint64_t brick, std::uint32_t words);
   [[nodiscard]] std::size_t hash_place(std::uint64_t brick) const;
   void rehash(std::size_t places);
 
   std::size_t max_bricks_;
   BrickGrid grid_;
   bool flat_ = true, overflown_ = false;
-  std::vector<std::uint32_t> table_;  // flat: brick → slot; else: open addressing, place → slot
+  std::vector<std::uint32_t> table_;  // flat: brick → words_of(); else: open addressing, place → the same
   std::vector<std::uint64_t> free_{std::vector<std::uint64_t>(kWords)}, occupied_{std::vector<std::uint64_t>(kWords)};
   std::vector<std::uint64_t> bricks_{0};  // slot → brick; slot 0 is not used
   std::vector<BrickRef> refs_;

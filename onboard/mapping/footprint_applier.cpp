@@ -72,13 +72,23 @@ bool FootprintApplier::any_occupied(std::span<const BrickRef> bricks) const {
   });
 }
 
+void FootprintApplier::turn(LookAhead& look_ahead, const Job* after) const {
+  if (after == nullptr) return look_ahead.turn_to(nullptr, nullptr, nullptr);
+  look_ahead.turn_to(after->node, footprint_->free(after->slot), footprint_->occupied(after->slot));
+}
+
 void FootprintApplier::update_bricks(Workers& workers) {
   const SensorModel model = tree_->sensor_model();
   workers.for_each(SemanticOcTree::kWriters, [&](std::size_t part) {
-    BrickUpdater updater(tree_->writer(static_cast<unsigned>(part)), model);
+    LookAhead look_ahead;
+    BrickUpdater updater(tree_->writer(static_cast<unsigned>(part)), model, look_ahead);
     const std::size_t first = jobs_.size() * part / SemanticOcTree::kWriters;
     const std::size_t last = jobs_.size() * (part + 1) / SemanticOcTree::kWriters;
+    if (first < last) turn(look_ahead, &jobs_[first]);
     for (std::size_t i = first; i < last; ++i) {
+      turn(look_ahead, i + 1 < last ? &jobs_[i + 1] : nullptr);
+      if (i + 4 < last) LookAhead::fetch_tiles(jobs_[i + 4].node);
+      if (i + 2 < last) LookAhead::fetch_words(jobs_[i + 2].node);
       Job& job = jobs_[i];
       const auto outcome =
           updater.update(job.node, job.made, footprint_->free(job.slot), footprint_->occupied(job.slot));

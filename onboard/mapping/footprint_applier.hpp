@@ -7,6 +7,7 @@
 
 #include "hal/workers.hpp"
 #include "onboard/mapping/footprint.hpp"
+#include "onboard/mapping/look_ahead.hpp"
 #include "onboard/mapping/map_tile.hpp"
 #include "onboard/mapping/semantic_octree.hpp"
 
@@ -32,6 +33,7 @@ class FootprintApplier {
 
   void descend(SemanticNode* node, bool made, bool expanded, unsigned depth, std::span<const BrickRef> bricks);
   [[nodiscard]] bool any_occupied(std::span<const BrickRef> bricks) const;
+  void turn(LookAhead& look_ahead, const Job* after) const;
   void update_bricks(Workers& workers);
   bool ascend(SemanticNode* node, unsigned depth, std::span<const Job> jobs);
   void list_changed(std::vector<TileKey>& changed) const;

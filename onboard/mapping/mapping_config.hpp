@@ -22,8 +22,8 @@ inline void declare(config::Section& s, MappingConfig& c) {
   s.number("resolution_m", c.resolution_m, {0.01, 10.0}, "m", "edge of a voxel");
   s.number("max_range_m", c.max_range_m, {-1.0, 1000.0}, "m",
            "beams are cut here: free space up to it, no hit beyond; negative: no limit");
-  s.number("prob_hit", c.prob_hit, {0.5, 0.99}, "", "probability that a hit voxel is occupied");
-  s.number("prob_miss", c.prob_miss, {0.01, 0.5}, "", "probability that a voxel seen through is occupied");
+  s.number("prob_hit", c.prob_hit, {0.51, 0.99}, "", "probability that a hit voxel is occupied");
+  s.number("prob_miss", c.prob_miss, {0.01, 0.49}, "", "probability that a voxel seen through is occupied");
   s.number("clamping_min", c.clamping_min, {0.001, 0.5}, "", "occupancy probability is never below");
   s.number("clamping_max", c.clamping_max, {0.5, 0.999}, "", "occupancy probability is never above");
   s.integer("reserve_mb", c.reserve_mb, {0, 65536}, "MB", "memory for nodes that is taken and touched at the start");

@@ -15,10 +15,14 @@ namespace {
 
 constexpr int kLanes = 4;
 
-/// Four rays under way. `lanes` is what does not fit into registers.
+/// Four rays under way. The first members are in registers while they march, see Group.
 struct alignas(32) Lanes {
-  double t[3][kLanes], d[3][kLanes], length[kLanes];
-  std::uint64_t at[3][kLanes], step[3][kLanes], end[kLanes], index[kLanes];
+  double t[3][kLanes];
+  std::uint64_t at[3][kLanes];  ///< where they are, split by axis
+  double d[3][kLanes], length[kLanes];
+  std::uint64_t step[3][kLanes], end[kLanes];
+  std::uint64_t index[kLanes], brick[kLanes],
+      word[kLanes];  ///< where they are, as Footprint::mark_free_flat() wants it
 };
 
 /// The voxel the rays start from, split by axis.
@@ -27,20 +31,42 @@ struct Start {
   std::uint64_t mask[3];
 };
 
+CAIRN_AVX2 inline __m256i load_integers(const std::uint64_t* from) {
+  return _mm256_load_si256(reinterpret_cast<const __m256i*>(from));
+}
+CAIRN_AVX2 inline void store_integers(std::uint64_t* to, __m256i value) {
+  _mm256_store_si256(reinterpret_cast<__m256i*>(to), value);
+}
+
+/// Writes one lane by reading, blending and writing all four: a narrow write, read back at once as a part of all four,
+/// would wait until it has reached the cache.
+CAIRN_AVX2 inline void set_lane(double* lanes, __m256d lane, double value) {
+  _mm256_store_pd(lanes, _mm256_blendv_pd(_mm256_load_pd(lanes), _mm256_set1_pd(value), lane));
+}
+CAIRN_AVX2 inline void set_lane(std::uint64_t* lanes, __m256d lane, std::uint64_t value) {
+  const __m256i all = _mm256_set1_epi64x(static_cast<std::int64_t>(value));
+  store_integers(lanes, _mm256_blendv_epi8(load_integers(lanes), all, _mm256_castpd_si256(lane)));
+}
+
 /// Puts a ray into a lane, or parks the lane in the origin voxel, whose mark changes nothing, when there is none left.
 /// Returns whether the lane is under way.
-bool load(Lanes& lanes, int lane, const Start& start, const Ray*& next, const Ray* last) {
+CAIRN_AVX2 bool load(Lanes& lanes, int number, const Start& start, const Ray*& next, const Ray* last) {
   static constexpr Ray kParked{{}, {}, 0.0, ~std::uint64_t{0}, {}};
   const bool there = next != last;
   const Ray& ray = there ? *next++ : kParked;
-  for (int a = 0; a < 3; ++a) {
-    lanes.t[a][lane] = ray.t_max[static_cast<std::size_t>(a)];
-    lanes.d[a][lane] = ray.t_delta[static_cast<std::size_t>(a)];
-    lanes.step[a][lane] = ray.step[static_cast<std::size_t>(a)];
-    lanes.at[a][lane] = start.origin & start.mask[a];
+  const __m256i numbers = _mm256_set_epi64x(3, 2, 1, 0);
+  const __m256d lane = _mm256_castsi256_pd(_mm256_cmpeq_epi64(numbers, _mm256_set1_epi64x(number)));
+  for (std::size_t a = 0; a < 3; ++a) {
+    set_lane(lanes.t[a], lane, ray.t_max[a]);
+    set_lane(lanes.d[a], lane, ray.t_delta[a]);
+    set_lane(lanes.step[a], lane, ray.step[a]);
+    set_lane(lanes.at[a], lane, start.origin & start.mask[a]);
   }
-  lanes.length[lane] = ray.length;
-  lanes.end[lane] = ray.end;
+  set_lane(lanes.length, lane, ray.length);
+  set_lane(lanes.end, lane, ray.end);
+  set_lane(lanes.index, lane, start.origin);
+  set_lane(lanes.brick, lane, start.origin >> BrickGrid::kBrickShift);
+  set_lane(lanes.word, lane, start.origin >> 6 & 63);
   return there;
 }
 
@@ -49,13 +75,6 @@ struct Group {
   __m256d tx, ty, tz;
   __m256i x, y, z;
 };
-
-CAIRN_AVX2 inline __m256i load_integers(const std::uint64_t* from) {
-  return _mm256_load_si256(reinterpret_cast<const __m256i*>(from));
-}
-CAIRN_AVX2 inline void store_integers(std::uint64_t* to, __m256i value) {
-  _mm256_store_si256(reinterpret_cast<__m256i*>(to), value);
-}
 
 CAIRN_AVX2 inline void take(Group& group, const Lanes& lanes) {
   group.tx = _mm256_load_pd(lanes.t[0]);
@@ -95,6 +114,8 @@ CAIRN_AVX2 inline int advance(Group& g, Lanes& lanes, __m256i mask_x, __m256i ma
   g.z = move(g.z, lanes.step[2], _mm256_castpd_si256(z_first), mask_z);
   const __m256i index = _mm256_or_si256(_mm256_or_si256(g.x, g.y), g.z);
   store_integers(lanes.index, index);
+  store_integers(lanes.brick, _mm256_srli_epi64(index, BrickGrid::kBrickShift));
+  store_integers(lanes.word, _mm256_and_si256(_mm256_srli_epi64(index, 6), _mm256_set1_epi64x(63)));
   const __m256d arrived = _mm256_castsi256_pd(_mm256_cmpeq_epi64(index, load_integers(lanes.end)));
   const __m256d nearest = _mm256_min_pd(_mm256_min_pd(g.tx, g.ty), g.tz);
   const __m256d beyond = _mm256_cmp_pd(nearest, _mm256_load_pd(lanes.length), _CMP_GT_OQ);
@@ -108,14 +129,13 @@ CAIRN_AVX2 int replace(Group& group, Lanes& lanes, int ended, const Start& start
   for (int lane = 0; lane < kLanes; ++lane) {
     if ((ended >> lane & 1) == 0) continue;
     fewer += load(lanes, lane, start, next, last) ? 0 : 1;
-    lanes.index[lane] = start.origin;
   }
   take(group, lanes);
   return fewer;
 }
 
 CAIRN_AVX2 inline void mark(const Lanes& lanes, Footprint& footprint) {
-  for (const std::uint64_t index : lanes.index) footprint.mark_free<true>(index);
+  for (std::size_t i = 0; i < kLanes; ++i) footprint.mark_free_flat(lanes.brick[i], lanes.word[i], lanes.index[i]);
 }
 
 CAIRN_AVX2 void march(std::span<const Ray> rays, std::uint64_t origin, Footprint& footprint) {

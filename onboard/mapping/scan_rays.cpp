@@ -24,19 +24,18 @@ Result<ScanRays::Counts> ScanRays::prepare(std::span<const Eigen::Vector3f> poin
   hits_.clear();
   targets_.clear();
   origin_ = {origin_map.x(), origin_map.y(), origin_map.z()};
-  const auto origin_key = key_of(origin_);
-  if (!origin_key) return Error{Errc::kLimit, "the sensor is outside of the map", {}, {}, "use coarser voxels"};
-  origin_key_ = *origin_key;
+  if (!key_of(origin_, origin_key_))
+    return Error{Errc::kLimit, "the sensor is outside of the map", {}, {}, "use coarser voxels"};
 
   Counts counts;
   VoxelKey last{-1, -1, -1};
   for (const Eigen::Vector3f& p : points_map) {
-    const auto key = key_of(octomap::point3d(p.x(), p.y(), p.z()));
-    if (!key) {
+    VoxelKey key;
+    if (!key_of(octomap::point3d(p.x(), p.y(), p.z()), key)) {
       ++(p.allFinite() ? counts.outside_map : counts.not_finite);
-    } else if (*key != last) {
-      add_point(*key);
-      last = *key;
+    } else if (key != last) {
+      add_point(key);
+      last = key;
     }
   }
   footprint.reset(grid());
@@ -62,28 +61,27 @@ void ScanRays::march(std::size_t first, std::size_t last, MarchRays march_rays, 
 }
 
 /// OctoMap's coordToKeyChecked(), without its undefined conversion of NaN and of huge numbers to int.
-std::optional<int> ScanRays::key_of(double coordinate) const {
-  const double cell = std::floor(resolution_factor_ * coordinate);
-  if (!(cell >= -kCentreKey && cell < kKeys - kCentreKey)) return std::nullopt;
-  return static_cast<int>(cell) + kCentreKey;
+bool ScanRays::key_of(double coordinate, int& key) const {
+  const double cell = resolution_factor_ * coordinate;
+  if (!(cell >= -kCentreKey && cell < kKeys - kCentreKey)) return false;
+  const int towards_zero = static_cast<int>(cell);  // std::floor() is a function call on machines without SSE 4.1
+  key = towards_zero - (towards_zero > cell ? 1 : 0) + kCentreKey;
+  return true;
 }
 
-std::optional<VoxelKey> ScanRays::key_of(const octomap::point3d& point) const {
-  const auto x = key_of(point.x()), y = key_of(point.y()), z = key_of(point.z());
-  if (!x || !y || !z) return std::nullopt;
-  return VoxelKey{*x, *y, *z};
+bool ScanRays::key_of(const octomap::point3d& point, VoxelKey& key) const {
+  return key_of(point.x(), key[0]) && key_of(point.y(), key[1]) && key_of(point.z(), key[2]);
 }
 
 void ScanRays::add_point(const VoxelKey& key) {
   const octomap::point3d centre(centre_of(key[0]), centre_of(key[1]), centre_of(key[2]));
   if (max_range_ < 0.0 || (centre - origin_).norm() <= max_range_) {
-    if (const auto end_key = key_of(centre)) hits_.push_back({centre, *end_key});
+    if (VoxelKey end_key; key_of(centre, end_key)) hits_.push_back({centre, end_key});
     return;
   }
   const octomap::point3d direction = (centre - origin_).normalized();
   const octomap::point3d end = origin_ + direction * static_cast<float>(max_range_);
-  const auto end_key = key_of(end);
-  if (end_key && *end_key != origin_key_) targets_.push_back({end, *end_key});
+  if (VoxelKey end_key; key_of(end, end_key) && end_key != origin_key_) targets_.push_back({end, end_key});
 }
 
 std::uint64_t ScanRays::steps_of_rays() const {

@@ -6,7 +6,6 @@
 #include <Eigen/Core>
 #include <cstddef>
 #include <cstdint>
-#include <optional>
 #include <span>
 #include <vector>
 
@@ -48,8 +47,8 @@ class ScanRays {
     VoxelKey key;
   };
 
-  [[nodiscard]] std::optional<int> key_of(double coordinate) const;
-  [[nodiscard]] std::optional<VoxelKey> key_of(const octomap::point3d& point) const;
+  [[nodiscard]] bool key_of(double coordinate, int& key) const;
+  [[nodiscard]] bool key_of(const octomap::point3d& point, VoxelKey& key) const;
   [[nodiscard]] float centre_of(int key) const { return static_cast<float>(exact_centre_of(key)); }
   [[nodiscard]] double exact_centre_of(int key) const { return (static_cast<double>(key - 32768) + 0.5) * resolution_; }
   void add_point(const VoxelKey& key);

@@ -18,26 +18,26 @@ struct MapScan {
   Eigen::Vector3f origin;
 };
 
-/// A yard of 80 × 50 m with walls, sheds, cars and trees, and a robot with a 16-beam LiDAR driving round it: about 26
+/// A yard of 48 × 30 m with walls, sheds, cars and trees, and a robot with a 16-beam LiDAR driving round it: about 26
 /// 000 points a scan with 2 cm of noise, ranges up to 70 m, a tenth of them beyond 30 m. Closed-form, with a fixed
 /// seed.
 class ScanYard {
  public:
   explicit ScanYard(int azimuths = 1800) : azimuths_(azimuths) {
     std::mt19937 random(11);
-    std::uniform_real_distribution<double> x(-38, 38), y(-23, 23), edge(0.3, 2.5), height(0.4, 4.0);
+    std::uniform_real_distribution<double> x(-23, 23), y(-14, 14), edge(0.3, 2.5), height(0.4, 4.0);
     for (int i = 0; i < 40; ++i) {
       const Eigen::Vector3d low(x(random), y(random), 0);
-      if (std::abs(std::hypot(low.x() / 22, low.y() / 12) - 1) < 0.3) continue;  // the road stays free
+      if (std::abs(std::hypot(low.x() / 14, low.y() / 8) - 1) < 0.3) continue;  // the road stays free
       boxes_.push_back({low, low + Eigen::Vector3d(edge(random), edge(random), height(random))});
     }
-    boxes_.push_back({{-40, -25, -0.5}, {40, 25, 14}});  // the yard itself, seen from inside
-    boxes_.push_back({{-8, -4, 0}, {9, 3, 6}});
+    boxes_.push_back({{-24, -15, 0}, {24, 15, 14}});  // the yard itself, seen from inside
+    boxes_.push_back({{-8, -4, 0}, {9, 3, 9}});
   }
 
   [[nodiscard]] MapScan scan(int index) const {
     const double along = 0.02 * index;
-    const Eigen::Vector3d origin(22 * std::cos(along), 12 * std::sin(along), 1.1 + 0.02 * std::sin(7 * along));
+    const Eigen::Vector3d origin(14 * std::cos(along), 8 * std::sin(along), 1.1 + 0.02 * std::sin(7 * along));
     std::mt19937 random(static_cast<unsigned>(index) + 1);
     std::normal_distribution<double> noise(0.0, 0.02);
     MapScan out{{}, origin.cast<float>()};

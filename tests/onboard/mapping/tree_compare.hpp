@@ -17,14 +17,16 @@ namespace cairn {
 template <class TreeA, class TreeB>
 std::size_t differing_nodes(const TreeA& a, const TreeB& b) {
   std::size_t differ = a.size() == b.size() && a.calcNumNodes() == a.size() ? 0 : 1;
+  const auto end_a = a.end_tree();
+  const auto end_b = b.end_tree();
   auto x = a.begin_tree();
   auto y = b.begin_tree();
-  for (; x != a.end_tree() && y != b.end_tree(); ++x, ++y) {
+  for (; x != end_a && y != end_b; ++x, ++y) {
     if (x.getDepth() != y.getDepth() || x.getKey() != y.getKey() || x.isLeaf() != y.isLeaf()) return differ + 1;
     const float u = x->getLogOdds(), v = y->getLogOdds();
     differ += std::memcmp(&u, &v, sizeof u) != 0 ? 1 : 0;
   }
-  return differ + (x != a.end_tree() || y != b.end_tree() ? 1 : 0);
+  return differ + (x != end_a || y != end_b ? 1 : 0);
 }
 
 /// What OctoMap's writeData() gives.
