@@ -148,7 +148,7 @@ class Projector {
   // A ceiling is a height, at least a person above the floor, at which much more of the known columns is occupied than
   // the walls take up, and below which most of these columns are free (a terrace has no room below it).
   void cut_below_ceiling() {
-    constexpr double kPerson_m = 1.8, kFloorShare = 0.02, kCeilingShare = 0.15;
+    constexpr double kPerson_m = 1.8, kFloorShare = 0.02, kCeilingShare = 0.15, kRough_m = 0.15;
     const std::vector<double> area = occupied_per_height();
     const double columns =
         static_cast<double>(std::count(picture_.free.begin(), picture_.free.end(), 1)) * per_cell_ * per_cell_;
@@ -164,8 +164,8 @@ class Projector {
     const double walls = between[between.size() / 2];
     for (int z = lowest; z < kKeys - 1; ++z) {
       if (both(z) - walls < kCeilingShare * columns || both(z) == 0 || !is_hollow_below(z)) continue;
-      heights_.high = z - 1;
-      picture_.cut_m = (z - kZeroKey) * picture_.voxel_m;
+      heights_.high = z - 1 - static_cast<int>(kRough_m / picture_.voxel_m);
+      picture_.cut_m = (heights_.high + 1 - kZeroKey) * picture_.voxel_m;
       return;
     }
   }

@@ -172,13 +172,26 @@ std::string histogram_grid(const Frame& frame, const Decades& decades, double mo
   return s;
 }
 
-std::string mark(const Frame& frame, const char* css, double milliseconds, const std::string& label, double y) {
-  if (milliseconds <= 0) return {};
-  const double u = frame.u(std::clamp(std::log10(milliseconds), frame.x0, frame.x1));
-  const bool left = u > kWidth - 90;
-  return fmt::format(
-      "<path class=\"{0}\" d=\"M{1:.1f} {2}V{3}\"/><text class=\"{0}{4}\" x=\"{5:.1f}\" y=\"{6}\">{7}</text>", css, u,
-      kTop, kHeight - kBottom, left ? " r" : "", left ? u - 4 : u + 4, y, label);
+struct Mark {
+  const char* css;
+  double milliseconds;
+  std::string label;
+};
+
+/// Vertical lines first and their labels over all of them, one below the other.
+std::string marks_of(const Frame& frame, const std::vector<Mark>& marks) {
+  std::string lines, labels;
+  double y = kTop + 10;
+  for (const Mark& mark : marks) {
+    if (mark.milliseconds <= 0) continue;
+    const double u = frame.u(std::clamp(std::log10(mark.milliseconds), frame.x0, frame.x1));
+    const bool left = u > kWidth - 90;
+    lines += fmt::format("<path class=\"{}\" d=\"M{:.1f} {}V{}\"/>", mark.css, u, kTop, kHeight - kBottom);
+    labels += fmt::format("<text class=\"{}{}\" x=\"{:.1f}\" y=\"{}\">{}</text>", mark.css, left ? " r" : "",
+                          left ? u - 4 : u + 4, y, mark.label);
+    y += 14;
+  }
+  return lines + labels;
 }
 
 }  // namespace
@@ -199,8 +212,7 @@ std::string svg_histogram(const StageStats& stage, const Decades& decades) {
   }
   body += fmt::format("<path class=\"bars\" d=\"{}\"/><path class=\"cpu\" d=\"{}V{}\"/>", bars, line, frame.v(0));
   const double p99 = to_milliseconds(stage.wall.percentile(0.99)), budget = to_milliseconds(stage.budget);
-  body += mark(frame, "p99", p99, "p99 " + number(p99), kTop + 10);
-  body += mark(frame, "budget", budget, "budget " + number(budget), kTop + 24);
+  body += marks_of(frame, {{"p99", p99, "p99 " + number(p99)}, {"budget", budget, "budget " + number(budget)}});
   return figure(stage.name, "runs over ms", body);
 }
 
