@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole program on a small recording: a robot that drives through a room of which every range is known.
+#include "onboard/app/run.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "drivers/recording/recording_writer.hpp"
+#include "drivers/recording/scan_file.hpp"
+#include "drivers/recording/trajectory_file.hpp"
+#include "onboard/mapping/map_file.hpp"
+#include "tests/support/box_world.hpp"
+
+namespace cairn {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+
+constexpr int kScans = 8;
+const Vector6 kMount = (Vector6() << 0.2, 0, 0.6, 0, 0, 0.1).finished();
+
+SE3 path(double t) {
+  const double yaw = 0.1 * t;
+  return SE3::from_xyz_rpy((Vector6() << 0.8 * t, 0.1 * std::sin(t), 0, 0, 0, yaw).finished());
+}
+
+support::World room() {
+  support::World world;
+  world.box({-4, -3, 0}, {6, 4, 3}).box({2, 2, 0}, {3, 3, 1.5}).box({-2, -2.5, 0}, {-1, -1.5, 1});
+  return world;
+}
+
+void record(const fs::path& folder) {
+  recording::Recording index;
+  index.robot = "husky_1";
+  index.sources.push_back({"lidar", "scans", "data.csv", "lidar", "VLP-16", kMount});
+  auto writer = recording::RecordingWriter::create(folder, index);
+  ASSERT_TRUE(writer) << to_string(writer.error());
+  support::Vlp16 lidar(SE3::from_xyz_rpy(kMount), 0.02, 1);
+  const support::World world = room();
+  for (int i = 0; i < kScans; ++i) {
+    const Scan scan = lidar.scan(world, path, 0.1 * i);
+    Packet packet;
+    packet.channel = static_cast<std::uint16_t>(recording::ScanLayout::kXyziOffset);
+    packet.arrival = scan.valid.end;
+    packet.bytes = recording::encode_scan(scan.cloud, true);
+    ASSERT_TRUE(writer->write(packet));
+  }
+  ASSERT_TRUE(writer->close());
+}
+
+class RunTest : public ::testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    std::string pattern = (fs::temp_directory_path() / "cairn_run_XXXXXX").string();
+    folder_ = ::mkdtemp(pattern.data());
+    record(folder_ / "recording");
+  }
+  static void TearDownTestSuite() { fs::remove_all(folder_); }
+
+  static RunOptions options(const std::string& out) {
+    RunOptions o;
+    o.recording = folder_ / "recording";
+    o.out = folder_ / out;
+    o.pace = Pace::kMaximum;
+    return o;
+  }
+  static fs::path write(const std::string& name, const std::string& text) {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  static inline fs::path folder_;
+};
+
+TEST_F(RunTest, LeavesTrajectoryMapAndReportThatAgreeWithTheTruth) {
+  const auto result = run(options("truth"));
+  ASSERT_TRUE(result) << to_string(result.error());
+  const auto track = recording::read_tum(folder_ / "truth" / "trajectory.tum");
+  ASSERT_TRUE(track) << to_string(track.error());
+  ASSERT_EQ(track->size(), static_cast<std::size_t>(kScans));
+  const SE3 moved = track->front().pose.inverse() * track->back().pose;
+  const SE3 truth = path(to_seconds(track->front().stamp)).inverse() * path(to_seconds(track->back().stamp));
+  EXPECT_LT((truth.inverse() * moved).translation().norm(), 0.02);
+  EXPECT_LT(rotation_angle(truth.inverse() * moved), 0.01);
+
+  const auto map = load_map(folder_ / "truth" / "map.cairn");
+  ASSERT_TRUE(map) << to_string(map.error());
+  const auto occupancy = [&](double x, double y, double z) {
+    const Eigen::Vector3d p = path(to_seconds(track->front().stamp)).inverse() * Eigen::Vector3d(x, y, z);
+    const auto* node = (*map)->search(p.x(), p.y(), p.z());
+    return node == nullptr ? -1 : (*map)->isNodeOccupied(node) ? 1 : 0;
+  };
+  EXPECT_EQ(occupancy(1.0, 0.5, 0.6), 0) << "the robot looked through here";
+  EXPECT_EQ(occupancy(2.0 + 0.02, 2.5, 0.8), 1) << "the near face of the cupboard";
+  EXPECT_EQ(occupancy(20, 0, 1), -1);
+}
+
+TEST_F(RunTest, TheReportHoldsTheFieldsThatScriptsRelyOn) {
+  ASSERT_TRUE(run(options("fields")));
+  std::ifstream in(folder_ / "fields" / "report.json");
+  const auto report = nlohmann::json::parse(in);
+  for (const char* field : {"distance_m", "duration_s", "scans", "lost_packets", "stages", "ticks", "map", "memory",
+                            "allocations", "peers", "events", "output_sha256"})
+    EXPECT_TRUE(report.contains(field)) << field;
+  EXPECT_EQ(report["scans"], kScans);
+  EXPECT_EQ(report["stages"]["odometry"]["count"], kScans);
+  EXPECT_GT(report["map"]["occupied"], 100);
+  for (const char* file : {"map.ot", "report.html", "config.yaml"}) EXPECT_TRUE(fs::exists(folder_ / "fields" / file));
+}
+
+TEST_F(RunTest, GivesTheSameBytesForAnyNumberOfThreadsAndEveryTime) {
+  std::string first;
+  for (const int threads : {1, 1, 2, 4}) {
+    RunOptions o = options("repeat");
+    o.threads = threads;
+    const auto result = run(o);
+    ASSERT_TRUE(result);
+    if (first.empty()) first = (*result)->report.output_sha256;
+    EXPECT_EQ((*result)->report.output_sha256, first) << threads << " threads";
+    EXPECT_EQ(first.size(), 64U);
+  }
+}
+
+TEST_F(RunTest, TheStoredConfigurationRepeatsTheRun) {
+  const auto first = run(options("first"));
+  ASSERT_TRUE(first);
+  RunOptions again = options("again");
+  again.config = folder_ / "first" / "config.yaml";
+  const auto second = run(again);
+  ASSERT_TRUE(second) << to_string(second.error());
+  EXPECT_EQ((*second)->report.output_sha256, (*first)->report.output_sha256);
+}
+
+TEST_F(RunTest, ADamagedScanIsAnEventAndTheRestIsUsed) {
+  fs::copy(folder_ / "recording", folder_ / "damaged", fs::copy_options::recursive);
+  fs::resize_file(folder_ / "damaged" / "scans" / "000003.bin", 1001);
+  RunOptions o = options("survived");
+  o.recording = folder_ / "damaged";
+  const auto result = run(o);
+  ASSERT_TRUE(result) << to_string(result.error());
+  EXPECT_EQ((*result)->report.scans, static_cast<std::uint64_t>(kScans) - 1);
+  EXPECT_EQ((*result)->monitor.events().size(), 1U);
+}
+
+TEST_F(RunTest, EndsWhenTheSecondsAreOver) {
+  RunOptions o = options("short");
+  o.seconds = 0.35;
+  const auto result = run(o);
+  ASSERT_TRUE(result);
+  EXPECT_EQ((*result)->report.scans, 5U) << "the first that arrives after the time ends it";
+}
+
+TEST_F(RunTest, WhatCannotWorkIsSaidBeforeAnythingRuns) {
+  RunOptions missing = options("never");
+  missing.recording = folder_ / "nowhere";
+  const auto no_recording = run(missing);
+  ASSERT_FALSE(no_recording);
+  EXPECT_THAT(to_string(no_recording.error()), HasSubstr("nowhere"));
+
+  RunOptions faulty = options("never");
+  faulty.config = write("faulty.yaml", "lidar:\n  modell: VLP-16\nmapping:\n  resolution_m: -1\n");
+  const auto no_config = run(faulty);
+  ASSERT_FALSE(no_config);
+  EXPECT_EQ(no_config.error().code, Errc::kInvalidConfig);
+  EXPECT_THAT(no_config.error().detail, HasSubstr("faulty.yaml:2: lidar.modell: unknown key"));
+  EXPECT_THAT(no_config.error().detail, HasSubstr("faulty.yaml:4: mapping.resolution_m"));
+
+  RunOptions nowhere = options("never");
+  nowhere.out = write("a_file", "x") / "out";
+  EXPECT_FALSE(run(nowhere));
+}
+
+}  // namespace
+}  // namespace cairn
