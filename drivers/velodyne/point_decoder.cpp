@@ -22,41 +22,43 @@ std::uint32_t raw_at_most(double range_m, double unit_m) {
 
 }  // namespace
 
-/// The points of one firing. Adding them to the cloud's five arrays at once is twice as fast as one by one.
-class PointDecoder::Batch {
- public:
-  void add(const Eigen::Vector3f& p, float intensity, std::uint32_t offset_ns, std::uint8_t ring, ReturnType type) {
-    xyz_[size_] = p;
-    intensity_[size_] = intensity;
-    offset_ns_[size_] = offset_ns;
-    ring_[size_] = ring;
-    return_type_[size_] = type;
-    ++size_;
-  }
-  void append_to(PointCloud& cloud) const {
-    const auto append = [n = size_](const auto& from, auto& to) { to.insert(to.end(), from.data(), from.data() + n); };
-    append(xyz_, cloud.xyz);
-    append(intensity_, cloud.intensity);
-    append(offset_ns_, cloud.offset_ns);
-    append(ring_, cloud.ring);
-    append(return_type_, cloud.return_type);
-  }
+inline void PointDecoder::Batch::add(const Eigen::Vector3f& p, float intensity, std::uint32_t offset_ns,
+                                     std::uint8_t ring, ReturnType type) {
+  xyz_[size_] = p;
+  intensity_[size_] = intensity;
+  offset_ns_[size_] = offset_ns;
+  ring_[size_] = ring;
+  return_type_[size_] = type;
+  ++size_;
+}
 
- private:
-  static constexpr std::size_t kMax = 2 * kBlockChannels;
-  std::size_t size_ = 0;
-  std::array<Eigen::Vector3f, kMax> xyz_;
-  std::array<float, kMax> intensity_;
-  std::array<std::uint32_t, kMax> offset_ns_;
-  std::array<std::uint8_t, kMax> ring_;
-  std::array<ReturnType, kMax> return_type_;
-};
+void PointDecoder::Batch::append_to(PointCloud& cloud) const {
+  const auto append = [n = size_](const auto& from, auto& to) { to.insert(to.end(), from.data(), from.data() + n); };
+  append(xyz_, cloud.xyz);
+  append(intensity_, cloud.intensity);
+  append(offset_ns_, cloud.offset_ns);
+  append(ring_, cloud.ring);
+  append(return_type_, cloud.return_type);
+}
+
+PointDecoder::Places PointDecoder::places(const Model& model, bool dual) {
+  Places out;
+  for (int block = 0; block < kBlocks; block += dual ? 2 : 1) {
+    for (int slot = 0; slot < kBlockChannels; slot += model.channel_count) {
+      const auto i = static_cast<std::size_t>(out.count++);
+      out.firings[i] = {block, slot, model.firing_offset(block, slot, dual), 0};
+      out.since_block_s[i] = to_seconds(out.firings[i].offset - model.firing_offset(block, 0, dual));
+    }
+  }
+  return out;
+}
 
 PointDecoder::PointDecoder(const Model& model, const Gates& gates)
     : model_(model),
       min_distance_(raw_at_least(gates.min_range_m, model.distance_unit_m)),
       max_distance_(raw_at_most(gates.max_range_m, model.distance_unit_m)),
-      firing_duration_(model.firing_offset(0, model.channel_count - 1, false)) {
+      firing_duration_(model.firing_offset(0, model.channel_count - 1, false)),
+      places_{places(model, false), places(model, true)} {
   if (!gates.body.isEmpty()) body_ = gates.body;
   for (int c = 0; c < model.channel_count; ++c) {
     const Channel& channel = model.channels[static_cast<std::size_t>(c)];
@@ -84,44 +86,41 @@ void PointDecoder::set_rate(double rate_deg_s) {
 }
 
 Firing PointDecoder::firing(const DataPacket& packet, int index) const {
-  const int per_block = model_.sequences_per_block();
-  const int block = index / per_block * (packet.dual() ? 2 : 1);
-  const int slot = index % per_block * model_.channel_count;
-  const Duration offset = model_.firing_offset(block, slot, packet.dual());
-  const Duration in_block = offset - model_.firing_offset(block, 0, packet.dual());
-  const double azimuth = packet.azimuth[static_cast<std::size_t>(block)] * kAzimuthUnitDeg;
-  return {block, slot, offset, wrap_360(azimuth + rate_deg_s_ * to_seconds(in_block))};
+  const Places& places = places_[packet.dual() ? 1 : 0];
+  const auto i = static_cast<std::size_t>(index);
+  Firing firing = places.firings[i];
+  const double block_azimuth = packet.azimuth[static_cast<std::size_t>(firing.block)] * kAzimuthUnitDeg;
+  firing.azimuth_deg = wrap_360(block_azimuth + rate_deg_s_ * places.since_block_s[i]);
+  return firing;
 }
 
-void PointDecoder::append(const DataPacket& packet, const Firing& firing, std::uint32_t since_ns,
-                          PointCloud& cloud) const {
-  Batch batch;
+void PointDecoder::append(const DataPacket& packet, const Firing& firing, std::uint32_t since_ns, PointCloud& cloud) {
+  batch_.clear();
   const SinCos azimuth = sin_cos_deg(firing.azimuth_deg);
-  const ReturnType single = packet.mode == ReturnMode::kLast ? ReturnType::kLast : ReturnType::kStrongest;
+  const bool dual = packet.dual();
+  const ReturnType of_equals = dual                               ? ReturnType::kBoth
+                               : packet.mode == ReturnMode::kLast ? ReturnType::kLast
+                                                                  : ReturnType::kStrongest;
   for (int c = 0; c < model_.channel_count; ++c) {
     const Ray& ray = rays_[static_cast<std::size_t>(c)];
-    const auto r = packet.at(firing.block, firing.first_slot + c);
-    if (!packet.dual()) {
-      add_return(r, ray, azimuth, since_ns, single, batch);
-      continue;
-    }
-    const auto strongest = packet.at(firing.block + 1, firing.first_slot + c);
-    const bool same = strongest.distance == r.distance;
-    add_return(strongest, ray, azimuth, since_ns, same ? ReturnType::kBoth : ReturnType::kStrongest, batch);
-    if (!same) add_return(r, ray, azimuth, since_ns, ReturnType::kLast, batch);
+    const auto last = packet.at(firing.block, firing.first_slot + c);
+    const auto strongest = dual ? packet.at(firing.block + 1, firing.first_slot + c) : last;
+    const bool equal = strongest.distance == last.distance;
+    add_return(strongest, ray, azimuth, since_ns, equal ? of_equals : ReturnType::kStrongest);
+    if (!equal) add_return(last, ray, azimuth, since_ns, ReturnType::kLast);
   }
-  batch.append_to(cloud);
+  batch_.append_to(cloud);
 }
 
 inline void PointDecoder::add_return(DataPacket::Return r, const Ray& ray, const SinCos& azimuth,
-                                     std::uint32_t since_ns, ReturnType type, Batch& batch) const {
+                                     std::uint32_t since_ns, ReturnType type) {
   if (r.distance < min_distance_ || r.distance > max_distance_) return;
   const double d = r.distance * model_.distance_unit_m;
   const Eigen::Vector3d p(d * (ray.x * azimuth.cos + ray.y * azimuth.sin),
                           d * (ray.y * azimuth.cos - ray.x * azimuth.sin), d * ray.z + ray.vertical_offset_m);
   const Eigen::Vector3f point = p.cast<float>();
   if (body_ && body_->contains(point)) return;
-  batch.add(point, r.reflectivity, since_ns + ray.slot_ns, ray.ring, type);
+  batch_.add(point, r.reflectivity, since_ns + ray.slot_ns, ray.ring, type);
 }
 
 }  // namespace cairn::velodyne

@@ -36,9 +36,7 @@ class PointDecoder {
   /// How fast the sensor turns during the firings that follow, in degrees per second, clockwise, |rate| <= 22·360.
   void set_rate(double rate_deg_s);
 
-  [[nodiscard]] int firing_count(bool dual) const {
-    return (dual ? kBlocks / 2 : kBlocks) * model_.sequences_per_block();
-  }
+  [[nodiscard]] int firing_count(bool dual) const { return places_[dual ? 1 : 0].count; }
   /// Firing `index` (0 … firing_count − 1) in the order of time.
   [[nodiscard]] Firing firing(const DataPacket& packet, int index) const;
   /// Time from a firing's first laser to its last.
@@ -47,7 +45,7 @@ class PointDecoder {
   /// Appends the points of one firing, in the order of its channels, in metres in the sensor's REP-103 frame. `since`:
   /// from the scan's start to the firing's first laser. In dual mode equal distances become one point kBoth, and
   /// otherwise the strongest comes before the last.
-  void append(const DataPacket& packet, const Firing& firing, std::uint32_t since_ns, PointCloud& cloud) const;
+  void append(const DataPacket& packet, const Firing& firing, std::uint32_t since_ns, PointCloud& cloud);
 
  private:
   /// A laser as it points when the firing's first laser points to azimuth 0.
@@ -58,17 +56,40 @@ class PointDecoder {
     std::uint8_t ring;
   };
   using Rays = std::array<Ray, kBlockChannels>;
-  class Batch;
-  void add_return(DataPacket::Return r, const Ray& ray, const SinCos& azimuth, std::uint32_t since_ns, ReturnType type,
-                  Batch& batch) const;
+  /// The points of one firing. Adding them to the cloud's five arrays at once is twice as fast as one by one.
+  class Batch {
+   public:
+    void clear() { size_ = 0; }
+    void add(const Eigen::Vector3f& p, float intensity, std::uint32_t offset_ns, std::uint8_t ring, ReturnType type);
+    void append_to(PointCloud& cloud) const;
+
+   private:
+    static constexpr std::size_t kMax = 2 * kBlockChannels;
+    std::size_t size_ = 0;
+    std::array<Eigen::Vector3f, kMax> xyz_;
+    std::array<float, kMax> intensity_;
+    std::array<std::uint32_t, kMax> offset_ns_;
+    std::array<std::uint8_t, kMax> ring_;
+    std::array<ReturnType, kMax> return_type_;
+  };
+  /// The places of all firings in a packet, in the order of time.
+  struct Places {
+    std::array<Firing, kBlocks * 2> firings{};
+    std::array<double, kBlocks * 2> since_block_s{};  // where the block's azimuth was true
+    int count = 0;
+  };
+  [[nodiscard]] static Places places(const Model& model, bool dual);
+  void add_return(DataPacket::Return r, const Ray& ray, const SinCos& azimuth, std::uint32_t since_ns, ReturnType type);
 
   const Model& model_;
   std::optional<Eigen::AlignedBox3f> body_;
   std::uint32_t min_distance_, max_distance_;  // raw, inclusive
   Duration firing_duration_;
+  std::array<Places, 2> places_;  // single, dual
   double rate_deg_s_ = 0;
   Rays resting_{};  // without rotation
   Rays rays_{};     // turned on by what the sensor turns from the first laser to each
+  Batch batch_;
 };
 
 }  // namespace cairn::velodyne

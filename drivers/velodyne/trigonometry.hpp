@@ -17,11 +17,11 @@ struct SinCos {
 /// the same bits on every machine.
 [[nodiscard]] constexpr SinCos sin_cos_series(double radians) {
   const double q = radians * radians;
-  double s = 1, c = 1;
-  for (int n = 16; n >= 2; n -= 2) {
-    s = 1 - q * (1.0 / (n * (n + 1))) * s;
-    c = 1 - q * (1.0 / (n * (n - 1))) * c;
-  }
+  const auto nest = [q](double next, int n, int m) { return 1 - q * (1.0 / (n * m)) * next; };
+  const double s =
+      nest(nest(nest(nest(nest(nest(nest(nest(1, 16, 17), 14, 15), 12, 13), 10, 11), 8, 9), 6, 7), 4, 5), 2, 3);
+  const double c =
+      nest(nest(nest(nest(nest(nest(nest(nest(1, 15, 16), 13, 14), 11, 12), 9, 10), 7, 8), 5, 6), 3, 4), 1, 2);
   return {radians * s, c};
 }
 
