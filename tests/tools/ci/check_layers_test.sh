@@ -50,10 +50,11 @@ denied "drivers know only hal" drivers/velodyne/a.cpp '#include "onboard/robot.h
 denied "a driver does not know other drivers" drivers/velodyne/a.cpp '#include "drivers/recording/index.hpp"'
 denied "decoding is pure" drivers/velodyne/decoder.cpp '#include "drivers/velodyne/udp_source.hpp"'
 denied "onboard knows only hal" onboard/mapping/a.hpp '#include "drivers/velodyne/decoder.hpp"'
-denied "onboard knows neither tools nor tests" onboard/app/a.hpp '#include "tools/cli/command.hpp"'
+denied "onboard knows neither tools nor tests" onboard/mapping/a.hpp '#include "tools/cli/command.hpp"'
 denied "only onboard/app, tools and tests know onboard/app" onboard/mapping/a.hpp '#include "onboard/app/config.hpp"'
 denied "fusion knows only hal and onboard/mapping" fusion/team.cpp '#include "onboard/odometry/odometry.hpp"'
-denied "tools do not know tests" tools/a.cpp '#include "tests/support/a.hpp"'
+denied "the program does not know tests" onboard/app/a.cpp '#include "tests/support/a.hpp"'
+denied "the program does not know tests" tools/a.cpp '#include "tests/support/a.hpp"'
 denied "includes name the path from the project's root" onboard/mapping/a.cpp '#include "../robot.hpp"'
 denied "includes name the path from the project's root" onboard/mapping/a.cpp '#include "tree.hpp"'
 
@@ -71,7 +72,7 @@ denied "OctoMap's own readers" tools/a.cpp 'tree.readBinary(path);'
 denied "builds run on every machine" hal/flags.cmake 'add_compile_options(-march=native)'
 denied "fixed seeds" tests/hal/a.cpp 'std::random_device seed;'
 denied "what is left to do" hal/a.cpp '// TO''DO: later'
-denied "no path of one machine" tools/a.sh 'cd /home/somebody/cairn'
+denied "no path of one machine" tools/a.sh 'cd /ho''me/somebody/cairn'
 denied "a file has at most" hal/a.cpp "$(seq -f '// %g' 300)"
 
 echo 'int x;' >"$tree/hal/unlicensed.cpp" && expected+=("every source says its licence|hal/unlicensed.cpp")
@@ -82,6 +83,8 @@ fresh
 plant drivers/recording/a.cpp '#include "drivers/velodyne/packet.hpp"'
 plant onboard/app/a.cpp '#include "drivers/velodyne/decoder.hpp"'
 plant fusion/team.cpp '#include "onboard/mapping/tree.hpp"'
+plant onboard/app/a.hpp '#include "tools/cli/command.hpp"' 'Time t = door.clock().now();'
+plant drivers/velodyne/config.cpp '#include <arpa/inet.h>'
 plant hal/clock.cpp 'clock_gettime(CLOCK_MONOTONIC, &t);'
 plant onboard/robot.cpp 'auto n = std::thread::hardware_concurrency();'
 plant hal/workers.hpp 'std::vector<std::thread> pool_;'
