@@ -32,6 +32,7 @@ class Loop {
       else
         receive();
     }
+    ending_ = true;
     for (const auto& decoder : door_.decoders)
       if (decoder != nullptr) use(decoder->flush());
   }
@@ -66,7 +67,9 @@ class Loop {
     if (scan == nullptr) return;
     ++figures_.scans;
     figures_.lost_packets += scan->lost_packets;
-    if (scan->incomplete) monitor_.event(scan->valid.end, "lidar", "incomplete scan");
+    // The first and the last revolution are cut by where the data begins and ends: nothing is wrong with the sensor.
+    if (scan->incomplete && figures_.scans > 1 && !ending_)
+      monitor_.event(scan->valid.end, "lidar", "incomplete scan: packets were lost or late, or the motor stood");
     const std::uint64_t before = allocations_of_this_thread();
     Budget budget = Budget::until(scan->valid.end + from_seconds(profile_.odometry_deadline_s), door_.clock(),
                                   profile_.odometry.max_iterations);
@@ -87,6 +90,7 @@ class Loop {
   const RobotProfile& profile_;
   Packet packet_;
   LoopFigures figures_;
+  bool ending_ = false;
 };
 
 Result<Door> open_door(const RunOptions& options, RobotProfile& profile, Monitor& monitor) {
