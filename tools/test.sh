@@ -4,16 +4,20 @@
 #   tools/test.sh [--asan | --tsan | --clang | --fuzz | --cross] [ctest arguments, such as -R mapping]
 #     (none)   g++, every test
 #     --asan   with AddressSanitizer and UndefinedBehaviorSanitizer
-#     --tsan   with ThreadSanitizer
+#     --tsan   with ThreadSanitizer, the rooms that use threads
 #     --clang  with clang++
 #     --fuzz   with clang++ and both of --asan, built as the fuzz targets are: CI's way, for it saves a build
 #     --cross  for aarch64, run under qemu-user (makes the sysroot at first)
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-preset=dev groups=(build test)
+preset=dev groups=(build test) targets=() select=()
 case ${1:-} in
-  --asan | --tsan) preset=${1#--} && shift ;;
+  --asan) preset=asan && shift ;;
+  --tsan)
+    preset=tsan targets=(--target test_hal test_odometry test_mapping test_app) select=(-R '^(hal|odometry|mapping|app)/')
+    shift
+    ;;
   --clang | --fuzz) preset=${1#--} groups+=(ci) && shift ;;
   --cross) preset=aarch64 groups=(build cross) && shift ;;
   -h | --help) sed -n '3,10s/^# //p' "$0" && exit ;;
@@ -23,9 +27,9 @@ tools/packages.sh "${groups[@]}"
 [[ $preset != aarch64 ]] || toolchains/make_sysroot.sh
 [[ -t 1 ]] && quiet=() || quiet=(-- --quiet)
 cmake --preset "$preset" >/dev/null
-cmake --build --preset "$preset" "${quiet[@]}"
+cmake --build --preset "$preset" "${targets[@]}" "${quiet[@]}"
 # A sanitiser's report must end the test, whichever way the machine's defaults are set.
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_stack_use_after_return=1:strict_string_checks=1}
 export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1:halt_on_error=1}
 export TSAN_OPTIONS=${TSAN_OPTIONS:-halt_on_error=1:second_deadlock_stack=1}
-ctest --preset "$preset" --parallel "$(nproc)" --no-tests=error "$@"
+ctest --preset "$preset" --parallel "$(nproc)" --no-tests=error "${select[@]}" "$@"
