@@ -168,20 +168,26 @@ void Voxels::mark(const Triangle& t) {
   }
 }
 
+/// Fills whole runs along x at a time; the list of open runs stays short even where millions of voxels are free.
 void Voxels::flood(std::span<const Vector3d> seeds) {
   std::vector<Vector3i> open;
-  const auto visit = [&](const Vector3i& c) {
-    if (!inside(c) || state_[index(c)] != kUnknown) return;
-    state_[index(c)] = kFree;
-    open.push_back(c);
-  };
-  for (const Vector3d& seed : seeds) visit(cell(seed));
+  for (const Vector3d& seed : seeds) open.push_back(cell(seed));
+  const auto unknown = [this](const Vector3i& c) { return inside(c) && state_[index(c)] == kUnknown; };
   while (!open.empty()) {
-    const Vector3i c = open.back();
+    Vector3i at = open.back();
     open.pop_back();
-    for (int axis = 0; axis < 3; ++axis) {
-      visit(c - Vector3i::Unit(axis));
-      visit(c + Vector3i::Unit(axis));
+    if (!unknown(at)) continue;
+    while (unknown(at - Vector3i::UnitX())) --at.x();
+    std::array<bool, 4> in_run{};  // of the four rows beside this one: is the voxel before `at` part of an open run?
+    for (; unknown(at); ++at.x()) {
+      state_[index(at)] = kFree;
+      constexpr std::array<std::array<int, 2>, 4> kBeside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
+      for (std::size_t k = 0; k < 4; ++k) {
+        const Vector3i beside = at + Vector3i(0, kBeside[k][0], kBeside[k][1]);
+        const bool now = unknown(beside);
+        if (now && !in_run[k]) open.push_back(beside);
+        in_run[k] = now;
+      }
     }
   }
 }

@@ -1,0 +1,157 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/simulator/simulate.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <fstream>
+
+#include "drivers/recording/recording.hpp"
+#include "drivers/recording/trajectory_file.hpp"
+#include "hal/file.hpp"
+
+namespace cairn::simulator {
+namespace {
+
+namespace fs = std::filesystem;
+
+class Simulate : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
+    dir_ = fs::path(::testing::TempDir()) / ("simulate_" + std::string(test->name()) + std::to_string(getpid()));
+    fs::remove_all(dir_);
+    fs::create_directories(dir_);
+  }
+  void TearDown() override { fs::remove_all(dir_); }
+
+  [[nodiscard]] SimulationConfig config(const std::string& name, std::uint64_t seed = 1) const {
+    SimulationConfig c;
+    c.scene = "corridor";
+    c.seconds = 0.7;
+    c.seed = seed;
+    c.out = dir_ / name;
+    return c;
+  }
+  [[nodiscard]] std::vector<std::byte> bytes(const std::string& file) const {
+    auto read = read_file(dir_ / file, std::uint64_t{1} << 30);
+    EXPECT_TRUE(read) << file;
+    return read ? *read : std::vector<std::byte>{};
+  }
+
+  fs::path dir_;
+};
+
+TEST_F(Simulate, WritesARecordingThatOthersCanRead) {
+  SimulationConfig c = config("out");
+  c.robots = 2;
+  const auto robots = simulate(c);
+  ASSERT_TRUE(robots) << to_string(robots.error());
+  ASSERT_EQ(robots->size(), 2u);
+  for (const RobotSummary& r : *robots) {
+    const auto index = recording::load_recording(c.out / r.name);
+    ASSERT_TRUE(index) << to_string(index.error());
+    EXPECT_EQ(index->robot, r.name);
+    ASSERT_EQ(index->sources.size(), 1u);
+    EXPECT_EQ(index->sources[0].model, "VLP-16");
+    EXPECT_TRUE(index->sources[0].base_sensor_xyz_rpy);
+    const auto truth = recording::read_tum(c.out / r.name / "ground_truth.tum");
+    ASSERT_TRUE(truth);
+    EXPECT_EQ(truth->front().stamp + std::chrono::milliseconds(10), (*truth)[1].stamp);
+    EXPECT_GE(truth->back().stamp - truth->front().stamp, from_seconds(c.seconds));
+    EXPECT_EQ(r.data_packets, static_cast<std::uint64_t>((c.seconds - 0.0001) / 0.001327104));
+    EXPECT_NEAR(static_cast<double>(r.data_packets) / static_cast<double>(r.position_packets), 14.0, 0.2);
+    // 24-byte header; per packet a record header of 16 and 42 bytes of Ethernet, IP and UDP
+    EXPECT_EQ(fs::file_size(c.out / r.name / "lidar.pcap"),
+              24 + r.data_packets * (16 + 42 + 1206) + r.position_packets * (16 + 42 + 512));
+  }
+  EXPECT_EQ(bytes("out/robot_1/world.ot"), bytes("out/robot_2/world.ot"));
+  EXPECT_NE(bytes("out/robot_1/ground_truth.tum"), bytes("out/robot_2/ground_truth.tum"));
+}
+
+TEST_F(Simulate, SameSeedGivesTheSameBytesForAnyNumberOfThreads) {
+  SimulationConfig two_threads = config("c");
+  two_threads.threads = 2;
+  SimulationConfig with_company = config("d");
+  with_company.robots = 2;
+  ASSERT_TRUE(simulate(config("a")));
+  ASSERT_TRUE(simulate(config("b")));
+  ASSERT_TRUE(simulate(two_threads));
+  ASSERT_TRUE(simulate(with_company));
+  for (const char* file : {"recording.yaml", "lidar.pcap", "ground_truth.tum", "world.ot"}) {
+    const auto expected = bytes(std::string("a/robot_1/") + file);
+    EXPECT_FALSE(expected.empty());
+    for (const char* other : {"b", "c", "d"}) {
+      EXPECT_TRUE(expected == bytes(std::string(other) + "/robot_1/" + file)) << other << ' ' << file;
+    }
+  }
+}
+
+TEST_F(Simulate, AnotherSeedGivesOtherPathsAndNoiseInTheSameWorld) {
+  ASSERT_TRUE(simulate(config("a", 1)));
+  ASSERT_TRUE(simulate(config("b", 2)));
+  EXPECT_NE(bytes("a/robot_1/lidar.pcap"), bytes("b/robot_1/lidar.pcap"));
+  EXPECT_NE(bytes("a/robot_1/ground_truth.tum"), bytes("b/robot_1/ground_truth.tum"));
+  EXPECT_EQ(bytes("a/robot_1/world.ot"), bytes("b/robot_1/world.ot"));
+}
+
+TEST_F(Simulate, TellsItsProgress) {
+  std::vector<double> told;
+  ASSERT_TRUE(simulate(config("out"), [&](double done) { told.push_back(done); }));
+  EXPECT_TRUE(std::is_sorted(told.begin(), told.end()));
+  EXPECT_EQ(told.back(), 1.0);
+}
+
+TEST_F(Simulate, RefusesWhatCannotBe) {
+  SimulationConfig c = config("out");
+  c.scene = "moon";
+  EXPECT_EQ(simulate(c).error().code, Errc::kInvalidConfig);
+  EXPECT_THAT(simulate(c).error().detail, ::testing::HasSubstr("forest"));
+  c = config("out");
+  c.robots = 0;
+  EXPECT_EQ(simulate(c).error().code, Errc::kInvalidConfig);
+  c = config("out");
+  c.seconds = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_EQ(simulate(c).error().code, Errc::kInvalidConfig);
+  EXPECT_FALSE(fs::exists(dir_ / "out"));
+}
+
+TEST_F(Simulate, LeavesWhatIsThereAlone) {
+  fs::create_directories(dir_ / "out");
+  std::ofstream(dir_ / "out" / "precious.txt") << "precious";
+  const auto robots = simulate(config("out"));
+  ASSERT_FALSE(robots);
+  EXPECT_EQ(robots.error().code, Errc::kIo);
+  EXPECT_EQ(robots.error().where, (dir_ / "out").string());
+  EXPECT_EQ(std::distance(fs::directory_iterator(dir_ / "out"), fs::directory_iterator()), 1);
+}
+
+TEST_F(Simulate, SaysWhereItCannotWrite) {
+  std::ofstream(dir_ / "file") << "not a folder";
+  const auto robots = simulate(config("file/out"));
+  ASSERT_FALSE(robots);
+  EXPECT_EQ(robots.error().code, Errc::kIo);
+}
+
+TEST_F(Simulate, AFullDiskLeavesNoHalfRecording) {
+  // A limit on the size of files stands in for a disk without room.
+  rlimit old{};
+  ASSERT_EQ(getrlimit(RLIMIT_FSIZE, &old), 0);
+  const auto old_handler = std::signal(SIGXFSZ, SIG_IGN);
+  rlimit tight = old;
+  tight.rlim_cur = 300'000;
+  ASSERT_EQ(setrlimit(RLIMIT_FSIZE, &tight), 0);
+  const auto robots = simulate(config("out"));
+  setrlimit(RLIMIT_FSIZE, &old);
+  std::signal(SIGXFSZ, old_handler);
+  ASSERT_FALSE(robots);
+  EXPECT_EQ(robots.error().code, Errc::kIo);
+  EXPECT_THAT(to_string(robots.error()), ::testing::HasSubstr("lidar.pcap"));
+  EXPECT_FALSE(fs::exists(dir_ / "out" / "robot_1"));
+}
+
+}  // namespace
+}  // namespace cairn::simulator
