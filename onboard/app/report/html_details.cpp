@@ -2,6 +2,7 @@
 // The lower half of the page: how accurate, how fast, and what else happened.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -20,16 +21,29 @@ std::string row(const std::string& name, const std::string& value) {
 
 std::string percent(const std::optional<double>& share) { return share ? number(100 * *share) + " %" : "–"; }
 
+/// Lengths in cm or, where an error gets large, in m; angles in degrees.
+struct Unit {
+  double factor;
+  const char* name;
+};
+
+Unit unit_of(const std::vector<PoseError>& errors, Eigen::Index axis) {
+  if (axis >= 3) return {kDegrees, "° over s"};
+  double largest = 0;
+  for (const PoseError& e : errors) largest = std::max(largest, e.distance_m);
+  return largest < 2 ? Unit{100, "cm over s"} : Unit{1, "m over s"};
+}
+
 /// Error along one axis of base_link with the 3 σ that the estimate claims.
-std::string axis_chart(const RunReport& report, const Figures& figures, Eigen::Index axis, const char* title,
-                       double unit, const char* unit_name) {
-  LineChart chart{title, std::string(unit_name) + " over s", {{"path", {}, {}}}, {}, false};
+std::string axis_chart(const RunReport& report, const Figures& figures, Eigen::Index axis, const char* title) {
+  const Unit unit = unit_of(figures.pose_errors, axis);
+  LineChart chart{title, unit.name, {{"path", {}, {}}}, {}, false};
   bool claimed = false;
   for (const PoseError& e : figures.pose_errors) {
     chart.curves[0].x.push_back(to_seconds(e.stamp - report.start));
-    chart.curves[0].y.push_back(unit * e.error(axis));
+    chart.curves[0].y.push_back(unit.factor * e.error(axis));
     chart.band.x.push_back(chart.curves[0].x.back());
-    chart.band.half.push_back(unit * 3 * e.sigma(axis));
+    chart.band.half.push_back(unit.factor * 3 * e.sigma(axis));
     claimed = claimed || e.sigma(axis) > 0;
   }
   if (!claimed) chart.band = {};
@@ -37,20 +51,21 @@ std::string axis_chart(const RunReport& report, const Figures& figures, Eigen::I
 }
 
 std::string distance_chart(const RunReport& report, const Figures& figures) {
-  LineChart chart{"Position error", "cm over s", {{"path", {}, {}}}, {}, true};
+  const Unit unit = unit_of(figures.pose_errors, 0);
+  LineChart chart{"Position error", unit.name, {{"path", {}, {}}}, {}, true};
   for (const PoseError& e : figures.pose_errors) {
     chart.curves[0].x.push_back(to_seconds(e.stamp - report.start));
-    chart.curves[0].y.push_back(100 * e.distance_m);
+    chart.curves[0].y.push_back(unit.factor * e.distance_m);
   }
   return svg(chart);
 }
 
 std::string error_table(const TrajectoryError& e, std::span<const PoseError> errors) {
   std::string s = "<div class=\"pair\"><table>\n";
-  s += row("ATE, least squares", number(100 * e.ate_se3_rmse_m) + " cm");
-  s += row("ATE, first poses aligned", number(100 * e.ate_first_rmse_m) + " cm");
-  s += row("at the end", number(100 * e.final_error_m) + " cm");
-  s += row("length of the ground truth", number(e.length_m) + " m");
+  s += row("ATE, least squares", length(e.ate_se3_rmse_m));
+  s += row("ATE, first poses aligned", length(e.ate_first_rmse_m));
+  s += row("at the end", length(e.final_error_m));
+  s += row("length of the ground truth", length(e.length_m));
   s += "</table><table>\n";
   if (e.segments) {
     s += row("relative error", number(e.segments->trans_percent) + " %");
@@ -83,11 +98,11 @@ std::string accuracy_section(const RunReport& report, const Figures& figures) {
   s += "<div class=\"key\"><span><i></i>error, first poses laid over each other, axes of the robot</span>"
        "<span><i class=\"band\"></i>claimed 3 σ</span></div><div class=\"charts\">\n";
   s += distance_chart(report, figures);
-  s += axis_chart(report, figures, 5, "Heading", kDegrees, "°");
-  s += axis_chart(report, figures, 0, "Ahead (x)", 100, "cm");
-  s += axis_chart(report, figures, 1, "To the left (y)", 100, "cm");
-  s += axis_chart(report, figures, 2, "Up (z)", 100, "cm");
-  s += axis_chart(report, figures, 4, "Pitch", kDegrees, "°");
+  s += axis_chart(report, figures, 5, "Heading");
+  s += axis_chart(report, figures, 0, "Ahead (x)");
+  s += axis_chart(report, figures, 1, "To the left (y)");
+  s += axis_chart(report, figures, 2, "Up (z)");
+  s += axis_chart(report, figures, 4, "Pitch");
   return s + "</div></section>\n";
 }
 

@@ -30,13 +30,17 @@ const StageStats* tightest_stage(const Monitor* monitor) {
   return tightest;
 }
 
+/// Good odometry drifts by less than half a percent of the distance.
+const char* grade_of(double percent) { return percent <= 0.5 ? "good" : percent <= 2 ? "" : "bad"; }
+
 std::string error_tiles(const TrajectoryError& e) {
-  const bool moved = e.final_error_percent.has_value();
-  std::string s = tile(number(100 * e.ate_rmse_m) + " cm", "trajectory error, RMS",
-                       moved ? number(100 * e.ate_rmse_m / e.length_m) + " % of the distance" : "robot stood still");
-  s += tile(moved ? number(*e.final_error_percent) + " %" : number(100 * e.final_error_m) + " cm", "error at the end",
-            number(100 * e.final_error_m) + " cm");
-  return s;
+  if (!e.final_error_percent)
+    return tile(length(e.ate_rmse_m), "trajectory error, RMS", "robot stood still") +
+           tile(length(e.final_error_m), "error at the end", "");
+  const double percent = 100 * e.ate_rmse_m / e.length_m;
+  return tile(length(e.ate_rmse_m), "trajectory error, RMS", number(percent) + " % of the way", grade_of(percent)) +
+         tile(number(*e.final_error_percent) + " %", "error at the end", length(e.final_error_m),
+              grade_of(*e.final_error_percent));
 }
 
 class Notes {
@@ -89,7 +93,7 @@ std::string header(const RunReport& report) {
 
 std::string tiles(const RunReport& report, const Figures& figures) {
   std::string s = "<div class=\"tiles\">\n";
-  s += tile(number(report.distance_m) + " m", "distance", "in " + duration(report.duration_s));
+  s += tile(length(report.distance_m), "distance", "in " + duration(report.duration_s));
   s += tile(count(report.scans), "scans", count(report.lost_packets) + " packets lost",
             report.lost_packets > 0 ? "warn" : "");
   if (figures.error) s += error_tiles(*figures.error);

@@ -63,6 +63,13 @@ std::string number(double value) {
   return fmt::format("{:.{}f}", value, digits);
 }
 
+std::string length(double metres) {
+  const double size = std::abs(metres);
+  if (!(size < 1)) return number(metres) + "\u202fm";
+  if (size >= 0.01) return number(100 * metres) + "\u202fcm";
+  return number(1000 * metres) + "\u202fmm";
+}
+
 std::string count(std::uint64_t value) {
   const std::string digits = std::to_string(value);
   std::string out;

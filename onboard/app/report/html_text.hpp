@@ -18,6 +18,8 @@ namespace cairn::html {
 
 /// About three digits, without an exponent between 0.001 and a million; "–" for what is not finite.
 [[nodiscard]] std::string number(double value);
+/// 3.20 mm, 12.3 cm, 4.56 m.
+[[nodiscard]] std::string length(double metres);
 /// 1 234 567, with narrow spaces.
 [[nodiscard]] std::string count(std::uint64_t value);
 /// 512 B, 1.50 KiB, 12.3 MiB …

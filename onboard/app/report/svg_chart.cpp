@@ -71,6 +71,7 @@ Frame frame_of(const LineChart& chart) {
   for (const double half : chart.band.half) claimed = std::max(claimed, half);
   reach = std::max({std::min(claimed, 4 * reach), reach, 1e-6});
   if (!(x1 > x0)) x1 = x0 + 1;
+  if (x0 > 0 && x0 < 0.1 * x1) x0 = 0;
   const double step = round_step(reach, 3);
   const double top = std::ceil(1.02 * reach / step) * step;
   return {x0, x1, chart.from_zero ? 0 : -top, top};

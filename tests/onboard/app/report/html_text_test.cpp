@@ -40,6 +40,13 @@ TEST(Number, HasAboutThreeDigits) {
   EXPECT_EQ(number(std::numeric_limits<double>::infinity()), "–");
 }
 
+TEST(Length, ChoosesAUnit) {
+  EXPECT_EQ(length(0.0032), "3.20\u202fmm");
+  EXPECT_EQ(length(0.123), "12.3\u202fcm");
+  EXPECT_EQ(length(-4.56), "-4.56\u202fm");
+  EXPECT_EQ(length(std::numeric_limits<double>::quiet_NaN()), "–\u202fm");
+}
+
 TEST(Count, GroupsThousands) {
   EXPECT_EQ(count(7), "7");
   EXPECT_EQ(count(1234), "1\u202f234");
