@@ -145,15 +145,37 @@ class BtNodes {
   std::array<std::uint16_t, SemanticOcTree::kDepth> pairs_{};  // of the open inner node at each depth
 };
 
-std::vector<std::byte> to_bytes(const std::ostringstream& stream) {
-  const std::string text = std::move(stream).str();
+std::vector<std::byte> header_bytes(std::string_view first_line, const SemanticOcTree& tree) {
+  std::ostringstream out;  // as OctoMap does: `res` gets six digits
+  out << first_line << "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\nid "
+      << tree.getTreeType() << "\nsize " << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
+  const std::string text = std::move(out).str();
   const auto bytes = std::as_bytes(std::span(text));
   return {bytes.begin(), bytes.end()};
 }
 
-void write_header(std::ostream& out, std::string_view first_line, const SemanticOcTree& tree) {
-  out << first_line << "\n# (feel free to add / change comments, but leave the first line as it is!)\n"
-      << "#\nid " << tree.getTreeType() << "\nsize " << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
+// These two recurse, but never deeper than the tree: 16 levels.
+void append_ot(std::vector<std::byte>& out, const SemanticNode& node) {
+  const SemanticNode* block = node.block();
+  unsigned children = 0;
+  for (unsigned i = 0; i < SemanticNode::kChildren && block != nullptr; ++i)
+    children |= (block[i].present() ? 1U : 0U) << i;
+  append_le(out, node.getLogOdds());
+  append_le(out, static_cast<std::uint8_t>(children));
+  for (unsigned i = 0; i < SemanticNode::kChildren; ++i)
+    if ((children >> i & 1) != 0) append_ot(out, block[i]);
+}
+
+void append_bt(std::vector<std::byte>& out, const SemanticOcTree& tree, const SemanticNode& node) {
+  const SemanticNode* block = node.block();
+  unsigned pairs = 0;
+  for (unsigned i = 0; i < SemanticNode::kChildren && block != nullptr; ++i) {
+    const unsigned leaf = tree.isNodeOccupied(block[i]) ? 2 : 1;
+    pairs |= (!block[i].present() ? 0 : block[i].block() != nullptr ? 3 : leaf) << (2 * i);
+  }
+  append_le(out, static_cast<std::uint16_t>(pairs));
+  for (unsigned i = 0; i < SemanticNode::kChildren; ++i)
+    if (kind_of(static_cast<std::uint16_t>(pairs), i) == 3) append_bt(out, tree, block[i]);
 }
 
 bool starts_with_line(std::span<const std::byte> bytes, std::string_view line) {
@@ -173,20 +195,18 @@ Tree decode_bt(std::span<const std::byte> bytes, const MapLimits& limits) {
 }
 
 std::vector<std::byte> encode_ot(const SemanticOcTree& tree) {
-  std::ostringstream out;
-  write_header(out, kFirstLineOt, tree);
-  tree.writeData(out);
-  return to_bytes(out);
+  std::vector<std::byte> out = header_bytes(kFirstLineOt, tree);
+  if (tree.getRoot() != nullptr) append_ot(out, *tree.getRoot());
+  return out;
 }
 
 std::vector<std::byte> encode_bt(const SemanticOcTree& tree) {
   SemanticOcTree likely(tree);
   likely.toMaxLikelihood();
   likely.prune();
-  std::ostringstream out;
-  write_header(out, kFirstLineBt, likely);
-  likely.writeBinaryData(out);
-  return to_bytes(out);
+  std::vector<std::byte> out = header_bytes(kFirstLineBt, likely);
+  if (likely.getRoot() != nullptr) append_bt(out, likely, *likely.getRoot());
+  return out;
 }
 
 bool is_ot(std::span<const std::byte> bytes) { return starts_with_line(bytes, kFirstLineOt); }

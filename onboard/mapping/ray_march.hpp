@@ -19,9 +19,10 @@ struct Ray {
   std::array<std::uint64_t, 3> step;  ///< see BrickGrid::axis_step()
 };
 
-/// Marks the voxels of each ray as free, without the origin and the end voxel: exactly those of OctoMap's
+/// Marks the voxels of each ray as free, up to the end voxel, which is left out: exactly those of OctoMap's
 /// computeRayKeys() (J. Amanatides, A. Woo, "A Fast Voxel Traversal Algorithm for Ray Tracing", 1987), the same
-/// roundings and ties included. `origin` is the index of the voxel they all start from.
+/// roundings and ties included. `origin` is the index of the voxel they all start from; it is the
+/// caller's to mark, and may or may not be marked here.
 using MarchRays = void (*)(std::span<const Ray> rays, std::uint64_t origin, Footprint& footprint);
 
 /// The reference, for any machine and any footprint.
