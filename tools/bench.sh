@@ -5,14 +5,11 @@
 #   tools/bench.sh [FILTER]      only benchmarks whose name matches this regular expression
 # A benchmark without counters ours_ms and n gives Google Benchmark's CPU time per iteration; its label is "peer" or
 # "peer: note". All counters are kept in build/bench/NAME.json.
-set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 filter=${1:-.}
 tools/packages.sh build test bench
-[[ -t 1 ]] && quiet=() || quiet=(-- --quiet)
-cmake --preset release -B build/bench >/dev/null
-cmake --build build/bench --target benchmarks "${quiet[@]}"
+build bench --target benchmarks
 
 results=()
 for program in build/bench/bin/bench_*; do

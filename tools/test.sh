@@ -8,8 +8,7 @@
 #     --clang  with clang++
 #     --fuzz   with clang++ and both of --asan, built as the fuzz targets are: CI's way, for it saves a build
 #     --cross  for aarch64, run under qemu-user (makes the sysroot at first)
-set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/.."
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 preset=dev groups=(build test) targets=() select=()
 case ${1:-} in
@@ -25,9 +24,7 @@ esac
 
 tools/packages.sh "${groups[@]}"
 [[ $preset != aarch64 ]] || toolchains/make_sysroot.sh
-[[ -t 1 ]] && quiet=() || quiet=(-- --quiet)
-cmake --preset "$preset" >/dev/null
-cmake --build --preset "$preset" "${targets[@]}" "${quiet[@]}"
+build "$preset" "${targets[@]}"
 # A sanitiser's report must end the test, whichever way the machine's defaults are set.
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_stack_use_after_return=1:strict_string_checks=1}
 export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1:halt_on_error=1}

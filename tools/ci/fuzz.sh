@@ -3,15 +3,12 @@
 # Builds the fuzz targets (clang, libFuzzer, both sanitisers) and runs each, two at a time:
 #   tools/ci/fuzz.sh [SECONDS [NAME…]]
 # What the fuzzer finds stays in build/fuzz/corpus/NAME for the next run; a crash leaves its input in build/fuzz/crash.
-set -euo pipefail
-cd "$(dirname "${BASH_SOURCE[0]}")/../.."
+source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 
 seconds=${1:-30}
 shift || true
 tools/packages.sh build test ci
-[[ -t 1 ]] && quiet=() || quiet=(-- --quiet)
-cmake --preset fuzz >/dev/null
-cmake --build --preset fuzz --target fuzzers "${quiet[@]}"
+build fuzz --target fuzzers
 
 names=("$@")
 if ((${#names[@]} == 0)); then
