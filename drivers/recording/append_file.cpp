@@ -66,7 +66,10 @@ Error AppendFile::cut_back(std::size_t done, int error) {
 }
 
 Result<void> AppendFile::end_record() {
-  if (error_ != 0 || fd_ < 0) return fail(error_ != 0 ? error_ : EBADF);
+  if (error_ != 0 || fd_ < 0) {
+    buffer_.clear();  // whoever goes on writing must not fill the memory instead of the disk
+    return fail(error_ != 0 ? error_ : EBADF);
+  }
   record_ends_.push_back(buffer_.size());
   if (buffer_.size() >= kBufferBytes) return flush();
   return {};

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <numbers>
 #include <string>
 #include <utility>
@@ -25,6 +26,13 @@ Result<std::vector<Time>> times_for(std::size_t sweeps, std::vector<Time> times,
                  where.string(),
                  {},
                  std::to_string(sweeps) + " sweeps, " + std::to_string(times.size()) + " times"};
+  const auto stuck = std::adjacent_find(times.begin(), times.end(), std::greater_equal<>());
+  if (stuck != times.end())
+    return Error{Errc::kMalformed,
+                 "the times do not increase",
+                 where.string(),
+                 {},
+                 "from time " + std::to_string(stuck - times.begin()) + " to the next"};
   for (std::size_t i = times.size(); i < sweeps; ++i)
     times.push_back(Time(from_seconds(static_cast<double>(i) / rate_hz)));
   return times;

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 #include <system_error>
+#include <tuple>
 
 #include "drivers/recording/text_lines.hpp"
 #include "drivers/recording/utc.hpp"
@@ -19,6 +20,14 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMaxTextBytes = std::uint64_t{64} << 20U;
 constexpr double kMaxMetres = 1e6;
 constexpr double kRotationTolerance = 0.01;
+
+/// For sorting: 9 before 10, with or without leading zeros; names that are no numbers come after them.
+std::tuple<std::size_t, std::string, std::string> natural_order(const fs::path& file) {
+  const std::string name = file.stem().string();
+  if (name.find_first_not_of("0123456789") != std::string::npos) return {std::string::npos, name, name};
+  const std::string digits = name.substr(std::min(name.find_first_not_of('0'), name.size()));
+  return {digits.size(), digits, name};
+}
 
 /// Twelve numbers of which nine are a rotation.
 Result<SE3> parse_transform(const LineReader& lines, std::string_view text) {
@@ -90,7 +99,8 @@ Result<std::vector<fs::path>> sorted_files(const fs::path& folder, std::string_v
   if (error) return Error{Errc::kNotFound, "cannot read the folder", folder.string(), {}, error.message()};
   if (files.empty())
     return Error{Errc::kNotFound, "the folder holds no such files", folder.string(), {}, "*" + std::string(extension)};
-  std::sort(files.begin(), files.end());
+  std::sort(files.begin(), files.end(),
+            [](const fs::path& a, const fs::path& b) { return natural_order(a) < natural_order(b); });
   return files;
 }
 

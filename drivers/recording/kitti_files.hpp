@@ -26,7 +26,8 @@ template <class T>
 [[nodiscard]] Result<T> read_kitti(const std::filesystem::path& path,
                                    Result<T> (*parse)(std::string_view, std::string_view));
 
-/// The regular files of `folder` with this extension, sorted by name. Error when the folder cannot be read or has none.
+/// The regular files of `folder` with this extension, sorted by name (numbers by their value). Error when the folder
+/// cannot be read or has none.
 [[nodiscard]] Result<std::vector<std::filesystem::path>> sorted_files(const std::filesystem::path& folder,
                                                                       std::string_view extension);
 [[nodiscard]] Result<std::string> read_text(const std::filesystem::path& path);

@@ -2,6 +2,7 @@
 #include "drivers/recording/sweep_import.hpp"
 
 #include <string>
+#include <system_error>
 #include <utility>
 
 #include "drivers/recording/scan_file.hpp"
@@ -16,6 +17,8 @@ Result<SweepImport> SweepImport::create(const ImportOptions& options, bool deske
   recording.start_utc_ns = start_utc_ns;
   recording.notes = std::move(notes);
   SourceEntry lidar{"lidar", std::string(kScans), "data.csv", "base_link", options.model};
+  // The sweeps' frame is the robot's: no profile's mount may move them away from their ground truth.
+  lidar.base_sensor_xyz_rpy = Vector6::Zero();
   lidar.deskewed = options.deskewed.value_or(deskewed);
   recording.sources.push_back(std::move(lidar));
   auto writer = RecordingWriter::create(options.out, recording, options.overwrite);
@@ -54,6 +57,9 @@ void SweepImport::damaged(Error error) {
 Result<ImportReport> SweepImport::finish() {
   if (auto closed = writer_.close(); !closed) return closed.error();
   if (report_.items > 0) return std::move(report_);
+  std::error_code ignored;  // nothing was imported: leave no recording in the way of the next attempt
+  for (const char* file : {kIndexFile, "data.csv", "ground_truth.tum"})
+    std::filesystem::remove(options_.out / file, ignored);
   const std::string first = report_.damage.empty() ? "" : to_string(report_.damage.front());
   return Error{Errc::kMalformed, "not one sweep could be read", options_.source.string(), {}, first};
 }

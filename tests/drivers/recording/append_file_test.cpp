@@ -73,6 +73,7 @@ TEST(AppendFile, AFullDiskCostsNoWholeRecord) {
     EXPECT_THAT(result.error().detail, HasSubstr("is kept"));
     EXPECT_EQ(fs::file_size(folder / "f"), room / 6 * 6) << room;
     EXPECT_FALSE(file->append_line("abcde\n")) << "the error stays, although the disk has room again";
+    EXPECT_TRUE(file->buffer().empty()) << "and what cannot be written is not kept in memory";
     EXPECT_FALSE(file->close());
     EXPECT_EQ(fs::file_size(folder / "f"), room / 6 * 6) << room;
   }

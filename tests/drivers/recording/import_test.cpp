@@ -129,6 +129,8 @@ TEST(ImportKitti, FaultsStopBeforeAnythingIsWritten) {
   refused("more sweeps than times");
   spit(folder / "s/times.txt", "0.0\nx\n");
   refused("not a time in seconds");
+  spit(folder / "s/times.txt", "0.1\n0.1\n");
+  refused("the times do not increase");
   fs::remove(folder / "s/times.txt");
   spit(folder / "s/poses_cam0.txt", "1 0 0 0 0 1 0 0 0 0 2 0\n");
   refused("not a rotation");
@@ -167,6 +169,17 @@ TEST(ImportPcd, AFolderWithTimesInTheNames) {
   ASSERT_EQ(scans.size(), 2U);
   EXPECT_EQ(scans[1].valid.end, Time(Duration(1'700'000'000'200'000'000)));
   EXPECT_NEAR(scans[1].cloud.offset_ns[7], 7e6, 2);
+}
+
+TEST(ImportPcd, NumbersComeInTheirOrderAndAnEmptyImportLeavesNothing) {
+  const TemporaryFolder folder;
+  for (const char* name : {"10.pcd", "9.pcd", "008.pcd", "a.pcd"}) spit(folder / "s" / name, "broken");
+  EXPECT_FALSE(import("pcd-folder", options(folder / "s", folder / "out")));
+  EXPECT_FALSE(fs::exists(folder / "out/recording.yaml"));
+  const auto files = sorted_files(folder / "s", ".pcd");
+  std::string order;
+  for (const fs::path& f : *files) order += f.stem().string() + " ";
+  EXPECT_EQ(order, "008 9 10 a ");
 }
 
 TEST(ImportPcd, AFolderWithoutTimes) {
