@@ -168,25 +168,33 @@ void Voxels::mark(const Triangle& t) {
   }
 }
 
+Voxels::State* Voxels::row(int y, int z) {
+  const Vector3i c(first_.x(), y, z);
+  return inside(c) ? &state_[index(c)] : nullptr;
+}
+
 /// Fills whole runs along x at a time; the list of open runs stays short even where millions of voxels are free.
 void Voxels::flood(std::span<const Vector3d> seeds) {
+  constexpr std::array<std::array<int, 2>, 4> kBeside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
   std::vector<Vector3i> open;
-  for (const Vector3d& seed : seeds) open.push_back(cell(seed));
-  const auto unknown = [this](const Vector3i& c) { return inside(c) && state_[index(c)] == kUnknown; };
+  for (const Vector3d& seed : seeds) {
+    if (inside(cell(seed))) open.push_back(cell(seed));
+  }
   while (!open.empty()) {
-    Vector3i at = open.back();
+    const Vector3i at = open.back();
     open.pop_back();
-    if (!unknown(at)) continue;
-    while (unknown(at - Vector3i::UnitX())) --at.x();
-    std::array<bool, 4> in_run{};  // of the four rows beside this one: is the voxel before `at` part of an open run?
-    for (; unknown(at); ++at.x()) {
-      state_[index(at)] = kFree;
-      constexpr std::array<std::array<int, 2>, 4> kBeside{{{-1, 0}, {1, 0}, {0, -1}, {0, 1}}};
-      for (std::size_t k = 0; k < 4; ++k) {
-        const Vector3i beside = at + Vector3i(0, kBeside[k][0], kBeside[k][1]);
-        const bool now = unknown(beside);
-        if (now && !in_run[k]) open.push_back(beside);
-        in_run[k] = now;
+    State* const here = row(at.y(), at.z());
+    int x = at.x() - first_.x();
+    if (here[x] != kUnknown) continue;
+    while (x > 0 && here[x - 1] == kUnknown) --x;
+    int end = x;
+    for (; end < size_.x() && here[end] == kUnknown; ++end) here[end] = kFree;
+    for (const auto& [dy, dz] : kBeside) {
+      const State* const beside = row(at.y() + dy, at.z() + dz);
+      if (beside == nullptr) continue;
+      for (int i = x; i < end; ++i) {
+        const bool begins = beside[i] == kUnknown && (i == x || beside[i - 1] != kUnknown);
+        if (begins) open.push_back({first_.x() + i, at.y() + dy, at.z() + dz});
       }
     }
   }

@@ -30,6 +30,7 @@ class Voxels {
  private:
   void mark(const Triangle& triangle);
   void flood(std::span<const Eigen::Vector3d> seeds);
+  [[nodiscard]] State* row(int y, int z);  // null outside
   [[nodiscard]] Eigen::Vector3i cell(const Eigen::Vector3d& p) const;
   [[nodiscard]] bool inside(const Eigen::Vector3i& c) const;
   [[nodiscard]] std::size_t index(const Eigen::Vector3i& c) const;
