@@ -10,7 +10,7 @@ struct OdometryConfig {
   double min_range_m = 0.5;
   double max_range_m = 100.0;
 
-  double insert_spacing_m = 0.1;
+  double insert_spacing_m = 0.05;
   int keypoints = 2500;
   int max_iterations = 12;
 
@@ -21,11 +21,11 @@ struct OdometryConfig {
 
   double noise_floor_m = 0.01;
   double max_thickness_m = 0.06;
-  double correlation_factor = 20.0;
+  double correlation_factor = 40.0;
 
   double linear_acceleration = 3.0;
   double angular_acceleration = 3.0;
-  double initial_speed = 3.0;
+  double initial_speed = 10.0;
   double initial_angular_speed = 1.0;
   double max_speed = 50.0;
   double max_angular_speed = 6.0;

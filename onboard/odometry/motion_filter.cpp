@@ -7,10 +7,10 @@ namespace cairn {
 namespace {
 
 /// Hessian of ½·Σ w r² over (δ, ν), see NormalEquations.
-Matrix12 information(const NormalEquations& n, double correlation) {
+Matrix12 information(const NormalEquations& n, double overconfidence) {
   Matrix12 H;
   H << n.aa, -n.taa, -n.taa, n.ttaa;
-  return H / correlation;
+  return H / overconfidence;
 }
 
 Matrix12 inverse_of(const Matrix12& m) { return m.ldlt().solve(Matrix12::Identity()); }
@@ -67,13 +67,13 @@ Vector12 MotionFilter::step(const MotionState& x, const Measurement& m) const {
   from_prior << (state_.T_odom_base.inverse() * x.T_odom_base).log(), x.twist - state_.twist;
   Vector12 gradient;
   gradient << n.ar, -n.tar;
-  gradient = gradient / m.misfit + prior * from_prior;
-  return -(information(n, m.misfit) + prior).ldlt().solve(gradient);
+  gradient = gradient / m.overconfidence + prior * from_prior;
+  return -(information(n, m.overconfidence) + prior).ldlt().solve(gradient);
 }
 
 void MotionFilter::update(const MotionState& x, const Measurement& m, const Matrix6& map_covariance) {
   const NormalEquations& n = m.equations;
-  const Matrix12 H = information(n, m.misfit);
+  const Matrix12 H = information(n, m.overconfidence);
   const Matrix12 prior = inverse_of(decoupled(uncertainty_.local, m.degeneracy));
   const Matrix12 posterior = symmetric(inverse_of(H + prior));
   const Matrix12 keep = posterior * prior;  // what remains of the prediction's error
@@ -81,8 +81,8 @@ void MotionFilter::update(const MotionState& x, const Measurement& m, const Matr
   const Matrix12x6 follow = posterior * H.leftCols<6>();
   const Matrix6 ad = x.T_odom_base.inverse().adjoint();
   const Matrix6 map_error = ad * map_covariance * ad.transpose();
-  uncertainty_.total = symmetric(keep * uncertainty_.total * keep.transpose() +
-                                 follow * map_error * follow.transpose() + m.correlation * noise);
+  uncertainty_.total =
+      symmetric(keep * uncertainty_.total * keep.transpose() + follow * map_error * follow.transpose() + noise);
   uncertainty_.local = posterior;
   // Error of the motion = new error − the old one carried along.
   Matrix12 carried = Matrix12::Zero();

@@ -29,8 +29,10 @@ struct MotionNoise {
 struct Measurement {
   const NormalEquations& equations;
   const Degeneracy& degeneracy;  ///< `equations` are already without it
-  double misfit;       ///< Σ (r/σ)² per point, at least 1: by how much the variances of single points are too small
-  double correlation;  ///< by how much the drift exceeds what independent points would give
+  /// By how much the equations' weights are too large: squared misfit of single points times points per independent
+  /// piece of information. Gains and covariance both follow from it: a direction in which few or wrong points speak
+  /// must not outvote the prediction.
+  double overconfidence;
 };
 
 /// An iterated extended Kalman filter with the constant-twist model. It carries two covariances of the same state:

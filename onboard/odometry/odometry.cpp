@@ -9,6 +9,8 @@ namespace {
 
 // A revolution takes at most 0.2 s (5 Hz); an older point has a broken stamp.
 constexpr double kMaxAge = 0.25;
+// Wide enough that the first registrations, with the widest gate, are not led by the nearest surfaces alone; it adapts.
+constexpr float kFirstKeypointSpacing = 0.4F;
 
 PatchMap::Config map_config(const OdometryConfig& c) {
   PatchCriteria criteria;
@@ -27,7 +29,7 @@ LidarOdometry::LidarOdometry(const OdometryConfig& config, const SE3& T_base_lid
       workers_(workers),
       map_(map_config(config)),
       linearise_(static_cast<std::size_t>(2 * config.keypoints)),
-      keypoint_spacing_m_(static_cast<float>(3 * config.insert_spacing_m)) {}
+      keypoint_spacing_m_(kFirstKeypointSpacing) {}
 
 Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget) {
   if (const auto good = check(scan); !good) return good.error();
@@ -139,8 +141,7 @@ LidarOdometry::Fit LidarOdometry::fit(Budget& budget) {
     const NormalEquations all = linearise_(keypoints_, map_, at, workers_);
     found.degeneracy = find_degeneracy(all, linearise_.rows(), config_.min_facing_points);
     found.equations = without_degenerate(all, found.degeneracy);
-    const Vector12 step =
-        filter_.step(found.state, {found.equations, found.degeneracy, 1.0, config_.correlation_factor});
+    const Vector12 step = filter_.step(found.state, {found.equations, found.degeneracy, config_.correlation_factor});
     found.state = found.state + step;
     ++found.iterations;
     found.converged = gate <= least && step.head<3>().norm() < 2e-4 && step.segment<3>(3).norm() < 2e-5;
@@ -161,7 +162,7 @@ bool LidarOdometry::plausible(const Fit& found, double dt) const {
 void LidarOdometry::accept(const Fit& found) {
   lost_in_a_row_ = 0;
   const double misfit = found.equations.robust > 0 ? found.equations.chi2 / found.equations.robust : 1.0;
-  const Measurement measurement{found.equations, found.degeneracy, std::max(1.0, misfit), config_.correlation_factor};
+  const Measurement measurement{found.equations, found.degeneracy, std::max(1.0, misfit) * config_.correlation_factor};
   filter_.update(found.state, measurement, drift_.average(linearise_.uses()));
 }
 

@@ -54,10 +54,11 @@ struct Patch {
 
 /// When a set of points counts as a plane or a pole.
 struct PatchCriteria {
-  float noise_floor_m = 0.01F;    ///< no patch is believed to be thinner
-  float max_thickness_m = 0.06F;  ///< of a plane: standard deviation across
-  float min_flatness = 9.0F;      ///< of a plane: smaller in-plane variance over variance across
-  float max_tilt_rad = 0.03F;     ///< of a plane: standard deviation of the normal
+  float noise_floor_m = 0.01F;      ///< no patch is believed to be thinner
+  float max_thickness_m = 0.06F;    ///< of a plane: standard deviation across
+  float min_flatness = 9.0F;        ///< of a plane: smaller in-plane variance over variance across
+  float max_tilt_rad = 0.03F;       ///< of a plane: standard deviation of the normal
+  float min_incidence_rad = 0.05F;  ///< of a plane: beams nearer to it are taken to have swept it, not hit it
   float min_points = 8.0F;
   float pole_width = 0.12F;  ///< standard deviation across, in edges, that a pole has at most
   float pole_height = 0.2F;  ///< standard deviation upwards, in edges, that a pole has at least
