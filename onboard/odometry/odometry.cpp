@@ -11,6 +11,9 @@ namespace {
 constexpr double kMaxAge = 0.25;
 // Wide enough that the first registrations, with the widest gate, are not led by the nearest surfaces alone; it adapts.
 constexpr float kFirstKeypointSpacing = 0.4F;
+// Standard deviation [m/s] above which the prediction is as good as none, and speeds are tried one by one.
+constexpr double kSpeedUnknown = 2.0;
+constexpr double kGuessGate = 0.5;
 
 PatchMap::Config map_config(const OdometryConfig& c) {
   PatchCriteria criteria;
@@ -41,7 +44,7 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget) {
   last_stamp_ = scan.valid.end;
   T_odom_previous_ = filter_.state().T_odom_base;
   filter_.predict(dt, {config_.linear_acceleration, config_.angular_acceleration});
-  const Fit found = fit(budget);
+  const Fit found = fit(first_guess(dt), budget);
 
   OdometryUpdate update;
   update.stamp = scan.valid.end;
@@ -129,9 +132,35 @@ OdometryUpdate LidarOdometry::start(Time stamp) {
   return update;
 }
 
-LidarOdometry::Fit LidarOdometry::fit(Budget& budget) {
+MotionState LidarOdometry::first_guess(double dt) {
+  const MotionState& predicted = filter_.state();
+  if (filter_.uncertainty().local(6, 6) < kSpeedUnknown * kSpeedUnknown) return predicted;
+  const auto inliers = [&](const MotionState& at) {
+    return linearise_(keypoints_, map_, {at.T_odom_base, at.twist, T_base_lidar_, duration_s_, kGuessGate}, workers_)
+        .inliers;
+  };
+  MotionState best = predicted;
+  // Where all speeds look alike, rest is the best guess.
+  double most = 1.1 * inliers(predicted);
+  for (double speed = 1.0; speed <= 2.0 * config_.initial_speed; speed += 1.0) {
+    for (const double v : {speed, -speed}) {
+      Vector12 change = Vector12::Zero();
+      change[0] = dt * v;
+      change[6] = v;
+      const MotionState guess = predicted + change;
+      const double n = inliers(guess);
+      if (n > most) {
+        most = n;
+        best = guess;
+      }
+    }
+  }
+  return best;
+}
+
+LidarOdometry::Fit LidarOdometry::fit(const MotionState& guess, Budget& budget) {
   Fit found;
-  found.state = filter_.state();
+  found.state = guess;
   // Look as far as the prediction may be off, then narrower: the kernel follows the gate.
   const double least = 0.2;
   const double deviation = std::sqrt(filter_.uncertainty().local.topLeftCorner<3, 3>().trace());

@@ -76,7 +76,9 @@ class LidarOdometry {
   Result<void> check(const Scan& scan) const;
   void take(const Scan& scan);
   void choose_keypoints();
-  Fit fit(Budget& budget);
+  /// The prediction; while the speed is unknown, the forward speed that puts most points onto planes.
+  MotionState first_guess(double dt);
+  Fit fit(const MotionState& guess, Budget& budget);
   [[nodiscard]] bool plausible(const Fit& fit, double dt) const;
   void accept(const Fit& fit);
   OdometryUpdate start(Time stamp);
