@@ -47,11 +47,26 @@ if(CAIRN_SANITIZE)
   target_link_options(cairn_flags INTERFACE -fsanitize=${CAIRN_SANITIZE})
 endif()
 
+# CAIRN_PRECOMPILE parses what nearly every file includes once for all targets of a kind: half the time of a build. The
+# scripts turn it on; the linter does without, so that every file still has to include what it uses.
+set(cairn_common_headers <algorithm> <array> <cmath> <cstdint> <filesystem> <functional> <memory> <optional> <span> <string>
+  <string_view> <vector> <Eigen/Core> <Eigen/Geometry> ${PROJECT_SOURCE_DIR}/hal/result.hpp)
+function(cairn_precompile kind target)
+  get_property(first GLOBAL PROPERTY cairn_precompiled_${kind})
+  if(first)
+    target_precompile_headers(${target} REUSE_FROM ${first})
+  elseif(CAIRN_PRECOMPILE)
+    target_precompile_headers(${target} PRIVATE ${cairn_common_headers} ${ARGN})
+    set_property(GLOBAL PROPERTY cairn_precompiled_${kind} ${target})
+  endif()
+endfunction()
+
 # cairn_library(NAME SOURCES … [PUBLIC lib …] [PRIVATE lib …]): the static library cairn_NAME of one room.
 function(cairn_library name)
   cmake_parse_arguments(A "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(cairn_${name} STATIC ${A_SOURCES})
   target_link_libraries(cairn_${name} PUBLIC cairn_flags ${A_PUBLIC} PRIVATE ${A_PRIVATE})
+  cairn_precompile(library cairn_${name})
 endfunction()
 
 # cairn_test(NAME SOURCES … [LINK lib …]): one GoogleTest program test_NAME; ctest lists its cases.
@@ -62,6 +77,7 @@ function(cairn_test name)
   target_compile_definitions(test_${name} PRIVATE CAIRN_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
   # What is tested is optimised; optimising the tests themselves would take half of the whole build's time.
   target_compile_options(test_${name} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>)
+  cairn_precompile(test test_${name} <gmock/gmock.h> <gtest/gtest.h>)
   gtest_discover_tests(test_${name} TEST_PREFIX "${name}/" DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
 endfunction()
 
