@@ -26,7 +26,7 @@ class DriftHistory {
   /// perturbation of T_odom_base.
   void advance(const SE3& T_odom_base, const Matrix6& covariance);
   /// The epoch that new points belong to.
-  [[nodiscard]] std::uint64_t epoch() const { return newest_; }
+  [[nodiscard]] float epoch() const { return static_cast<float>(newest_); }
 
   /// Covariance (left perturbation) of the planes in use: the weighted mean of their epochs', which is exact when their
   /// errors are fully correlated and too large otherwise.

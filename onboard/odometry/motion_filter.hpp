@@ -11,6 +11,7 @@ namespace cairn {
 
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
+using Matrix12x6 = Eigen::Matrix<double, 12, 6>;
 
 /// Where the base is and how it moves. Error state: T·exp(δ), twist + ν, ordered (δ, ν).
 struct MotionState {
@@ -18,27 +19,25 @@ struct MotionState {
   Vector6 twist = Vector6::Zero();  ///< of base_link in base_link: m/s, rad/s
 };
 
-[[nodiscard]] MotionState operator+(const MotionState& x, const Vector12& step);
-
-/// White acceleration in base_link, as standard deviations.
+/// White acceleration, constant within one step.
 struct MotionNoise {
-  double horizontal = 3.0;  ///< m/s², along x and y
-  double vertical = 1.0;    ///< m/s², along z
-  double tilting = 1.0;     ///< rad/s², about x and y
-  double turning = 3.0;     ///< rad/s², about z
+  double linear = 3.0;   ///< m/s²
+  double angular = 3.0;  ///< rad/s²
 };
 
 /// What one scan says, linearised at one state.
 struct Measurement {
   const NormalEquations& equations;
   const Degeneracy& degeneracy;  ///< `equations` are already without it
-  double variance_scale;         ///< by how much the variance of independent points is too small
-  double drift_scale;            ///< and by how much more for the error since the start: what is alike in many scans
+  /// By how much the equations' weights are too large: squared misfit of single points times points per independent
+  /// piece of information. Gains and covariance both follow from it: a direction in which few or wrong points speak
+  /// must not outvote the prediction.
+  double overconfidence;
 };
 
 /// An iterated extended Kalman filter with the constant-twist model. It carries two covariances of the same state:
 /// `local` of the error against the map, which sets the gains, and `total` of the error against the start, which also
-/// inherits the errors that the map's patches were placed with.
+/// inherits the errors that the map's planes were placed with.
 class MotionFilter {
  public:
   struct Uncertainty {
@@ -47,17 +46,13 @@ class MotionFilter {
   };
 
   void reset(const MotionState& state, const Uncertainty& uncertainty);
-  /// Sets the twist to zero, with this covariance and no correlation to the pose.
-  void forget_twist(const Matrix6& covariance);
   /// Moves the state by `dt` seconds (> 0).
   void predict(double dt, const MotionNoise& noise);
 
-  /// One Gauss–Newton step from `x` towards the maximum of the posterior; `m` was linearised at x.
+  /// One Gauss–Newton step from `x` towards the maximum of the posterior; `n` was linearised at x.
   [[nodiscard]] Vector12 step(const MotionState& x, const Measurement& m) const;
-  /// Root mean square of the pose's distance to the prediction, in its standard deviations.
-  [[nodiscard]] double innovation(const MotionState& x) const;
-  /// Ends the iteration at x. `map_covariance` is that of the matched patches' common displacement, as the covariance
-  /// of a left perturbation of T_odom_base.
+  /// Ends the iteration at x. `map_covariance` is that of the matched planes' common displacement, as the covariance of
+  /// a left perturbation of T_odom_base.
   void update(const MotionState& x, const Measurement& m, const Matrix6& map_covariance);
 
   [[nodiscard]] const MotionState& state() const { return state_; }
@@ -69,9 +64,11 @@ class MotionFilter {
   MotionState state_;
   Uncertainty uncertainty_;
   Matrix12 transition_ = Matrix12::Identity();  // of the last predict()
-  Matrix12 process_ = Matrix12::Zero();         // its noise
-  Matrix12 local_before_ = Matrix12::Zero();    // covariance before it
+  Matrix12 local_before_ = Matrix12::Zero();    // before the last predict()
+  Matrix12 process_ = Matrix12::Zero();
   Matrix6 step_covariance_ = Matrix6::Zero();
 };
+
+[[nodiscard]] MotionState operator+(const MotionState& x, const Vector12& step);
 
 }  // namespace cairn

@@ -7,19 +7,13 @@
 namespace cairn {
 namespace {
 
-constexpr double kWidestGate = 2.0, kFinalGate = 0.2;
-// Smaller steps than these are lost in the noise.
-constexpr double kStillMetres = 3e-4, kStillRadians = 3e-5;
-// A correction of the prediction beyond so many standard deviations is a false match.
-constexpr double kMaxInnovation = 10.0;
-// From one place the same lines are seen again and again: after a second they say nothing new.
-constexpr double kStanceMetres = 0.1, kStanceRadians = 0.05;
-constexpr int kScansPerStance = 10;
-
-ScanPoints::Limits point_limits(const OdometryConfig& c) {
-  return {static_cast<float>(c.min_range_m), static_cast<float>(c.max_range_m), static_cast<float>(c.insert_spacing_m),
-          static_cast<std::size_t>(c.keypoints)};
-}
+// A revolution takes at most 0.2 s (5 Hz); an older point has a broken stamp.
+constexpr double kMaxAge = 0.25;
+// Wide enough that the first registrations, with the widest gate, are not led by the nearest surfaces alone; it adapts.
+constexpr float kFirstKeypointSpacing = 0.4F;
+// Standard deviation [m/s] above which the prediction is as good as none, and speeds are tried one by one.
+constexpr double kSpeedUnknown = 2.0;
+constexpr double kGuessGate = 0.5;
 
 PatchMap::Config map_config(const OdometryConfig& c) {
   PatchCriteria criteria;
@@ -28,11 +22,7 @@ PatchMap::Config map_config(const OdometryConfig& c) {
   return {c.finest_block_m, c.max_blocks, c.max_points_per_block, criteria};
 }
 
-void describe(const MotionFilter& filter, const SE3& T_odom_previous, OdometryUpdate& update) {
-  const SE3& T = filter.state().T_odom_base;
-  update.T_odom_base = {T, filter.uncertainty().total.topLeftCorner<6, 6>()};
-  update.T_previous_base = {T_odom_previous.inverse() * T, filter.step_covariance()};
-}
+bool finite(const Eigen::Vector3f& p) { return std::isfinite(p.x()) && std::isfinite(p.y()) && std::isfinite(p.z()); }
 
 }  // namespace
 
@@ -40,23 +30,39 @@ LidarOdometry::LidarOdometry(const OdometryConfig& config, const SE3& T_base_lid
     : config_(config),
       T_base_lidar_(T_base_lidar),
       workers_(workers),
-      points_(point_limits(config)),
       map_(map_config(config)),
-      linearise_(static_cast<std::size_t>(2 * config.keypoints)) {}
+      linearise_(static_cast<std::size_t>(2 * config.keypoints)),
+      keypoint_spacing_m_(kFirstKeypointSpacing) {}
 
 Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget) {
   if (const auto good = check(scan); !good) return good.error();
+  take(scan);
+  choose_keypoints();
+  if (!last_stamp_) return start(scan.valid.end);
+
+  const double dt = to_seconds(scan.valid.end - *last_stamp_);
+  last_stamp_ = scan.valid.end;
+  T_odom_previous_ = filter_.state().T_odom_base;
+  filter_.predict(dt, {config_.linear_acceleration, config_.angular_acceleration});
+  const Fit found = fit(first_guess(dt), budget);
+
   OdometryUpdate update;
   update.stamp = scan.valid.end;
-  points_.take(scan);
-  if (!last_stamp_)
-    start();
+  update.iterations = found.iterations;
+  update.converged = found.converged;
+  const NormalEquations& n = found.equations;
+  update.inlier_ratio = n.matched > 0 ? static_cast<double>(n.inliers) / n.matched : 0.0;
+  update.rms_m = n.robust > 0 ? std::sqrt(n.squared_distance / n.robust) : 0.0;
+  update.degenerate_directions = found.degeneracy.count;
+  update.degenerate = found.degeneracy.directions;
+  update.degenerate_length_m = found.degeneracy.length_m;
+  if (plausible(found, dt))
+    accept(found);
   else
-    track(to_seconds(scan.valid.end - *last_stamp_), budget, update);
-  last_stamp_ = scan.valid.end;
-  update.points_base = points_.deskew(filter_.state().twist, T_base_lidar_, workers_);
+    lose_track(update);
+  deskew_all(filter_.state().twist);
   if (!update.lost || update.reinitialised) insert();
-  describe(filter_, T_odom_previous_, update);
+  fill(update);
   return update;
 }
 
@@ -70,54 +76,106 @@ Result<void> LidarOdometry::check(const Scan& scan) const {
   return {};
 }
 
-void LidarOdometry::start() {
-  filter_.reset({}, {});
-  forget_twist();
+void LidarOdometry::take(const Scan& scan) {
+  const std::vector<Eigen::Vector3f>& xyz = scan.cloud.xyz;
+  const double span_s = to_seconds(scan.valid.end - scan.valid.start);
+  duration_s_ = scan.deskewed ? 0.0 : std::clamp(span_s, 0.0, kMaxAge);
+  points_lidar_.clear();
+  age_s_.clear();
+  in_range_.clear();
+  points_lidar_.reserve(xyz.size());
+  age_s_.reserve(xyz.size());
+  in_range_.reserve(xyz.size());
+  const auto near = static_cast<float>(config_.min_range_m * config_.min_range_m);
+  const auto far = static_cast<float>(config_.max_range_m * config_.max_range_m);
+  for (std::size_t i = 0; i < xyz.size(); ++i) {
+    if (!finite(xyz[i])) continue;
+    const double age = scan.deskewed ? 0.0 : std::clamp(span_s - 1e-9 * scan.cloud.offset_ns[i], 0.0, duration_s_);
+    const float squared = xyz[i].squaredNorm();
+    if (squared >= near && squared <= far) in_range_.push_back(static_cast<std::uint32_t>(points_lidar_.size()));
+    points_lidar_.push_back(xyz[i]);
+    age_s_.push_back(static_cast<float>(age));
+  }
+}
+
+void LidarOdometry::choose_keypoints() {
+  dense_points_ = dense_(points_lidar_, in_range_, static_cast<float>(config_.insert_spacing_m));
+  const auto chosen = sparse_(points_lidar_, dense_points_, keypoint_spacing_m_);
+  const auto most = static_cast<std::size_t>(2 * config_.keypoints);
+  const std::size_t stride = chosen.size() / most + 1;
+  keypoints_.clear();
+  keypoints_.reserve(most);
+  for (std::size_t i = 0; i < chosen.size(); i += stride)
+    keypoints_.push_back({points_lidar_[chosen[i]], age_s_[chosen[i]]});
+  // The next scan will look much the same: let the spacing follow.
+  const double ratio = static_cast<double>(chosen.size()) / config_.keypoints;
+  if (ratio > 1.1) keypoint_spacing_m_ *= ratio > 1.5 ? 1.2F : 1.05F;
+  if (ratio < 0.9) keypoint_spacing_m_ /= 1.05F;
+  keypoint_spacing_m_ = std::clamp(keypoint_spacing_m_, static_cast<float>(config_.insert_spacing_m), 3.0F);
+}
+
+OdometryUpdate LidarOdometry::start(Time stamp) {
+  last_stamp_ = stamp;
+  Vector6 speed;
+  speed << Eigen::Vector3d::Constant(config_.initial_speed), Eigen::Vector3d::Constant(config_.initial_angular_speed);
+  MotionFilter::Uncertainty uncertainty;
+  uncertainty.local.bottomRightCorner<6, 6>() = speed.cwiseAbs2().asDiagonal();
+  uncertainty.total = uncertainty.local;
+  filter_.reset({}, uncertainty);
   begin_map();
+  deskew_all(filter_.state().twist);
+  insert();
+  OdometryUpdate update;
+  update.stamp = stamp;
+  update.converged = true;
+  fill(update);
+  return update;
 }
 
-void LidarOdometry::track(double dt, Budget& budget, OdometryUpdate& update) {
-  T_odom_previous_ = filter_.state().T_odom_base;
-  predict(dt);
-  const Fit found = fit(budget);
-  const NormalEquations& n = found.equations;
-  update.iterations = found.iterations;
-  update.converged = found.converged;
-  update.inlier_ratio = n.matched > 0 ? static_cast<double>(n.inliers) / n.matched : 0.0;
-  update.rms_m = n.robust > 0 ? std::sqrt(n.squared_distance / n.robust) : 0.0;
-  update.degenerate_directions = found.degeneracy.count;
-  update.degenerate = found.degeneracy.directions;
-  update.degenerate_length_m = found.degeneracy.length_m;
-  if (plausible(found, dt))
-    accept(found);
-  else
-    lose_track(update);
+MotionState LidarOdometry::first_guess(double dt) {
+  const MotionState& predicted = filter_.state();
+  if (filter_.uncertainty().local(6, 6) < kSpeedUnknown * kSpeedUnknown) return predicted;
+  const auto inliers = [&](const MotionState& at) {
+    return linearise_(keypoints_, map_, {at.T_odom_base, at.twist, T_base_lidar_, duration_s_, kGuessGate}, workers_)
+        .inliers;
+  };
+  MotionState best = predicted;
+  // Where all speeds look alike, rest is the best guess.
+  double most = 1.1 * inliers(predicted);
+  for (double speed = 1.0; speed <= 2.0 * config_.initial_speed; speed += 1.0) {
+    for (const double v : {speed, -speed}) {
+      Vector12 change = Vector12::Zero();
+      change[0] = dt * v;
+      change[6] = v;
+      const MotionState guess = predicted + change;
+      const double n = inliers(guess);
+      if (n > most) {
+        most = n;
+        best = guess;
+      }
+    }
+  }
+  return best;
 }
 
-void LidarOdometry::predict(double dt) {
-  if (dt > config_.max_gap_s) forget_twist();
-  filter_.predict(dt, {config_.horizontal_acceleration, config_.vertical_acceleration, config_.tilting_acceleration,
-                       config_.turning_acceleration});
-}
-
-LidarOdometry::Fit LidarOdometry::fit(Budget& budget) {
+LidarOdometry::Fit LidarOdometry::fit(const MotionState& guess, Budget& budget) {
   Fit found;
-  found.state = filter_.state();
+  found.state = guess;
   // Look as far as the prediction may be off, then narrower: the kernel follows the gate.
+  const double least = 0.2;
   const double deviation = std::sqrt(filter_.uncertainty().local.topLeftCorner<3, 3>().trace());
-  double gate = std::clamp(3 * deviation, kFinalGate, kWidestGate);
+  double gate = std::clamp(3 * deviation, least, 2.0);
   while (found.iterations < config_.max_iterations && budget.one_more()) {
-    const Linearisation at{found.state.T_odom_base, found.state.twist, T_base_lidar_, points_.duration_s(), gate};
-    const NormalEquations all = linearise_(points_.keypoints(), map_, at, workers_);
+    const Linearisation at{found.state.T_odom_base, found.state.twist, T_base_lidar_, duration_s_, gate};
+    const NormalEquations all = linearise_(keypoints_, map_, at, workers_);
     found.degeneracy = find_degeneracy(all, linearise_.rows(), config_.min_facing_points);
     found.equations = without_degenerate(all, found.degeneracy);
-    const Vector12 step = filter_.step(found.state, {found.equations, found.degeneracy, config_.correlation, 1.0});
+    const Vector12 step = filter_.step(found.state, {found.equations, found.degeneracy, config_.correlation_factor});
     found.state = found.state + step;
     ++found.iterations;
-    const bool still = step.head<3>().norm() < kStillMetres && step.segment<3>(3).norm() < kStillRadians;
-    found.converged = still && gate <= kFinalGate;
+    found.converged = gate <= least && step.head<3>().norm() < 2e-4 && step.segment<3>(3).norm() < 2e-5;
     if (found.converged) break;
-    gate = std::max(kFinalGate, 0.5 * gate);
+    gate = std::max(least, 0.5 * gate);
   }
   return found;
 }
@@ -127,76 +185,69 @@ bool LidarOdometry::plausible(const Fit& found, double dt) const {
   if (n.matched < config_.min_matches || n.inliers < config_.min_inlier_ratio * n.matched) return false;
   const SE3 motion = T_odom_previous_.inverse() * found.state.T_odom_base;
   return motion.translation().norm() <= config_.max_speed * dt &&
-         rotation_angle(motion) <= config_.max_turning_rate * dt && filter_.innovation(found.state) <= kMaxInnovation;
+         rotation_angle(motion) <= config_.max_angular_speed * dt;
 }
 
 void LidarOdometry::accept(const Fit& found) {
   lost_in_a_row_ = 0;
-  const NormalEquations& n = found.equations;
-  const double misfit = std::max(1.0, n.robust > 0 ? n.chi2 / n.robust : 1.0);
-  filter_.update(found.state,
-                 {n, found.degeneracy, config_.correlation * misfit, config_.drift_factor / config_.correlation},
-                 drift_.average(linearise_.uses()));
+  const double misfit = found.equations.robust > 0 ? found.equations.chi2 / found.equations.robust : 1.0;
+  const Measurement measurement{found.equations, found.degeneracy, std::max(1.0, misfit) * config_.correlation_factor};
+  filter_.update(found.state, measurement, drift_.average(linearise_.uses()));
 }
 
 void LidarOdometry::lose_track(OdometryUpdate& update) {
   update.lost = true;
   update.converged = false;
-  // A map without patches cannot be found again.
-  if (++lost_in_a_row_ < config_.reinitialise_after && map_.patches() > 0) return;
+  ++lost_in_a_row_;
+  if (lost_in_a_row_ < config_.reinitialise_after && map_.patches() > 0) return;
   update.reinitialised = true;
   lost_in_a_row_ = 0;
-  forget_twist();
   begin_map();
-}
-
-void LidarOdometry::forget_twist() {
-  Vector6 deviation;
-  deviation << Eigen::Vector3d::Constant(config_.initial_speed),
-      Eigen::Vector3d::Constant(config_.initial_turning_rate);
-  filter_.forget_twist(deviation.cwiseAbs2().asDiagonal());
 }
 
 void LidarOdometry::begin_map() {
   map_.clear();
   drift_.reset(filter_.state().T_odom_base, odom_covariance());
-  T_odom_pruned_ = T_odom_stance_ = filter_.state().T_odom_base;
-  scans_at_stance_ = 0;
-}
-
-void LidarOdometry::insert() {
-  const SE3& T = filter_.state().T_odom_base;
-  if (!is_news(T)) return;
-  drift_.advance(T, odom_covariance());
-  if ((T.translation() - T_odom_pruned_.translation()).norm() > 0.1 * config_.window_m) {
-    map_.keep_within(T.translation(), config_.window_m);
-    T_odom_pruned_ = T;
-  }
-  const SE3 T_odom_lidar = T * T_base_lidar_;
-  const Eigen::Matrix3d R = T.rotation();
-  map_points_.clear();
-  map_points_.reserve(points_.dense().size());
-  for (const std::uint32_t i : points_.dense()) {
-    const Eigen::Vector3d p = R * points_.points_base()[i].cast<double>() + T.translation();
-    map_points_.push_back({p, (T_odom_lidar.translation() - p).cast<float>(), points_.ring(i)});
-  }
-  const Eigen::Vector3f up = T_odom_lidar.rotation().col(2).cast<float>();
-  map_.insert(map_points_, {stance_, static_cast<float>(drift_.epoch()), up}, workers_);
-}
-
-bool LidarOdometry::is_news(const SE3& T_odom_base) {
-  const SE3 moved = T_odom_stance_.inverse() * T_odom_base;
-  if (moved.translation().norm() >= kStanceMetres || rotation_angle(moved) >= kStanceRadians) {
-    ++stance_;
-    scans_at_stance_ = 0;
-    T_odom_stance_ = T_odom_base;
-  }
-  return ++scans_at_stance_ <= kScansPerStance;
+  T_odom_pruned_ = filter_.state().T_odom_base;
 }
 
 Matrix6 LidarOdometry::odom_covariance() const {
   const Matrix6 ad = filter_.state().T_odom_base.adjoint();
   return ad * filter_.uncertainty().total.topLeftCorner<6, 6>() * ad.transpose();
+}
+
+void LidarOdometry::deskew_all(const Vector6& twist) {
+  constexpr std::size_t kChunk = 4096;
+  const Deskew deskew(twist, T_base_lidar_, duration_s_);
+  points_base_.resize(points_lidar_.size());
+  workers_.for_each((points_lidar_.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    const std::size_t end = std::min(points_lidar_.size(), (chunk + 1) * kChunk);
+    for (std::size_t i = chunk * kChunk; i < end; ++i) points_base_[i] = deskew(points_lidar_[i], age_s_[i]);
+  });
+}
+
+void LidarOdometry::insert() {
+  const SE3& T = filter_.state().T_odom_base;
+  drift_.advance(T, odom_covariance());
+  const Eigen::Matrix3d R = T.rotation();
+  map_points_.clear();
+  map_points_.reserve(dense_points_.size());
+  for (const std::uint32_t i : dense_points_)
+    map_points_.push_back(R * points_base_[i].cast<double>() + T.translation());
+  if ((T.translation() - T_odom_pruned_.translation()).norm() > 0.1 * config_.window_m) {
+    map_.keep_within(T.translation(), config_.window_m);
+    T_odom_pruned_ = T;
+  }
+  const SE3 T_odom_lidar = T * T_base_lidar_;
+  const PatchGrid::Sensor sensor{T_odom_lidar.translation(), T_odom_lidar.rotation().col(2).cast<float>()};
+  map_.insert(map_points_, sensor, drift_.epoch(), workers_);
+}
+
+void LidarOdometry::fill(OdometryUpdate& update) const {
+  const SE3& T = filter_.state().T_odom_base;
+  update.T_odom_base = {T, filter_.uncertainty().total.topLeftCorner<6, 6>()};
+  update.T_previous_base = {T_odom_previous_.inverse() * T, filter_.step_covariance()};
+  update.points_base = points_base_;
 }
 
 }  // namespace cairn

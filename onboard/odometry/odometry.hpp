@@ -18,7 +18,7 @@
 #include "onboard/odometry/motion_filter.hpp"
 #include "onboard/odometry/normal_equations.hpp"
 #include "onboard/odometry/patch_map.hpp"
-#include "onboard/odometry/scan_points.hpp"
+#include "onboard/odometry/subsample.hpp"
 
 namespace cairn {
 
@@ -33,8 +33,8 @@ struct OdometryUpdate {
 
   int iterations = 0;
   bool converged = false;
-  double inlier_ratio = 0;  ///< points within 3 σ of a patch / points whose neighbourhood holds patches
-  double rms_m = 0;         ///< distance of the points to their patches, robustly weighted
+  double inlier_ratio = 0;  ///< points within 3 σ of a plane / points whose neighbourhood holds planes
+  double rms_m = 0;         ///< point-to-plane distance, robustly weighted
   /// Directions the surroundings do not determine; along them the pose is the prediction and the covariance grows.
   int degenerate_directions = 0;
   /// The first `degenerate_directions` are valid: unit (translation, rotation·length) in base_link.
@@ -45,11 +45,10 @@ struct OdometryUpdate {
   bool reinitialised = false;  ///< lost for too long: this scan began a new map at the predicted pose
 };
 
-/// LiDAR odometry: predict, deskew and register every scan against patches of the recent past.
+/// LiDAR odometry: predict, deskew and register every scan against planes of the recent past.
 ///
-/// An iterated Kalman filter over pose and twist; the twist deskews the scan inside the iteration, so the distortion
-/// takes part in estimating it. Same input, same bits, for any number of workers. Memory is bounded by the
-/// configuration and the largest scan; once that was seen, nothing is allocated.
+/// An iterated Kalman filter over pose and twist; the twist deskews the scan inside the iteration, so distorted points
+/// take part in estimating it. Same input, same bits, for any number of workers.
 class LidarOdometry {
  public:
   /// `T_base_lidar` takes a point of the sensor to base_link. `workers` must outlive the odometry.
@@ -60,7 +59,7 @@ class LidarOdometry {
   /// points.
   Result<OdometryUpdate> update(const Scan& scan, Budget& budget);
 
-  /// Blocks in the map, for figures and tests.
+  /// Blocks the map holds, for figures and tests.
   [[nodiscard]] std::size_t map_blocks() const { return map_.blocks(); }
 
   static constexpr std::size_t kMaxPoints = 400'000;
@@ -74,39 +73,47 @@ class LidarOdometry {
     bool converged = false;
   };
 
-  [[nodiscard]] Result<void> check(const Scan& scan) const;
-  void start();
-  void track(double dt, Budget& budget, OdometryUpdate& update);
-  void predict(double dt);
-  Fit fit(Budget& budget);
-  [[nodiscard]] bool plausible(const Fit& found, double dt) const;
-  void accept(const Fit& found);
+  Result<void> check(const Scan& scan) const;
+  void take(const Scan& scan);
+  void choose_keypoints();
+  /// The prediction; while the speed is unknown, the forward speed that puts most points onto planes.
+  MotionState first_guess(double dt);
+  Fit fit(const MotionState& guess, Budget& budget);
+  [[nodiscard]] bool plausible(const Fit& fit, double dt) const;
+  void accept(const Fit& fit);
+  OdometryUpdate start(Time stamp);
   void lose_track(OdometryUpdate& update);
-  void forget_twist();
   void begin_map();
   void insert();
-  bool is_news(const SE3& T_odom_base);
+  void deskew_all(const Vector6& twist);
   [[nodiscard]] Matrix6 odom_covariance() const;
+  void fill(OdometryUpdate& update) const;
 
   OdometryConfig config_;
   SE3 T_base_lidar_;
   Workers& workers_;
 
-  ScanPoints points_;
   PatchMap map_;
   MotionFilter filter_;
   DriftHistory drift_;
   Linearise linearise_;
+  Subsample dense_, sparse_;
+  float keypoint_spacing_m_;
 
   std::optional<Time> last_stamp_;
   SE3 T_odom_previous_;
   int lost_in_a_row_ = 0;
+  SE3 T_odom_pruned_;
 
-  SE3 T_odom_pruned_;  // where the map was last cut to its window
-  SE3 T_odom_stance_;  // where the present stance began
-  std::uint64_t stance_ = 0;
-  int scans_at_stance_ = 0;
-  std::vector<MapPoint> map_points_;
+  // The scan at hand.
+  std::vector<Eigen::Vector3f> points_lidar_;
+  std::vector<float> age_s_;
+  double duration_s_ = 0;
+  std::vector<std::uint32_t> in_range_;
+  std::span<const std::uint32_t> dense_points_;
+  std::vector<Keypoint> keypoints_;
+  std::vector<Eigen::Vector3f> points_base_;
+  std::vector<Eigen::Vector3d> map_points_;
 };
 
 }  // namespace cairn

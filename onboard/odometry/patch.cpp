@@ -3,7 +3,6 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
 namespace cairn {
@@ -19,7 +18,19 @@ Eigen::Matrix3f covariance_of(const Moments& m) {
   return (c - m.sum * m.sum.transpose() / m.count) / (m.count - 1.0F);
 }
 
-bool fit_plane(const Eigen::Matrix3f& covariance, float edge, const PatchCriteria& criteria, Patch& patch) {
+/// Is the plane no more than the surface that a laser sweeps as it turns? Where ranges scatter (leaves, furniture), the
+/// points of one ring lie on it exactly, whatever they were reflected by; such a plane would follow the sensor.
+bool swept_by_laser(const Patch& patch, const PatchCriteria& criteria, const Viewpoint& from) {
+  constexpr float kSideways = 0.7F;  // a wall seen at a grazing angle faces sideways; that no laser sweeps
+  const Eigen::Vector3f ray = (from.to_sensor - patch.centroid).normalized();
+  const Eigen::Vector3f sideways = from.up.cross(ray);
+  const float least = criteria.min_incidence_rad + 2.0F * std::sqrt(patch.tilt_variance());
+  return std::abs(patch.normal.direction.dot(ray)) < least &&
+         std::abs(patch.normal.direction.dot(sideways)) < kSideways * sideways.norm();
+}
+
+bool fit_plane(const Eigen::Matrix3f& covariance, float edge, const PatchCriteria& criteria, const Viewpoint& from,
+               Patch& patch) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> eigen(covariance);
   // Three parameters were fitted; few points look flatter than they are.
   const float across = std::max(eigen.eigenvalues()[0], 0.0F) * (patch.count - 1.0F) / (patch.count - 3.0F);
@@ -31,13 +42,8 @@ bool fit_plane(const Eigen::Matrix3f& covariance, float edge, const PatchCriteri
   if (patch.normal.direction.cwiseAbs().maxCoeff(&axis) > 0.7F && std::abs(patch.centroid[axis]) > kCentral * edge)
     return false;
   patch.inverse_spread = 1.0F / along;
-  return patch.tilt_variance() <= criteria.max_tilt_rad * criteria.max_tilt_rad;
-}
-
-bool is_surface(const Moments& m, const Eigen::Vector3f& normal, const PatchCriteria& criteria) {
-  if (std::popcount(m.rings) >= criteria.min_lines) return true;
-  return std::popcount(m.lines) >= criteria.min_lines &&
-         std::abs(normal.dot(m.view_sum)) >= criteria.min_incidence * m.count;
+  return patch.tilt_variance() <= criteria.max_tilt_rad * criteria.max_tilt_rad &&
+         !swept_by_laser(patch, criteria, from);
 }
 
 /// Only an upright pole is one: rings of the scan on any surface look like slim lying ones.
@@ -60,17 +66,17 @@ bool fit_pole(const Eigen::Matrix3f& covariance, float edge, const PatchCriteria
 
 }  // namespace
 
-Patch fit_patch(const Moments& m, float edge, const PatchCriteria& criteria, const Eigen::Vector3f& up) {
+Patch fit_patch(const Moments& m, float edge, const PatchCriteria& criteria, const Viewpoint& from) {
   if (m.count < criteria.min_points) return {};
   Patch patch;
   patch.count = m.count;
   patch.centroid = m.sum / m.count;
   patch.epoch = m.epoch_sum / m.count;
   const Eigen::Matrix3f covariance = covariance_of(m);
-  if (fit_plane(covariance, edge, criteria, patch) && is_surface(m, patch.normal.direction, criteria)) {
+  if (fit_plane(covariance, edge, criteria, from, patch)) {
     patch.kind = Patch::Kind::kPlane;
-    if (patch.normal.direction.dot(m.view_sum) < 0) patch.normal.direction *= -1.0F;
-  } else if (fit_pole(covariance, edge, criteria, up, patch)) {
+    if (patch.normal.direction.dot(from.to_sensor - patch.centroid) < 0) patch.normal.direction *= -1.0F;
+  } else if (fit_pole(covariance, edge, criteria, from.up, patch)) {
     patch.kind = Patch::Kind::kPole;
   } else {
     return {};

@@ -6,32 +6,15 @@
 
 namespace cairn {
 
-/// One measured point on its way into the map.
-struct MapPoint {
-  Eigen::Vector3d p;          ///< in odom
-  Eigen::Vector3f to_sensor;  ///< from p, in odom
-  std::uint8_t ring = 0;      ///< laser row
-};
-
-/// When and from where the points of one scan were seen.
-struct Stance {
-  std::uint64_t number = 0;                       ///< counts the places the sensor stood at, a decimetre apart
-  float epoch = 0;                                ///< see DriftHistory
-  Eigen::Vector3f up = Eigen::Vector3f::UnitZ();  ///< the sensor's axis of rotation, in odom
-};
-
 /// Sums over the points of one block, relative to the block's centre. Enough to fit a patch at any time, and never
 /// growing: the points themselves are not kept.
 struct Moments {
   float count = 0;
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   float xx = 0, xy = 0, xz = 0, yy = 0, yz = 0, zz = 0;
-  float epoch_sum = 0;
-  Eigen::Vector3f view_sum = Eigen::Vector3f::Zero();  ///< of the unit vectors towards the sensor
-  std::uint32_t rings = 0;                             ///< one bit for each ring that has crossed the block
-  std::uint32_t lines = 0;                             ///< one bit for each pair of ring and stance
+  float epoch_sum = 0;  ///< of the epochs (see DriftHistory) the points were placed in
 
-  void add(const Eigen::Vector3f& d, const MapPoint& point, const Stance& stance) {
+  void add(const Eigen::Vector3f& d, float epoch) {
     count += 1;
     sum += d;
     xx += d.x() * d.x();
@@ -40,10 +23,7 @@ struct Moments {
     yy += d.y() * d.y();
     yz += d.y() * d.z();
     zz += d.z() * d.z();
-    epoch_sum += stance.epoch;
-    view_sum += point.to_sensor.normalized();
-    rings |= 1U << (point.ring % 32);
-    lines |= 1U << ((point.ring + 17 * stance.number) % 32);
+    epoch_sum += epoch;
   }
 };
 
@@ -74,23 +54,25 @@ struct Patch {
 
 /// When a set of points counts as a plane or a pole.
 struct PatchCriteria {
-  float noise_floor_m = 0.01F;    ///< no patch is believed to be thinner
-  float max_thickness_m = 0.06F;  ///< of a plane: standard deviation across
-  float min_flatness = 9.0F;      ///< of a plane: smaller in-plane variance over variance across
-  float max_tilt_rad = 0.03F;     ///< of a plane: standard deviation of the normal
+  float noise_floor_m = 0.01F;      ///< no patch is believed to be thinner
+  float max_thickness_m = 0.06F;    ///< of a plane: standard deviation across
+  float min_flatness = 9.0F;        ///< of a plane: smaller in-plane variance over variance across
+  float max_tilt_rad = 0.03F;       ///< of a plane: standard deviation of the normal
+  float min_incidence_rad = 0.05F;  ///< of a plane: beams nearer to it are taken to have swept it, not hit it
   float min_points = 8.0F;
-  int min_lines = 3;            ///< of a plane
-  float min_incidence = 0.08F;  ///< of a plane crossed by fewer rings: sine of the mean angle between ray and surface
-  float pole_width = 0.12F;     ///< standard deviation across, in edges, that a pole has at most
-  float pole_height = 0.2F;     ///< standard deviation upwards, in edges, that a pole has at least
+  float pole_width = 0.12F;  ///< standard deviation across, in edges, that a pole has at most
+  float pole_height = 0.2F;  ///< standard deviation upwards, in edges, that a pole has at least
+};
+
+/// From where a block was looked at.
+struct Viewpoint {
+  Eigen::Vector3f to_sensor;  ///< from the block's centre [m]
+  Eigen::Vector3f up;         ///< the sensor's axis of rotation
 };
 
 /// Least-squares patch through the points behind `m`, in a block of this edge. Gives Kind::kNone if they are neither,
 /// and also if the patch lies so near a face that the block holds only one side of it: the staggered grid has the same
-/// patch in the middle of its block. `up`: the sensor's axis of rotation.
-///
-/// The points of one ring lie on a cone, whatever they have hit, and two arcs always span some plane: it takes three
-/// rings to see a surface, or three lines from different places that were not seen edge-on.
-[[nodiscard]] Patch fit_patch(const Moments& m, float edge, const PatchCriteria& criteria, const Eigen::Vector3f& up);
+/// patch in the middle of its block.
+[[nodiscard]] Patch fit_patch(const Moments& m, float edge, const PatchCriteria& criteria, const Viewpoint& from);
 
 }  // namespace cairn

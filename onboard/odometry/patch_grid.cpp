@@ -48,22 +48,23 @@ std::uint32_t PatchGrid::find_or_make(const BlockIndex& at, Side side) {
   return slot.block;
 }
 
-void PatchGrid::add(const BlockIndex& at, const MapPoint& point, const Stance& stance) {
+void PatchGrid::add(const BlockIndex& at, const Eigen::Vector3d& p, const Eigen::Vector3f& to_sensor, float epoch) {
   std::uint32_t block = find_or_make(at, kFront);
-  if (block != kNone && seen_from_behind(patches_[block], point.to_sensor)) block = find_or_make(at, kBack);
+  if (block != kNone && seen_from_behind(patches_[block], to_sensor)) block = find_or_make(at, kBack);
   if (block == kNone) return;
   Moments& m = moments_[block];
   if (m.count >= limits_.points) return;
-  m.add((point.p - centre(at)).cast<float>(), point, stance);
+  m.add((p - centre(at)).cast<float>(), epoch);
   if (fitted_[block] >= 0 && m.count >= kRefitGrowth * fitted_[block]) {
     fitted_[block] = -m.count;
     grown_.push_back(block);
   }
 }
 
-void PatchGrid::refit(const PatchCriteria& criteria, const Eigen::Vector3f& up) {
+void PatchGrid::refit(const PatchCriteria& criteria, const Sensor& sensor) {
   for (const std::uint32_t block : grown_) {
-    patches_[block] = fit_patch(moments_[block], static_cast<float>(edge_), criteria, up);
+    const Viewpoint from{(sensor.position - centre(index_[block])).cast<float>(), sensor.up};
+    patches_[block] = fit_patch(moments_[block], static_cast<float>(edge_), criteria, from);
     fitted_[block] = moments_[block].count;
   }
   grown_.clear();

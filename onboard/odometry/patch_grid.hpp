@@ -30,11 +30,17 @@ class PatchGrid {
     std::size_t blocks;  ///< further blocks are refused
     float points;        ///< per block; further points are ignored, so that old patches stay where they are
   };
+  /// Where the sensor is while points are added, in odom.
+  struct Sensor {
+    Eigen::Vector3d position;
+    Eigen::Vector3f up;
+  };
   PatchGrid(float edge, bool staggered, const Limits& limits);
 
-  void add(const BlockIndex& at, const MapPoint& point, const Stance& stance);
+  /// `to_sensor` points from p to the sensor.
+  void add(const BlockIndex& at, const Eigen::Vector3d& p, const Eigen::Vector3f& to_sensor, float epoch);
   /// Fits the blocks that have grown by a quarter since their last fit. To be called after adding.
-  void refit(const PatchCriteria& criteria, const Eigen::Vector3f& up);
+  void refit(const PatchCriteria& criteria, const Sensor& sensor);
   /// Forgets the blocks whose centre is farther than `radius` from `centre`.
   void keep_within(const Eigen::Vector3d& centre, double radius);
   void clear();

@@ -53,14 +53,17 @@ PatchMap::PatchMap(const Config& config) : halves_per_metre_(2.0 / config.finest
                                             static_cast<float>(config.max_points_per_block)});
 }
 
-void PatchMap::insert(std::span<const MapPoint> points, const Stance& stance, Workers& workers) {
+void PatchMap::insert(std::span<const Eigen::Vector3d> points, const PatchGrid::Sensor& sensor, float epoch,
+                      Workers& workers) {
   workers.for_each(grids_.size(), [&](std::size_t g) {
     const int level = static_cast<int>(g / 2), staggered = static_cast<int>(g % 2);
     const float reach = level == kLevels - 1 ? 1e9F : kRangeInEdges * static_cast<float>(grids_[g].edge());
-    for (const MapPoint& point : points)
-      if (point.to_sensor.squaredNorm() < reach * reach)
-        grids_[g].add(block_of(halves(point.p, halves_per_metre_), level, staggered), point, stance);
-    grids_[g].refit(criteria_, stance.up);
+    for (const Eigen::Vector3d& p : points) {
+      const Eigen::Vector3f to_sensor = (sensor.position - p).cast<float>();
+      if (to_sensor.squaredNorm() < reach * reach)
+        grids_[g].add(block_of(halves(p, halves_per_metre_), level, staggered), p, to_sensor, epoch);
+    }
+    grids_[g].refit(criteria_, sensor);
   });
 }
 

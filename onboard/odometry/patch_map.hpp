@@ -39,8 +39,8 @@ class PatchMap {
   };
   explicit PatchMap(const Config& config);
 
-  /// Adds points, all of one scan, and refits. Every grid is the work of one worker.
-  void insert(std::span<const MapPoint> points, const Stance& stance, Workers& workers);
+  /// Adds points (in odom), all of one epoch, and refits. Every grid is the work of one worker.
+  void insert(std::span<const Eigen::Vector3d> points, const PatchGrid::Sensor& sensor, float epoch, Workers& workers);
   /// The best patch for p, seen from a sensor in direction `to_sensor`, not farther than `gate` metres from it.
   [[nodiscard]] PatchMatch match(const Eigen::Vector3d& p, const Eigen::Vector3f& to_sensor, float gate) const;
   /// Forgets what is farther than `radius`; when a grid is nearly full, also what is nearer, until a tenth is free.
