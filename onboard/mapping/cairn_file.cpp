@@ -21,7 +21,6 @@ using cairn_format::Header;
 using Tree = Result<std::unique_ptr<SemanticOcTree>>;
 
 constexpr int kZstdLevel = 3;
-constexpr std::size_t kLengthBytes = 4;  // before the structure in a raw chunk
 
 /// Turns a canonical tree into compressed chunks.
 class ChunkWriter {
