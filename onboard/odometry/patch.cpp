@@ -46,9 +46,20 @@ bool fit_plane(const Eigen::Matrix3f& covariance, float edge, const PatchCriteri
          !swept_by_laser(patch, criteria, from);
 }
 
+/// Are the points no more than the column that the lasers shoot at one azimuth? On a wall at a grazing angle the
+/// columns stand so far apart that each looks like a pole; such a pole would follow the sensor along the wall.
+bool shot_at_one_azimuth(const Eigen::Matrix3f& covariance, const PatchCriteria& criteria, const Viewpoint& from,
+                         const Patch& patch) {
+  const Eigen::Vector3f ray = from.to_sensor - patch.centroid;
+  const Eigen::Vector3f sideways = from.up.cross(ray);  // as long as the horizontal range
+  const float least = criteria.min_pole_rad * criteria.min_pole_rad * sideways.squaredNorm();
+  return sideways.dot(covariance * sideways) < least * sideways.squaredNorm();
+}
+
 /// Only an upright pole is one: rings of the scan on any surface look like slim lying ones.
-bool fit_pole(const Eigen::Matrix3f& covariance, float edge, const PatchCriteria& criteria, const Eigen::Vector3f& up,
+bool fit_pole(const Eigen::Matrix3f& covariance, float edge, const PatchCriteria& criteria, const Viewpoint& from,
               Patch& patch) {
+  const Eigen::Vector3f& up = from.up;
   if (up.dot(covariance * up) < criteria.pole_height * criteria.pole_height * edge * edge) return false;
   const Eigen::Vector3f u = up.unitOrthogonal(), v = up.cross(u);
   const float uu = u.dot(covariance * u), uv = u.dot(covariance * v), vv = v.dot(covariance * v);
@@ -56,6 +67,7 @@ bool fit_pole(const Eigen::Matrix3f& covariance, float edge, const PatchCriteria
   if (mean + split > criteria.pole_width * criteria.pole_width * edge * edge) return false;
   const Eigen::Vector3f sideways = patch.centroid - up.dot(patch.centroid) * up;
   if (sideways.cwiseAbs().maxCoeff() > kCentral * edge) return false;
+  if (shot_at_one_azimuth(covariance, criteria, from, patch)) return false;
   const float angle = 0.5F * std::atan2(2 * uv, uu - vv);  // of the wider direction
   const float floor = criteria.noise_floor_m * criteria.noise_floor_m;
   patch.second = {std::cos(angle) * u + std::sin(angle) * v, std::max(mean + split, floor)};
@@ -76,7 +88,7 @@ Patch fit_patch(const Moments& m, float edge, const PatchCriteria& criteria, con
   if (fit_plane(covariance, edge, criteria, from, patch)) {
     patch.kind = Patch::Kind::kPlane;
     if (patch.normal.direction.dot(from.to_sensor - patch.centroid) < 0) patch.normal.direction *= -1.0F;
-  } else if (fit_pole(covariance, edge, criteria, from.up, patch)) {
+  } else if (fit_pole(covariance, edge, criteria, from, patch)) {
     patch.kind = Patch::Kind::kPole;
   } else {
     return {};

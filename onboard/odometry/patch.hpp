@@ -60,8 +60,9 @@ struct PatchCriteria {
   float max_tilt_rad = 0.03F;       ///< of a plane: standard deviation of the normal
   float min_incidence_rad = 0.05F;  ///< of a plane: beams nearer to it are taken to have swept it, not hit it
   float min_points = 8.0F;
-  float pole_width = 0.12F;  ///< standard deviation across, in edges, that a pole has at most
-  float pole_height = 0.2F;  ///< standard deviation upwards, in edges, that a pole has at least
+  float pole_width = 0.12F;      ///< standard deviation across, in edges, that a pole has at most
+  float min_pole_rad = 0.0035F;  ///< of a pole: standard deviation sideways, as seen; 0.2° are neighbouring beams
+  float pole_height = 0.2F;      ///< standard deviation upwards, in edges, that a pole has at least
 };
 
 /// From where a block was looked at.

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/odometry/odometry.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+#include "tests/support/box_world.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace cairn {
+namespace {
+
+const SE3 kMount = SE3::from_xyz_rpy((Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished());
+
+SE3 drive(double t) {
+  return SE3::from_xyz_rpy(
+      (Vector6() << 5 + 0.9 * t, 4 + 0.3 * std::sin(t), 0, 0, 0, 0.15 * std::sin(0.8 * t)).finished());
+}
+
+/// One scan after the other from a ride through a world, and what the odometry made of it.
+class Ride {
+ public:
+  Ride(const support::World& world, support::Path path, unsigned threads = 1)
+      : world_(world), path_(std::move(path)), lidar_(kMount, 0.02, 1), workers_(threads) {}
+
+  OdometryUpdate step() {
+    const Scan scan = lidar_.scan(world_, path_, 0.1 * count_++);
+    return feed(scan);
+  }
+  OdometryUpdate feed(const Scan& scan) {
+    Budget budget = Budget::steps(12);
+    const auto update = odometry_.update(scan, budget);
+    EXPECT_TRUE(update) << to_string(update.error());
+    if (count_ == 1) T_world_odom_ = path_(to_seconds(scan.valid.end));
+    return *update;
+  }
+  /// T_estimate⁻¹·T_truth as a tangent vector.
+  [[nodiscard]] Vector6 error(const OdometryUpdate& update) const {
+    const SE3 truth = T_world_odom_.inverse() * path_(to_seconds(update.stamp));
+    return (update.T_odom_base.mean.inverse() * truth).log();
+  }
+  LidarOdometry& odometry() { return odometry_; }
+
+ private:
+  support::World world_;
+  support::Path path_;
+  support::Vlp16 lidar_;
+  Workers workers_;
+  LidarOdometry odometry_{OdometryConfig{}, kMount, workers_};
+  SE3 T_world_odom_;
+  int count_ = 0;
+};
+
+TEST(Odometry, FollowsARideThroughALobbyToCentimetres) {
+  Ride ride(support::lobby().world, drive);
+  OdometryUpdate last;
+  for (int i = 0; i < 40; ++i) last = ride.step();
+  const Vector6 error = ride.error(last);
+  EXPECT_LT(error.head<3>().norm(), 0.03) << error.transpose();
+  EXPECT_LT(error.tail<3>().norm(), 0.01);
+  EXPECT_FALSE(last.lost);
+  EXPECT_EQ(last.degenerate_directions, 0);
+}
+
+TEST(Odometry, StandingStillItStays) {
+  Ride ride(support::lobby().world, [](double) { return drive(0); });
+  OdometryUpdate last;
+  for (int i = 0; i < 30; ++i) last = ride.step();
+  EXPECT_LT(last.T_odom_base.mean.translation().norm(), 0.02);
+  EXPECT_LT(rotation_angle(last.T_odom_base.mean), 0.003);
+}
+
+TEST(Odometry, GivesTheSameBitsForAnyNumberOfThreads) {
+  const auto trace = [](unsigned threads) {
+    Ride ride(support::lobby().world, drive, threads);
+    std::vector<double> bits;
+    for (int i = 0; i < 8; ++i) {
+      const OdometryUpdate u = ride.step();
+      const Eigen::Matrix4d T = u.T_odom_base.mean.matrix();
+      bits.insert(bits.end(), T.data(), T.data() + 16);
+      bits.insert(bits.end(), u.T_odom_base.covariance.data(), u.T_odom_base.covariance.data() + 36);
+      for (const auto& p : u.points_base) bits.push_back(static_cast<double>(p.sum()));
+    }
+    return bits;
+  };
+  const auto one = trace(1);
+  EXPECT_EQ(one, trace(2));
+  EXPECT_EQ(one, trace(4));
+}
+
+TEST(Odometry, InAnEndlessCorridorItSaysThatItDoesNotKnowHowFar) {
+  const auto path = [](double t) {
+    const double x = t < 1 ? 0 : 0.4 * (t - 1) * (t - 1);
+    return SE3::from_xyz_rpy((Vector6() << x, 2.2, 0, 0, 0, 0).finished());
+  };
+  Ride ride(support::endless_corridor().world, path);
+  OdometryUpdate last;
+  int degenerate = 0;
+  for (int i = 0; i < 30; ++i) {
+    last = ride.step();
+    degenerate += last.degenerate_directions > 0 ? 1 : 0;
+    const Vector6 error = ride.error(last);
+std::printf("%d x_err %.3f sigma %.3f deg %d lost %d it %d inl %.2f\n", i, error[0], std::sqrt(last.T_odom_base.covariance(0,0)), last.degenerate_directions, last.lost, last.iterations, last.inlier_ratio);
+    EXPECT_LE(std::abs(error[0]), 3 * std::sqrt(last.T_odom_base.covariance(0, 0)) + 0.01) << "scan " << i;
+  }
+  EXPECT_GT(degenerate, 20);
+  EXPECT_GT(std::sqrt(last.T_odom_base.covariance(0, 0)), 0.3) << "along the corridor";
+  EXPECT_LT(std::abs(ride.error(last)[1]), 0.03) << "across it is known";
+}
+
+TEST(Odometry, NoiseIsRefusedAndTheRideGoesOnAfterwards) {
+  Ride ride(support::lobby().world, drive);
+  for (int i = 0; i < 15; ++i) ride.step();
+  Scan noise;
+  noise.valid = {Time{from_seconds(1.5)}, Time{from_seconds(1.55)}};
+  std::mt19937 random(1);
+  std::uniform_real_distribution<float> at(-20, 20);
+  for (int i = 0; i < 20000; ++i)
+    noise.cloud.push_back({at(random), at(random), at(random)}, 1, 0, 0, ReturnType::kStrongest);
+  Budget budget = Budget::steps(12);
+  const auto lost = ride.odometry().update(noise, budget);
+  ASSERT_TRUE(lost);
+  EXPECT_TRUE(lost->lost);
+  EXPECT_LE(lost->iterations, 12);
+  OdometryUpdate last;
+  for (int i = 0; i < 10; ++i) last = ride.step();
+  EXPECT_FALSE(last.lost);
+  EXPECT_LT(ride.error(last).head<3>().norm(), 0.05);
+}
+
+TEST(Odometry, BadScansAreErrorsAndChangeNothing) {
+  Ride ride(support::lobby().world, drive);
+  const OdometryUpdate before = ride.step();
+  Budget budget = Budget::steps(3);
+  Scan late;
+  late.valid = {before.stamp, before.stamp};
+  EXPECT_EQ(ride.odometry().update(late, budget).error().code, Errc::kMalformed) << "not later than the last one";
+  Scan uneven;
+  uneven.valid = {before.stamp + Duration{1}, before.stamp + Duration{2}};
+  uneven.cloud.xyz.resize(3);
+  EXPECT_EQ(ride.odometry().update(uneven, budget).error().code, Errc::kMalformed);
+  EXPECT_FALSE(ride.step().lost);
+}
+
+TEST(Odometry, PointsThatAreNotFiniteDoNoHarm) {
+  Ride clean(support::lobby().world, drive);
+  clean.step();
+  support::Vlp16 lidar(kMount, 0.02, 3);
+  Scan scan = lidar.scan(support::lobby().world, drive, 0.1);
+  for (std::size_t i = 0; i < scan.cloud.size(); i += 50)
+    scan.cloud.xyz[i].x() = i % 100 == 0 ? std::numeric_limits<float>::quiet_NaN() : 1e30F;
+  const OdometryUpdate update = clean.feed(scan);
+  EXPECT_TRUE(update.T_odom_base.covariance.allFinite());
+  EXPECT_FALSE(update.lost);
+}
+
+}  // namespace
+}  // namespace cairn
