@@ -134,7 +134,8 @@ OdometryUpdate LidarOdometry::start(Time stamp) {
 
 MotionState LidarOdometry::first_guess(double dt) {
   const MotionState& predicted = filter_.state();
-  if (filter_.uncertainty().local(6, 6) < kSpeedUnknown * kSpeedUnknown) return predicted;
+  if (guesses_left_ == 0 || filter_.uncertainty().local(6, 6) < kSpeedUnknown * kSpeedUnknown) return predicted;
+  --guesses_left_;
   const auto inliers = [&](const MotionState& at) {
     return linearise_(keypoints_, map_, {at.T_odom_base, at.twist, T_base_lidar_, duration_s_, kGuessGate}, workers_)
         .inliers;
@@ -206,6 +207,7 @@ void LidarOdometry::lose_track(OdometryUpdate& update) {
 }
 
 void LidarOdometry::begin_map() {
+  guesses_left_ = kGuesses;
   map_.clear();
   drift_.reset(filter_.state().T_odom_base, odom_covariance());
   T_odom_pruned_ = filter_.state().T_odom_base;

@@ -103,6 +103,9 @@ class LidarOdometry {
   std::optional<Time> last_stamp_;
   SE3 T_odom_previous_;
   int lost_in_a_row_ = 0;
+  // In a corridor the speed stays unknown for ever; what the first scans cannot tell, later ones cannot either.
+  static constexpr int kGuesses = 3;
+  int guesses_left_ = 0;
   SE3 T_odom_pruned_;
 
   // The scan at hand.
