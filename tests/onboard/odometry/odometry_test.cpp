@@ -102,7 +102,6 @@ TEST(Odometry, InAnEndlessCorridorItSaysThatItDoesNotKnowHowFar) {
     last = ride.step();
     degenerate += last.degenerate_directions > 0 ? 1 : 0;
     const Vector6 error = ride.error(last);
-std::printf("%d x_err %.3f sigma %.3f deg %d lost %d it %d inl %.2f\n", i, error[0], std::sqrt(last.T_odom_base.covariance(0,0)), last.degenerate_directions, last.lost, last.iterations, last.inlier_ratio);
     EXPECT_LE(std::abs(error[0]), 3 * std::sqrt(last.T_odom_base.covariance(0, 0)) + 0.01) << "scan " << i;
   }
   EXPECT_GT(degenerate, 20);
