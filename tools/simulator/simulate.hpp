@@ -41,7 +41,9 @@ inline constexpr int kMaxRobots = 16;
 inline constexpr double kMaxSeconds = 3600.0;
 
 /// Writes out/robot_1 … out/robot_N, each a recording: recording.yaml, lidar.pcap, ground_truth.tum (T_world_base at
-/// 100 Hz on the recording's time line) and world.ot (see Voxels). The same config gives the same bytes.
+/// 100 Hz on the recording's time line) and world.ot (see Voxels). The same config gives the same bytes, for any number
+/// of threads and on every x86-64 with FMA and the same C library (whose sin and cos may differ in the last bit without
+/// FMA).
 ///
 /// Errors: kInvalidConfig for a scene, number or duration that cannot be; kIo when `out` exists and is not an empty
 /// folder, or when the disk refuses; then no half-made robot folder is left behind.
