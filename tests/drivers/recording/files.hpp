@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <span>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,10 +23,11 @@ class TemporaryFolder {
  public:
   TemporaryFolder() {
     const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    path_ =
-        fs::temp_directory_path() / ("cairn_" + std::string(test->test_suite_name()) + "_" + test->name() + "_XXXXXX");
-    std::string pattern = path_.string();
-    path_ = ::mkdtemp(pattern.data());
+    std::string name = std::string("cairn_") + test->test_suite_name() + "_" + test->name() + "_XXXXXX";
+    std::replace(name.begin(), name.end(), '/', '_');  // parametrised tests have names with slashes
+    std::string pattern = (fs::temp_directory_path() / name).string();
+    if (::mkdtemp(pattern.data()) == nullptr) throw std::runtime_error("cannot make the folder " + pattern);
+    path_ = pattern;
   }
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
