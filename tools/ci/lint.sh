@@ -3,6 +3,7 @@
 # Format, shell scripts, and the checks of .clang-tidy:
 #   tools/ci/lint.sh [FILE…]      the checks over these files, or over all
 #   tools/ci/lint.sh --quick      over the program's .cpp files only, as CI does for its time
+#   tools/ci/lint.sh --format     format and shell scripts alone
 #   tools/ci/lint.sh --full       the checks by clang-tidy itself: ten times slower, because it also looks through the
 #                                 libraries' headers, and it adds bugprone-use-after-move, which clangd leaves out
 set -euo pipefail
@@ -30,6 +31,7 @@ tidy() {  # tidy FILE: clangd runs clang-tidy's checks over the file's own lines
 export -f tidy
 
 case ${1:-} in
+  --format) ;;
   --full) printf '%s\n' "${sources[@]}" | grep '\.cpp$' |
     xargs -d '\n' -n 1 -P "$(nproc)" clang-tidy-14 -p build/clang --quiet 2>/dev/null || bad=1 ;;
   *)
