@@ -45,8 +45,9 @@ TEST(PcapWriter, WhatIsWrittenIsReadBackExactly) {
   std::vector<Sent> sent;
   for (int i = 0; i < 2000; ++i) {
     const std::size_t size = i < 100 ? static_cast<std::size_t>(i) : random() % 1300;
-    sent.push_back({static_cast<std::int64_t>((std::uint64_t{random()} << 28U | i) % kMaxUtcNs),
-                    static_cast<std::uint16_t>(random()), random_bytes(size, random), i % 7 == 0});
+    sent.push_back(
+        {static_cast<std::int64_t>((std::uint64_t{random()} << 28U | static_cast<std::uint64_t>(i)) % kMaxUtcNs),
+         static_cast<std::uint16_t>(random()), random_bytes(size, random), i % 7 == 0});
     ASSERT_TRUE(writer->write(sent.back().ns, kSensor, sent.back().port, sent.back().payload, sent.back().truncated));
   }
   EXPECT_EQ(writer->packets(), sent.size());
