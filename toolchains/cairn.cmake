@@ -9,8 +9,9 @@ target_compile_features(cairn_flags INTERFACE cxx_std_20)
 # Contraction to fused multiply-add changes even OctoMap's own results; replays must match across machines.
 target_compile_options(cairn_flags INTERFACE -ffp-contract=off
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow $<$<BOOL:${CAIRN_WERROR}>:-Werror>
-  # g++ 12 warns of std::string's own code at -O3 (GCC bug 105651).
-  $<$<AND:$<CXX_COMPILER_ID:GNU>,$<CONFIG:Release>>:-Wno-restrict>)
+  # g++ 12 mistakes std::string's own copies for overlaps and overruns, depending on how long the strings happen to be: even
+  # on the path of the source folder (GCC bugs 105651, 105329). clang and AddressSanitizer see the real ones.
+  "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-error=array-bounds;-Wno-error=stringop-overflow>")
 
 # Hardening: taken where the compiler accepts it (clang 14 rejects the auto-var-init form for zero).
 function(cairn_try_compile_flag flag)

@@ -3,10 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <system_error>
 
@@ -37,38 +40,50 @@ int wrong(const std::string& message) {
   return kWrongArguments;
 }
 
-int info(const Options& options) {
-  const auto map = load_map(options.file);
-  if (!map) return fail(at(options.file.string(), map.error()));
-  const MapSummary summary = summarise(**map);
-  const bool checked = options.file.extension() == ".cairn";
-  Json json{{"file", options.file.string()}};
+/// The content decides, not the name; load_map() has verified the checksums of such a file.
+bool has_checksums(const fs::path& path) {
+  std::array<char, 64> head{};
+  std::ifstream(path, std::ios::binary).read(head.data(), head.size());
+  return is_cairn(std::as_bytes(std::span(head)));
+}
+
+Json info_json(const Options& options, const SemanticOcTree& map, const MapSummary& summary) {
   std::error_code ignored;
-  json["file_bytes"] = fs::file_size(options.file, ignored);
-  json["checksum"] = checked ? "ok" : "none";
+  Json json = {{"file", options.file.string()},
+               {"file_bytes", fs::file_size(options.file, ignored)},
+               {"checksum", has_checksums(options.file) ? "ok" : "none"}};
   json.update(to_json(summary));
-  json["sensor_model"] = {{"hit", (*map)->getProbHit()},
-                          {"miss", (*map)->getProbMiss()},
-                          {"clamping_min", (*map)->getClampingThresMin()},
-                          {"clamping_max", (*map)->getClampingThresMax()},
-                          {"occupancy_threshold", (*map)->getOccupancyThres()}};
-  if (options.json) {
-    std::cout << to_text(json);
-    return kDone;
-  }
+  json["sensor_model"] = {{"hit", map.getProbHit()},
+                          {"miss", map.getProbMiss()},
+                          {"clamping_min", map.getClampingThresMin()},
+                          {"clamping_max", map.getClampingThresMax()},
+                          {"occupancy_threshold", map.getOccupancyThres()}};
+  return json;
+}
+
+std::string info_text(const Json& json, const MapSummary& summary) {
   const Eigen::Vector3d size = summary.max_m - summary.min_m;
-  std::cout << fmt::format(
+  std::string text = fmt::format(
       "{}\n  resolution    {} m\n  occupied      {} voxels, {} labelled\n  free          {} voxels\n"
       "  known volume  {:.1f} m³ in a box of {:.1f} × {:.1f} × {:.1f} m from ({:.1f}, {:.1f}, {:.1f})\n"
       "  nodes         {}, {} of them leaves\n  size          {:.2f} MiB in memory, {:.2f} MiB in the file\n"
       "  checksum      {}\n",
-      options.file.string(), summary.resolution_m, summary.occupied, summary.labelled, summary.free,
+      json["file"].get<std::string>(), summary.resolution_m, summary.occupied, summary.labelled, summary.free,
       summary.known_volume_m3(), size.x(), size.y(), size.z(), summary.min_m.x(), summary.min_m.y(), summary.min_m.z(),
       summary.nodes, summary.leaves, static_cast<double>(summary.memory_bytes) / 0x1p20,
-      json["file_bytes"].get<double>() / 0x1p20, checked ? "correct" : "this format has none");
+      json["file_bytes"].get<double>() / 0x1p20, json["checksum"] == "ok" ? "correct" : "this format has none");
   if (summary.mean_entropy_occupancy)
-    std::cout << fmt::format("  mean entropy  {:.4f} bit over occupied voxels ({:.4f} as −p log2 p), {:.4f} over all\n",
-                             *summary.mean_entropy_occupancy, *summary.mean_entropy_book, *summary.mean_entropy_known);
+    text += fmt::format("  mean entropy  {:.4f} bit over occupied voxels ({:.4f} as −p log2 p), {:.4f} over all\n",
+                        *summary.mean_entropy_occupancy, *summary.mean_entropy_book, *summary.mean_entropy_known);
+  return text;
+}
+
+int info(const Options& options) {
+  const auto map = load_map(options.file);
+  if (!map) return fail(at(options.file.string(), map.error()));
+  const MapSummary summary = summarise(**map);
+  const Json json = info_json(options, **map, summary);
+  std::cout << (options.json ? to_text(json) : info_text(json, summary));
   return kDone;
 }
 

@@ -10,7 +10,7 @@ namespace {
 
 TEST(RobotProfile, EveryProfileInConfigIsValid) {
   int profiles = 0;
-  for (const auto& file : std::filesystem::directory_iterator(std::string(CAIRN_SOURCE_DIR) + "/config")) {
+  for (const auto& file : std::filesystem::directory_iterator(CAIRN_SOURCE_DIR "/config")) {
     if (file.path().extension() != ".yaml") continue;
     const auto profile = load_profile(file.path());
     EXPECT_TRUE(profile) << to_string(profile.error());
