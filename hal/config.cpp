@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hal/config.hpp"
 
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -11,6 +9,7 @@
 #include <sstream>
 
 #include "hal/file.hpp"
+#include "hal/yaml_document.hpp"
 
 namespace cairn::config {
 namespace {
@@ -222,10 +221,7 @@ Section& Section::subsection(std::string key, std::string doc) {
 Result<void> parse(std::string_view yaml, std::string_view file_name, Section& section) {
   Checker checker(file_name);
   try {
-    // Two documents in one file would silently lose the second.
-    const std::vector<YAML::Node> documents = YAML::LoadAll(std::string(yaml));
-    if (documents.size() > 1) checker.fault(documents[1], "file", "must hold one YAML document");
-    if (!documents.empty()) checker.section(documents[0], section, "");
+    checker.section(parse_yaml_document(yaml), section, "");
   } catch (const YAML::Exception& e) {
     checker.fault_at(e.mark.line, "syntax", e.msg);
   }

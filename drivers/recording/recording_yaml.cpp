@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // The text of recording.yaml: reading with every fault at once, and writing.
-#include <yaml-cpp/yaml.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -12,6 +10,7 @@
 #include "drivers/recording/recording.hpp"
 #include "drivers/recording/text_lines.hpp"
 #include "drivers/recording/utc.hpp"
+#include "hal/yaml_document.hpp"
 
 namespace cairn::recording {
 namespace {
@@ -237,11 +236,7 @@ Result<Recording> parse_recording(std::string_view yaml, std::string_view name, 
   Recording recording;
   Checker checker(name, check_file);
   try {
-    const std::vector<YAML::Node> documents = YAML::LoadAll(std::string(yaml));
-    if (documents.size() != 1)
-      checker.fault_at(0, "file", "must hold one YAML document");
-    else
-      checker.recording(documents[0], recording);
+    checker.recording(parse_yaml_document(yaml), recording);
   } catch (const YAML::Exception& e) {
     checker.fault_at(e.mark.line, "syntax", e.msg);
   }
