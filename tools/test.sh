@@ -18,7 +18,11 @@ case ${1:-} in
     shift
     ;;
   --clang | --fuzz) preset=${1#--} groups+=(ci) && shift ;;
-  --cross) preset=aarch64 groups=(build cross) && shift ;;
+  --cross)
+    # qemu-user knows neither the kernel's receive stamps nor its drop counts, without which no UDP port is opened.
+    preset=aarch64 groups=(build cross) select=(-E '/(UdpSourceTest|RecordCommand)\.')
+    shift
+    ;;
   -h | --help) sed -n '3,10s/^# //p' "$0" && exit ;;
 esac
 
