@@ -38,6 +38,8 @@ class PcapSource final : public Source {
   static Result<std::unique_ptr<PcapSource>> open(const std::filesystem::path& path, const Options& options);
   /// Takes ownership of `file`; `name` is for messages.
   static Result<std::unique_ptr<PcapSource>> from_stream(std::FILE* file, std::string name, const Options& options);
+  PcapSource(const PcapSource&) = delete;
+  PcapSource& operator=(const PcapSource&) = delete;
   ~PcapSource() override;
 
   /// A record cut off by the file's end is the end. Any other damage is one Error with the offset, then the end.

@@ -37,6 +37,7 @@ class Mapper {
   Mapper(const MappingConfig& config, Workers& workers);
   Mapper(const Mapper&) = delete;
   Mapper& operator=(const Mapper&) = delete;
+  ~Mapper() = default;
 
   /// `points_map` and the sensor's position `origin_map`, in metres in the map frame. On an error (origin outside of
   /// the map, scan or map beyond its memory) the map is as before.

@@ -23,7 +23,8 @@ class SemanticNode : public octomap::OcTreeNode {
   static constexpr unsigned kChildren = 8;
 
   SemanticNode() = default;
-  /// Copies the data, never the children: they belong to the tree.
+  /// Copies the data, never the children: they belong to the tree. OctoMap's own copy would walk eight pointers.
+  // NOLINTNEXTLINE(bugprone-copy-constructor-init)
   SemanticNode(const SemanticNode& other) : OcTreeNode(), label_id_(other.label_id_) { value = other.value; }
   SemanticNode& operator=(const SemanticNode&) = delete;
   ~SemanticNode() { children = nullptr; }  // OctoMap asserts that nobody forgot children; ours are the pool's

@@ -15,7 +15,7 @@ namespace {
 using Bytes = std::vector<std::byte>;
 
 /// A file whose only chunk holds these bytes; everything around it is right.
-Bytes file_with(std::vector<std::uint8_t> structure, const std::vector<float>& values, std::uint64_t nodes,
+Bytes file_with(const std::vector<std::uint8_t>& structure, const std::vector<float>& values, std::uint64_t nodes,
                 std::uint32_t extra_length = 0) {
   Bytes raw;
   append_le(raw, static_cast<std::uint32_t>(structure.size() + extra_length));

@@ -3,8 +3,9 @@
 
 #include <octomap/octomap.h>
 
+#include <bit>
 #include <cstddef>
-#include <cstring>
+#include <cstdint>
 #include <sstream>
 #include <string>
 
@@ -23,8 +24,8 @@ std::size_t differing_nodes(const TreeA& a, const TreeB& b) {
   auto y = b.begin_tree();
   for (; x != end_a && y != end_b; ++x, ++y) {
     if (x.getDepth() != y.getDepth() || x.getKey() != y.getKey() || x.isLeaf() != y.isLeaf()) return differ + 1;
-    const float u = x->getLogOdds(), v = y->getLogOdds();
-    differ += std::memcmp(&u, &v, sizeof u) != 0 ? 1 : 0;
+    const auto bits = [](float log_odds) { return std::bit_cast<std::uint32_t>(log_odds); };
+    differ += bits(x->getLogOdds()) != bits(y->getLogOdds()) ? 1 : 0;
   }
   return differ + (x != end_a || y != end_b ? 1 : 0);
 }
