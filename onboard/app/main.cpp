@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program `cairn`: every command registers itself, the chosen one leaves its job, and the job's result is the exit
 // code.
+#include <CLI/CLI.hpp>
+
 #include "onboard/app/run_command.hpp"
 #include "tools/cli/commands.hpp"
 

@@ -3,8 +3,10 @@
 
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "onboard/app/report/report_json.hpp"
@@ -49,7 +51,7 @@ int run_robot(Arguments a) {
   if (!result) return fail(result.error());
   const RunReport& report = (*result)->report;
   if (a.json)
-    std::cout << to_text(to_json(report)) << '\n';
+    print(to_json(report));
   else
     print_summary(report, a.run.out);
   if (report.scans != 0) return kDone;

@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <functional>
-#include <iostream>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include "hal/result.hpp"
+
+namespace CLI {
+class App;
+}
 
 namespace cairn::cli {
 
@@ -26,15 +28,9 @@ struct Commands {
 };
 
 /// Says on stderr what failed and where. A faulty configuration counts as wrong arguments.
-inline int fail(const Error& error) {
-  std::cerr << "cairn: " << to_string(error) << '\n';
-  return error.code == Errc::kInvalidConfig ? kWrongArguments : kFailed;
-}
+int fail(const Error& error);
 
-/// One JSON object on stdout and nothing else.
-inline int print(const nlohmann::json& object) {
-  std::cout << object.dump(2) << '\n';
-  return kDone;
-}
+/// One JSON object on stdout and nothing else. Bytes that are not UTF-8 are replaced: a file's name may hold any.
+int print(const nlohmann::ordered_json& object);
 
 }  // namespace cairn::cli

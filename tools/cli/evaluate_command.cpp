@@ -3,8 +3,11 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <filesystem>
+#include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
@@ -53,8 +56,7 @@ int evaluate_trajectory(const Options& options) {
   if (options.json) {
     Json json = to_json(*error);
     json["align"] = options.align;
-    std::cout << to_text(json);
-    return kDone;
+    return print(json);
   }
   const auto& e = *error;
   std::cout << fmt::format("{} poses over {:.2f} m and {:.2f} s ({} without ground truth)\n", e.matched, e.length_m,
@@ -97,10 +99,7 @@ int evaluate_map(const Options& options) {
   if (!T) return fail(T.error());
   const auto error = map_error(**map, **truth, {*T, options.tolerance_m});
   if (!error) return fail(at(file.string(), error.error()));
-  if (options.json) {
-    std::cout << to_text(to_json(*error));
-    return kDone;
-  }
+  if (options.json) return print(to_json(*error));
   std::cout << fmt::format("accuracy   {:.4f} m mean, {:.4f} m RMS from {} occupied voxels to the true ones\n",
                            error->mean_m, error->rmse_m, error->occupied);
   if (const auto p = error->precision()) std::cout << fmt::format("precision  {:.4f}\n", *p);

@@ -3,8 +3,11 @@
 
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
+#include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "drivers/recording/import.hpp"
@@ -59,10 +62,8 @@ int import_data(Options options) {
   const auto report = recording::import(options.kind, options.import);
   if (terminal) std::fputs("\r", stderr);
   if (!report) return fail(report.error());
-  if (options.json)
-    std::cout << to_text(to_json(options, *report)) << '\n';
-  else
-    print_report(options, *report);
+  if (options.json) return print(to_json(options, *report));
+  print_report(options, *report);
   return kDone;
 }
 

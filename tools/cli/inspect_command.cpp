@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/inspect_command.hpp"
 
+#include <CLI/CLI.hpp>
+#include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "tools/cli/inspect/inspect.hpp"
 
@@ -16,7 +19,8 @@ struct Options {
 int run(const Options& options) {
   const auto found = inspect(options.inspect);
   if (!found) return fail(found.error());
-  std::cout << (options.json ? to_text(*found) + "\n" : to_plain_text(*found));
+  if (options.json) return print(*found);
+  std::cout << to_plain_text(*found);
   return kDone;
 }
 

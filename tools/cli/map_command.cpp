@@ -3,11 +3,14 @@
 
 #include <fmt/format.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <span>
 #include <string>
@@ -83,7 +86,8 @@ int info(const Options& options) {
   if (!map) return fail(at(options.file.string(), map.error()));
   const MapSummary summary = summarise(**map);
   const Json json = info_json(options, **map, summary);
-  std::cout << (options.json ? to_text(json) : info_text(json, summary));
+  if (options.json) return print(json);
+  std::cout << info_text(json, summary);
   return kDone;
 }
 
@@ -105,8 +109,7 @@ int compare_maps(const Options& options) {
     add("mean_entropy_book_b", summary_b.mean_entropy_book);
     // Maps carry no label evidence yet.
     for (const char* name : {"label_agreement", "miou", "mean_entropy_label"}) json[name] = nullptr;
-    std::cout << to_text(json);
-    return kDone;
+    return print(json);
   }
   std::cout << fmt::format(
       "same         {} voxels ({} of them with other log-odds)\ndisagreeing  {}\nonly a       {}\nonly b       {}\n"
@@ -162,13 +165,10 @@ int render(const Options& options) {
   json["height"] = image->height();
   json["pixels_per_m"] = pixels_per_metre(*picture, {options.pixels_per_m, {}});
   json["cut_above_m"] = picture->cut_m ? Json(*picture->cut_m) : Json(nullptr);
-  if (options.json) {
-    std::cout << to_text(json);
-  } else {
-    std::cout << fmt::format("{}: {} × {} pixels\n", options.out.string(), image->width(), image->height());
-    if (picture->cut_m)
-      std::cout << fmt::format("cut open at z = {:.2f} m, below a ceiling; --height-max shows it\n", *picture->cut_m);
-  }
+  if (options.json) return print(json);
+  std::cout << fmt::format("{}: {} × {} pixels\n", options.out.string(), image->width(), image->height());
+  if (picture->cut_m)
+    std::cout << fmt::format("cut open at z = {:.2f} m, below a ceiling; --height-max shows it\n", *picture->cut_m);
   return kDone;
 }
 
@@ -189,10 +189,9 @@ int export_map(const Options& options) {
   if (!map) return fail(at(options.file.string(), map.error()));
   if (const auto saved = format->save(**map, options.out); !saved) return fail(at(options.out.string(), saved.error()));
   std::error_code ignored;
-  Json json{{"out", options.out.string()}};
-  json["bytes"] = fs::file_size(options.out, ignored);
-  std::cout << (options.json ? to_text(json)
-                             : fmt::format("{}: {} bytes\n", options.out.string(), json["bytes"].dump()));
+  const auto bytes = fs::file_size(options.out, ignored);
+  if (options.json) return print({{"out", options.out.string()}, {"bytes", bytes}});
+  std::cout << fmt::format("{}: {} bytes\n", options.out.string(), bytes);
   return kDone;
 }
 

@@ -3,9 +3,12 @@
 
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
+#include <iostream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <string>
 
 #include "drivers/recording/record.hpp"
@@ -64,7 +67,7 @@ recording::RecordOptions record_options(const Options& options, const RecordingW
 
 int report(const Options& options, const Json& json, std::uint64_t packets) {
   if (options.json)
-    std::cout << to_text(json) << '\n';
+    print(json);
   else
     std::cout << options.out.string() << ": " << packets << " packets in " << json["duration_s"].get<double>() << " s; "
               << json["losses"].dump() << '\n';

@@ -4,5 +4,5 @@ cairn_library(cli_recording
           ${CMAKE_CURRENT_LIST_DIR}/record_command.cpp ${CMAKE_CURRENT_LIST_DIR}/inspect/inspect.cpp
           ${CMAKE_CURRENT_LIST_DIR}/inspect/inspect_stream.cpp ${CMAKE_CURRENT_LIST_DIR}/inspect/packet_figures.cpp
           ${CMAKE_CURRENT_LIST_DIR}/inspect/scan_figures.cpp
-  PUBLIC cairn_hal cairn_recording cairn_velodyne CLI11::CLI11 nlohmann_json::nlohmann_json
-  PRIVATE cairn_app cairn_report)
+  PUBLIC cairn_cli_command cairn_recording cairn_velodyne
+  PRIVATE cairn_app cairn_report CLI11::CLI11 fmt::fmt)

@@ -3,9 +3,11 @@
 
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>
 #include <memory>
+#include <nlohmann/json.hpp>
 
 #include "tools/simulator/simulate.hpp"
 
@@ -28,12 +30,12 @@ simulator::Progress progress_line() {
   };
 }
 
-nlohmann::json to_json(const Options& options, const std::vector<simulator::RobotSummary>& robots) {
-  nlohmann::json object{{"scene", options.simulation.scene},
-                        {"seconds", options.simulation.seconds},
-                        {"seed", options.simulation.seed},
-                        {"out", options.simulation.out.string()},
-                        {"robots", nlohmann::json::array()}};
+nlohmann::ordered_json to_json(const Options& options, const std::vector<simulator::RobotSummary>& robots) {
+  nlohmann::ordered_json object{{"scene", options.simulation.scene},
+                                {"seconds", options.simulation.seconds},
+                                {"seed", options.simulation.seed},
+                                {"out", options.simulation.out.string()},
+                                {"robots", nlohmann::ordered_json::array()}};
   for (const simulator::RobotSummary& r : robots) {
     object["robots"].push_back({{"name", r.name},
                                 {"recording", (options.simulation.out / r.name).string()},

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/report/report_json.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "onboard/app/report/pose_error.hpp"
 
 namespace cairn {

@@ -3,6 +3,8 @@
 
 #include <sys/resource.h>
 
+#include <nlohmann/json.hpp>
+
 #include "hal/file.hpp"
 #include "onboard/app/report/report_html.hpp"
 #include "onboard/app/report/report_json.hpp"

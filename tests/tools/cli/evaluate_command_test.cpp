@@ -30,11 +30,11 @@ std::vector<StampedPose> line(double scale, const SE3& T = {}) {
 const SE3 kElsewhere = SE3::from_xyz_rpy((Vector6() << 3, -2, 1, 0, 0, 1.2).finished());
 
 TEST(EvaluateTrajectory, NamesItsFieldsAndGetsAScaledLineRight) {
-  const Folder folder;
+  const TemporaryFolder folder;
   ASSERT_TRUE(recording::write_tum(folder / "trajectory.tum", line(1.02, kElsewhere)));
   ASSERT_TRUE(recording::write_tum(folder / "ground_truth.tum", line(1)));
   // Folders stand for the files that a run and a recording leave in them.
-  const Outcome outcome = evaluate({"trajectory", folder.text(), "--ground-truth", folder.text(), "--json"});
+  const Outcome outcome = evaluate({"trajectory", folder.path(), "--ground-truth", folder.path(), "--json"});
   ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
   const auto json = outcome.json();
   EXPECT_NEAR(json["length_m"], 10, 1e-6);
@@ -45,13 +45,13 @@ TEST(EvaluateTrajectory, NamesItsFieldsAndGetsAScaledLineRight) {
   EXPECT_NEAR(json["ate_first_rmse_m"], 0.2 / std::sqrt(3), 2e-3);
   EXPECT_EQ(json["align"], "se3");
   const auto first =
-      evaluate({"trajectory", folder.text(), "--ground-truth", folder.text(), "--align", "first", "--json"}).json();
+      evaluate({"trajectory", folder.path(), "--ground-truth", folder.path(), "--align", "first", "--json"}).json();
   EXPECT_EQ(first["ate_rmse_m"], json["ate_first_rmse_m"]);
-  EXPECT_THAT(evaluate({"trajectory", folder.text(), "--ground-truth", folder.text()}).out, HasSubstr("2.000 %"));
+  EXPECT_THAT(evaluate({"trajectory", folder.path(), "--ground-truth", folder.path()}).out, HasSubstr("2.000 %"));
 }
 
 TEST(EvaluateTrajectory, FaultsNameTheFile) {
-  const Folder folder;
+  const TemporaryFolder folder;
   ASSERT_TRUE(recording::write_tum(folder / "a.tum", line(1)));
   const Outcome missing = evaluate({"trajectory", folder / "a.tum", "--ground-truth", folder / "b.tum"});
   EXPECT_EQ(missing.exit_code, kFailed);
@@ -73,7 +73,7 @@ std::unique_ptr<SemanticOcTree> wall(const SE3& T_map_world) {
 }
 
 TEST(EvaluateMap, TakesThePoseFromFlagOrTrajectories) {
-  const Folder folder;
+  const TemporaryFolder folder;
   // The map's frame is 1 m ahead of the world's and turned by 90°.
   const SE3 T_world_map = SE3::from_xyz_rpy((Vector6() << 1, -0.5, 0, 0, 0, 1.5707963267948966).finished());
   ASSERT_TRUE(save_cairn(*wall(T_world_map.inverse()), folder / "map.cairn"));
@@ -82,9 +82,9 @@ TEST(EvaluateMap, TakesThePoseFromFlagOrTrajectories) {
   ASSERT_TRUE(recording::write_tum(folder / "ground_truth.tum", line(1, T_world_map)));
   const std::vector<std::vector<std::string>> ways{
       {"--pose", "1,-0.5,0,0,0,1.5707963267948966"},
-      {"--trajectory", folder.text(), "--ground-truth-trajectory", folder.text()}};
+      {"--trajectory", folder.path(), "--ground-truth-trajectory", folder.path()}};
   for (const auto& way : ways) {
-    std::vector<std::string> arguments{"map", folder.text(), "--ground-truth", folder.text(), "--json"};
+    std::vector<std::string> arguments{"map", folder.path(), "--ground-truth", folder.path(), "--json"};
     arguments.insert(arguments.end(), way.begin(), way.end());
     const Outcome outcome = evaluate(arguments);
     ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
@@ -93,15 +93,15 @@ TEST(EvaluateMap, TakesThePoseFromFlagOrTrajectories) {
     EXPECT_EQ(outcome.json()["occupied"], 200);
     EXPECT_LT(outcome.json()["accuracy_mean_m"], 1e-4);
   }
-  const auto unaligned = evaluate({"map", folder.text(), "--ground-truth", folder.text(), "--json"}).json();
+  const auto unaligned = evaluate({"map", folder.path(), "--ground-truth", folder.path(), "--json"}).json();
   EXPECT_LT(unaligned["precision"], 0.2);
 }
 
 TEST(EvaluateMap, RefusesHalfAPose) {
-  const Folder folder;
-  EXPECT_EQ(evaluate({"map", folder.text(), "--ground-truth", folder.text(), "--pose", "1,2,3"}).exit_code,
+  const TemporaryFolder folder;
+  EXPECT_EQ(evaluate({"map", folder.path(), "--ground-truth", folder.path(), "--pose", "1,2,3"}).exit_code,
             kWrongArguments);
-  EXPECT_EQ(evaluate({"map", folder.text(), "--ground-truth", folder.text(), "--trajectory", "a"}).exit_code,
+  EXPECT_EQ(evaluate({"map", folder.path(), "--ground-truth", folder.path(), "--trajectory", "a"}).exit_code,
             kWrongArguments);
 }
 

@@ -23,10 +23,10 @@ void write_cloud(const std::string& path) {
 }
 
 TEST(ImportCommand, SaysWhatItImported) {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_cloud(folder / "a.pcd");
   write_cloud(folder / "b.pcd");
-  const Outcome text = import({"pcd-folder", folder.text(), "--out", folder / "r", "--robot", "uav"});
+  const Outcome text = import({"pcd-folder", folder.path(), "--out", folder / "r", "--robot", "uav"});
   EXPECT_EQ(text.exit_code, kDone) << text.err;
   EXPECT_THAT(text.out, HasSubstr("2 sweeps"));
   const auto recording = recording::load_recording(folder / "r");
@@ -35,10 +35,10 @@ TEST(ImportCommand, SaysWhatItImported) {
 }
 
 TEST(ImportCommand, JsonIsOneObject) {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_cloud(folder / "a.pcd");
   std::ofstream(folder / "b.pcd") << "broken";
-  const Outcome o = import({"pcd-folder", folder.text(), "--out", folder / "r", "--json", "--deskewed", "true"});
+  const Outcome o = import({"pcd-folder", folder.path(), "--out", folder / "r", "--json", "--deskewed", "true"});
   EXPECT_EQ(o.exit_code, kDone);
   EXPECT_EQ(o.json()["items"], 1);
   EXPECT_EQ(o.json()["damaged"], 1);
@@ -47,9 +47,9 @@ TEST(ImportCommand, JsonIsOneObject) {
 }
 
 TEST(ImportCommand, ASecondImportMustBeToldToOverwrite) {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_cloud(folder / "a.pcd");
-  const std::vector<std::string> arguments{"pcd-folder", folder.text(), "--out", folder / "r"};
+  const std::vector<std::string> arguments{"pcd-folder", folder.path(), "--out", folder / "r"};
   EXPECT_EQ(import(arguments).exit_code, kDone);
   const Outcome again = import(arguments);
   EXPECT_EQ(again.exit_code, kFailed);
@@ -60,10 +60,10 @@ TEST(ImportCommand, ASecondImportMustBeToldToOverwrite) {
 }
 
 TEST(ImportCommand, WrongArguments) {
-  const Folder folder;
-  EXPECT_EQ(import({"tapes", folder.text(), "--out", folder / "r"}).exit_code, kWrongArguments);
+  const TemporaryFolder folder;
+  EXPECT_EQ(import({"tapes", folder.path(), "--out", folder / "r"}).exit_code, kWrongArguments);
   EXPECT_EQ(import({"pcd-folder", folder / "nothing", "--out", folder / "r"}).exit_code, kWrongArguments);
-  EXPECT_EQ(import({"pcd-folder", folder.text(), "--out", folder / "r"}).exit_code, kFailed) << "no files";
+  EXPECT_EQ(import({"pcd-folder", folder.path(), "--out", folder / "r"}).exit_code, kFailed) << "no files";
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "drivers/recording/scan_file.hpp"
 #include "hal/file.hpp"
 #include "onboard/mapping/map_file.hpp"
+#include "tests/support/recorded_data.hpp"
 #include "tests/tools/cli/run_command.hpp"
 
 namespace cairn::cli {
@@ -22,11 +23,6 @@ using ::testing::HasSubstr;
 Outcome inspect(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "inspect");
   return run(add_inspect_command, std::move(arguments));
-}
-
-fs::path data(const std::string& name) {
-  const char* given = std::getenv("CAIRN_DATA");
-  return (given != nullptr ? fs::path(given) : fs::path(CAIRN_SOURCE_DIR) / "../shared/data") / name;
 }
 
 PointCloud three_points() {
@@ -55,7 +51,7 @@ void write_sweeps(const std::string& dir) {
 }
 
 TEST(InspectCommand, ARecordingOfSweeps) {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_sweeps(folder / "r");
   std::ofstream(folder / "r/ground_truth.tum") << "0 0 0 0 0 0 0 1\n1 3 4 0 0 0 0 1\n";
   const auto json = inspect({folder / "r", "--json"}).json();
@@ -75,7 +71,7 @@ TEST(InspectCommand, ARecordingOfSweeps) {
 }
 
 TEST(InspectCommand, PlainTextSaysTheSame) {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_sweeps(folder / "r");
   const Outcome o = inspect({folder / "r"});
   EXPECT_EQ(o.exit_code, kDone);
@@ -85,7 +81,7 @@ TEST(InspectCommand, PlainTextSaysTheSame) {
 }
 
 TEST(InspectCommand, DamageIsToldAndTheRestIsCounted) {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_sweeps(folder / "r");
   fs::resize_file(folder / "r/scans/000004.bin", 59);
   fs::remove(folder / "r/scans/000005.bin");
@@ -97,7 +93,7 @@ TEST(InspectCommand, DamageIsToldAndTheRestIsCounted) {
 }
 
 TEST(InspectCommand, OneScanAsPcd) {
-  const Folder folder;
+  const TemporaryFolder folder;
   write_sweeps(folder / "r");
   EXPECT_EQ(inspect({folder / "r", "--out", folder / "s.pcd", "--scan", "9"}).exit_code, kDone);
   const auto pcd = recording::parse_pcd(*read_file(folder / "s.pcd", 1 << 20), "s.pcd");
@@ -110,7 +106,7 @@ TEST(InspectCommand, OneScanAsPcd) {
 }
 
 TEST(InspectCommand, MapsAndTrajectories) {
-  const Folder folder;
+  const TemporaryFolder folder;
   SemanticOcTree map(0.1);
   map.updateNode(octomap::point3d(1, 2, 3), true);
   ASSERT_TRUE(save_cairn(map, folder / "m.cairn"));
@@ -123,9 +119,9 @@ TEST(InspectCommand, MapsAndTrajectories) {
 }
 
 TEST(InspectCommand, WhatItDoesNotKnowItSays) {
-  const Folder folder;
+  const TemporaryFolder folder;
   EXPECT_EQ(inspect({folder / "nothing"}).exit_code, kFailed);
-  EXPECT_THAT(inspect({folder.text()}).err, HasSubstr("recording.yaml"));
+  EXPECT_THAT(inspect({folder.path()}).err, HasSubstr("recording.yaml"));
   std::ofstream(folder / "x.doc") << "hello";
   EXPECT_THAT(inspect({folder / "x.doc"}).err, HasSubstr("what this file holds is not known"));
 }
@@ -134,7 +130,7 @@ TEST(InspectCommand, WhatItDoesNotKnowItSays) {
   if (!fs::exists(path)) GTEST_SKIP() << "the recorded data is not here: " << (path)
 
 TEST(InspectRealData, ACaptureWithPositionPackets) {
-  const fs::path file = data("velodyne/vlp16_gps_single_return.pcap");
+  const fs::path file = support::recorded_data("velodyne/vlp16_gps_single_return.pcap");
   NEEDS(file);
   const Outcome o = inspect({file.string(), "--json"});
   ASSERT_EQ(o.exit_code, kDone) << o.err;
@@ -150,9 +146,9 @@ TEST(InspectRealData, ACaptureWithPositionPackets) {
 }
 
 TEST(InspectRealData, ACaptureAndItsImportSayTheSame) {
-  const fs::path file = data("velodyne/hdl32_single_return.pcap");
+  const fs::path file = support::recorded_data("velodyne/hdl32_single_return.pcap");
   NEEDS(file);
-  const Folder folder;
+  const TemporaryFolder folder;
   recording::ImportOptions options;
   options.source = file;
   options.out = folder / "r";
@@ -166,7 +162,7 @@ TEST(InspectRealData, ACaptureAndItsImportSayTheSame) {
 }
 
 TEST(InspectRealData, TheWrongModelDecodesNothingAndSaysWhy) {
-  const fs::path file = data("velodyne/hdl32_single_return.pcap");
+  const fs::path file = support::recorded_data("velodyne/hdl32_single_return.pcap");
   NEEDS(file);
   const auto json = inspect({file.string(), "--json", "--model", "VLP-16"}).json();
   EXPECT_EQ(json["sources"][0]["velodyne"]["refused"]["wrong_product"], 500);

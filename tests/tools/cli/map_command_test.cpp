@@ -36,7 +36,7 @@ std::unique_ptr<SemanticOcTree> small_map() {
 }
 
 TEST(MapCommand, InfoCountsVoxelsNotLeaves) {
-  const Folder folder;
+  const TemporaryFolder folder;
   ASSERT_TRUE(save_cairn(*small_map(), folder / "a.cairn"));
   const Outcome outcome = map({"info", folder / "a.cairn", "--json"});
   ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
@@ -54,8 +54,16 @@ TEST(MapCommand, InfoCountsVoxelsNotLeaves) {
   EXPECT_THAT(map({"info", folder / "a.cairn"}).out, HasSubstr("occupied      2 voxels"));
 }
 
+TEST(MapCommand, InfoKnowsAMapByItsContentNotByItsName) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(save_cairn(*small_map(), folder / "with_checksum.ot"));
+  ASSERT_TRUE(save_ot(*small_map(), folder / "without.cairn"));
+  EXPECT_EQ(map({"info", folder / "with_checksum.ot", "--json"}).json()["checksum"], "ok");
+  EXPECT_EQ(map({"info", folder / "without.cairn", "--json"}).json()["checksum"], "none");
+}
+
 TEST(MapCommand, CompareNamesAllFields) {
-  const Folder folder;
+  const TemporaryFolder folder;
   auto other = small_map();
   other->updateNode(octomap::point3d(5.05F, 0.05F, 0.05F), true);
   ASSERT_TRUE(save_cairn(*small_map(), folder / "a.cairn"));
@@ -73,7 +81,7 @@ TEST(MapCommand, CompareNamesAllFields) {
 }
 
 TEST(MapCommand, CompareRefusesAnotherResolution) {
-  const Folder folder;
+  const TemporaryFolder folder;
   SemanticOcTree coarse(0.2);
   coarse.updateNode(octomap::point3d(0.1F, 0.1F, 0.1F), true);
   ASSERT_TRUE(save_cairn(*small_map(), folder / "a.cairn"));
@@ -85,7 +93,7 @@ TEST(MapCommand, CompareRefusesAnotherResolution) {
 }
 
 TEST(MapCommand, RenderWritesAPngOfTheSizeItTells) {
-  const Folder folder;
+  const TemporaryFolder folder;
   ASSERT_TRUE(save_cairn(*small_map(), folder / "a.cairn"));
   ASSERT_TRUE(recording::write_tum(
       folder / "t.tum",
@@ -105,7 +113,7 @@ TEST(MapCommand, RenderWritesAPngOfTheSizeItTells) {
 }
 
 TEST(MapCommand, ExportReadsBackTheSame) {
-  const Folder folder;
+  const TemporaryFolder folder;
   ASSERT_TRUE(save_cairn(*small_map(), folder / "a.cairn"));
   for (const std::string name : {"b.ot", "b.cairn"}) {
     ASSERT_EQ(map({"export", folder / "a.cairn", "--out", folder / name}).exit_code, kDone);
@@ -122,7 +130,7 @@ TEST(MapCommand, ExportReadsBackTheSame) {
 }
 
 TEST(MapCommand, FaultsNameTheFileAndExitAsPromised) {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder / "broken.cairn") << "this is no map";
   ASSERT_TRUE(save_cairn(*small_map(), folder / "a.cairn"));
   const auto expect = [&](std::vector<std::string> arguments, int code, const std::string& message) {

@@ -19,7 +19,7 @@ Outcome record(std::vector<std::string> arguments) {
 }
 
 /// A profile that listens on loopback only, on ports that no sensor uses.
-std::string quiet_profile(const Folder& folder) {
+std::string quiet_profile(const TemporaryFolder& folder) {
   std::ofstream(folder / "robot.yaml") << "name: husky_7\nlidar:\n  model: HDL-32E\n  bind_address: 127.0.0.1\n"
                                           "  data_port: 42368\n  position_port: 48308\n"
                                           "  T_base_lidar: [0.1, 0, 0.7, 0, 0, 1.5]\n";
@@ -27,7 +27,7 @@ std::string quiet_profile(const Folder& folder) {
 }
 
 TEST(RecordCommand, SilenceIsAFailureThatNamesItsRemedy) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const Outcome o = record({"--config", quiet_profile(folder), "--out", folder / "r", "--seconds", "0.1", "--json"});
   EXPECT_EQ(o.exit_code, kFailed);
   EXPECT_THAT(o.err, HasSubstr("check cable"));
@@ -45,7 +45,7 @@ TEST(RecordCommand, SilenceIsAFailureThatNamesItsRemedy) {
 }
 
 TEST(RecordCommand, AnOldRecordingIsKept) {
-  const Folder folder;
+  const TemporaryFolder folder;
   const std::vector<std::string> arguments{"--config",   quiet_profile(folder), "--out",
                                            folder / "r", "--seconds",           "0.05"};
   record(arguments);
@@ -53,7 +53,7 @@ TEST(RecordCommand, AnOldRecordingIsKept) {
 }
 
 TEST(RecordCommand, AFaultyProfileIsAWrongArgument) {
-  const Folder folder;
+  const TemporaryFolder folder;
   std::ofstream(folder / "robot.yaml") << "lidar: {modle: VLP-16}\n";
   const Outcome o = record({"--config", folder / "robot.yaml", "--out", folder / "r", "--seconds", "0.1"});
   EXPECT_EQ(o.exit_code, kWrongArguments);

@@ -4,7 +4,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/resource.h>
-#include <unistd.h>
 
 #include <csignal>
 #include <fstream>
@@ -12,6 +11,7 @@
 #include "drivers/recording/recording.hpp"
 #include "drivers/recording/trajectory_file.hpp"
 #include "hal/file.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace cairn::simulator {
 namespace {
@@ -20,14 +20,6 @@ namespace fs = std::filesystem;
 
 class Simulate : public ::testing::Test {
  protected:
-  void SetUp() override {
-    const auto* test = ::testing::UnitTest::GetInstance()->current_test_info();
-    dir_ = fs::path(::testing::TempDir()) / ("simulate_" + std::string(test->name()) + std::to_string(getpid()));
-    fs::remove_all(dir_);
-    fs::create_directories(dir_);
-  }
-  void TearDown() override { fs::remove_all(dir_); }
-
   [[nodiscard]] SimulationConfig config(const std::string& name, std::uint64_t seed = 1) const {
     SimulationConfig c;
     c.scene = "corridor";
@@ -42,7 +34,7 @@ class Simulate : public ::testing::Test {
     return read ? *read : std::vector<std::byte>{};
   }
 
-  fs::path dir_;
+  support::TemporaryFolder dir_;
 };
 
 TEST_F(Simulate, WritesARecordingThatOthersCanRead) {

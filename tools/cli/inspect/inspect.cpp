@@ -3,6 +3,7 @@
 
 #include <array>
 #include <fstream>
+#include <nlohmann/json.hpp>
 #include <system_error>
 
 #include "drivers/recording/pcd_file.hpp"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/inspect/inspect_stream.hpp"
 
+#include <nlohmann/json.hpp>
+
 #include "drivers/recording/utc.hpp"
 
 namespace cairn::cli {

@@ -2,6 +2,7 @@
 #include "tools/cli/inspect/packet_figures.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <string>
 
 namespace cairn::cli {

@@ -2,6 +2,7 @@
 #include "tools/cli/inspect/scan_figures.hpp"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 namespace cairn::cli {
 

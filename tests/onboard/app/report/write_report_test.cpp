@@ -5,11 +5,13 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "hal/file.hpp"
 #include "onboard/app/report/report_html.hpp"
 #include "onboard/app/report/report_json.hpp"
 #include "tests/onboard/app/report/sample_report.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace cairn {
 namespace {
@@ -22,15 +24,13 @@ std::string content(const fs::path& path) {
 }
 
 TEST(WriteReport, LeavesBothFilesAndTheSameOnesEveryTime) {
-  const fs::path folder = fs::path(testing::TempDir()) / "cairn_write_report";
-  fs::create_directories(folder);
+  const support::TemporaryFolder folder;
   const auto run = sample_run(50);
-  ASSERT_TRUE(write_report(run->report, folder).has_value());
+  ASSERT_TRUE(write_report(run->report, folder.path()).has_value());
   EXPECT_EQ(content(folder / "report.json"), to_text(to_json(run->report)));
   const std::string page = content(folder / "report.html");
   EXPECT_EQ(page, to_html(sample_run(50)->report).value());
   EXPECT_GT(page.size(), 10'000U);
-  fs::remove_all(folder);
 }
 
 TEST(WriteReport, IntoAMissingFolderIsAnErrorThatNamesIt) {

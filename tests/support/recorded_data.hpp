@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdlib>
+#include <filesystem>
+
+namespace cairn::support {
+
+/// A folder of recorded data, which lies outside of the project; skip the test when it is not there.
+inline std::filesystem::path recorded_data(const std::filesystem::path& name) {
+  const char* given = std::getenv("CAIRN_DATA");
+  return std::filesystem::path(given != nullptr ? given : CAIRN_SOURCE_DIR "/../shared/data") / name;
+}
+
+}  // namespace cairn::support
