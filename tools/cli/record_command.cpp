@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/record_command.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -23,6 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 using recording::Recording;
 using recording::RecordingWriter;
+using recording::RecordReport;
 
 struct Options {
   fs::path config, out;
@@ -65,12 +67,21 @@ recording::RecordOptions record_options(const Options& options, const RecordingW
   return record;
 }
 
-int report(const Options& options, const Json& json, std::uint64_t packets) {
-  if (options.json)
-    print(json);
-  else
-    std::cout << options.out.string() << ": " << packets << " packets in " << json["duration_s"].get<double>() << " s; "
-              << json["losses"].dump() << '\n';
+/// One line per sensor: what it sent and what of it was lost or is doubtful.
+std::string as_table(const Options& options, const Recording& recording, const RecordReport& recorded,
+                     const RecordingWriter& writer, const velodyne::UdpSource::Counters& c) {
+  std::string table = fmt::format("{}: {:.1f} s\n", options.out.string(), to_seconds(recorded.length));
+  constexpr auto kRow = "  {:<10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n";
+  table += fmt::format(kRow, "sensor", "packets", "MB", "dropped", "flooded", "cut short", "unstamped", "foreign");
+  table += fmt::format(kRow, recording.sources[0].id, writer.packets(),
+                       fmt::format("{:.1f}", 1e-6 * static_cast<double>(writer.payload_bytes())), c.kernel_drops,
+                       c.flooded, c.truncated, c.unstamped, c.foreign);
+  if (recorded.source_errors > 0)
+    table += fmt::format("  {} errors of the source, at first: {}\n", recorded.source_errors, recorded.first_error);
+  return table;
+}
+
+int verdict(const Options& options, std::uint64_t packets) {
   if (packets > 0) return kDone;
   return fail({Errc::kLinkDown,
                "not one packet came in",
@@ -103,7 +114,11 @@ int record(const Options& options) {
             {"losses", losses((*source)->counters())}};
   description.notes = "recorded live; losses: " + json["losses"].dump();
   if (const auto saved = recording::save_recording(options.out, description); !saved) return fail(saved.error());
-  return report(options, json, writer->packets());
+  if (options.json)
+    print(json);
+  else
+    std::cout << as_table(options, description, *recorded, *writer, (*source)->counters());
+  return verdict(options, writer->packets());
 }
 
 }  // namespace

@@ -44,11 +44,13 @@ TEST(RecordCommand, SilenceIsAFailureThatNamesItsRemedy) {
   EXPECT_THAT(r->notes, HasSubstr("kernel_drops"));
 }
 
-TEST(RecordCommand, AnOldRecordingIsKept) {
+TEST(RecordCommand, SaysInATableWhatCameInAndKeepsAnOldRecording) {
   const TemporaryFolder folder;
   const std::vector<std::string> arguments{"--config",   quiet_profile(folder), "--out",
                                            folder / "r", "--seconds",           "0.05"};
-  record(arguments);
+  const std::string table = record(arguments).out;
+  EXPECT_THAT(table, HasSubstr("  sensor        packets         MB    dropped"));
+  EXPECT_THAT(table, HasSubstr("  lidar               0        0.0          0"));
   EXPECT_THAT(record(arguments).err, HasSubstr("there is a recording already"));
 }
 
