@@ -1,19 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // A cloud read from any bytes has finite points and offsets within a sweep, and survives being written and read again.
-#include <cstdlib>
 #include <span>
 
 #include "drivers/recording/pcd_file.hpp"
+#include "tests/fuzz/require.hpp"
 
+using namespace cairn;
 using namespace cairn::recording;
-
-namespace {
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
   const auto pcd = parse_pcd(std::as_bytes(std::span(data, size)), "fuzz");

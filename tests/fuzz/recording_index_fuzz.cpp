@@ -1,20 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any text is either an index or a list of faults, as recording.yaml and as data.csv; what was read survives being
 // written and read again, and never names a file outside of its folder.
-#include <cstdlib>
 #include <string>
 #include <string_view>
 
 #include "drivers/recording/recording.hpp"
 #include "drivers/recording/scan_file.hpp"
+#include "tests/fuzz/require.hpp"
 
+using namespace cairn;
 using namespace cairn::recording;
 
 namespace {
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 void as_recording(std::string_view text) {
   const auto read = parse_recording(text, "fuzz");

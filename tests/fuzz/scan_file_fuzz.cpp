@@ -1,20 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any bytes as a sweep: refused, or a scan whose points are finite and within its time, every record accounted for.
-#include <cstdlib>
 #include <vector>
 
 #include "drivers/recording/scan_file.hpp"
+#include "tests/fuzz/require.hpp"
 
 using namespace cairn;
 using namespace cairn::recording;
-
-namespace {
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
   if (size == 0) return 0;

@@ -1,22 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Poses read from any text are finite, ordered in time and unit rotations, and survive being written and read again.
 #include <cmath>
-#include <cstdlib>
 #include <string_view>
 #include <vector>
 
 #include "drivers/recording/kitti_files.hpp"
 #include "drivers/recording/trajectory_file.hpp"
+#include "tests/fuzz/require.hpp"
 
+using namespace cairn;
 using namespace cairn::recording;
-
-namespace {
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
-
-}  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
   const std::string_view text(reinterpret_cast<const char*>(data), size);

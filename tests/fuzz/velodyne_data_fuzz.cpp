@@ -2,20 +2,16 @@
 // Any sequence of datagrams, in any order and at any time: whatever scans come out are finite, within range, in the
 // order of time and bounded in size.
 #include <algorithm>
-#include <cstdlib>
 #include <vector>
 
 #include "drivers/velodyne/lidar.hpp"
 #include "hal/bytes.hpp"
+#include "tests/fuzz/require.hpp"
 
 namespace {
 
 using namespace cairn;
 using namespace cairn::velodyne;
-
-void require(bool property) {
-  if (!property) std::abort();
-}
 
 struct Checker {
   Time last = Time::min();
