@@ -13,10 +13,10 @@
 
 #include "hal/clock.hpp"
 #include "onboard/mapping/mapper.hpp"
-#include "tests/onboard/mapping/allocation_count.hpp"
 #include "tests/onboard/mapping/kitti_scans.hpp"
 #include "tests/onboard/mapping/scan_yard.hpp"
 #include "tests/onboard/mapping/tree_compare.hpp"
+#include "tests/support/allocation_count.hpp"
 
 namespace cairn {
 namespace {
@@ -53,55 +53,63 @@ struct Case {
   int compare_every;  // scans; 0: never, and no peer
 };
 
-/// Runs both inserters over the scans in lock step.
-void compare(benchmark::State& state, const std::vector<MapScan>& scans, const Case& c) {
-  if (scans.empty()) return state.SkipWithError("no recording");
+struct Comparison {
+  std::vector<double> ours, peer;
+  std::size_t differing = 0, points = 0, warm_allocations = 0;
+  double ours_mb = 0, peer_mb = 0;
+  bool identical = true;
+};
+
+/// Both inserters over the scans in lock step, into trees that are made here.
+void run_once(benchmark::State& state, const std::vector<MapScan>& scans, const Case& c, Workers& workers,
+              Comparison& found) {
   MappingConfig config;
   config.resolution_m = c.resolution;
   config.max_range_m = c.max_range;
   config.reserve_mb = 96;
-  Workers workers(1);
-  std::vector<double> ours, peer;
-  std::size_t differing = 0, points = 0, warm_allocations = 0, identical = 1;
-  double ours_mb = 0, peer_mb = 0;
-  for (auto _ : state) {
-    double resident = resident_mb();
-    Mapper mapper(config, workers);
-    octomap::OcTree stock(c.resolution);
-    ours_mb = resident_mb() - resident;
-    for (std::size_t i = 0; i < scans.size(); ++i) {
-      points += scans[i].points.size();
-      resident = resident_mb();
-      const std::uint64_t before = allocation_count();
-      ours.push_back(cpu_ms([&] { benchmark::DoNotOptimize(mapper.insert(scans[i].points, scans[i].origin)); }));
-      if (i >= scans.size() / 2) warm_allocations += allocation_count() - before;
-      ours_mb += resident_mb() - resident;
-      if (c.compare_every == 0) continue;
-      const octomap::Pointcloud cloud = to_octomap(scans[i]);
-      const octomap::point3d origin(scans[i].origin.x(), scans[i].origin.y(), scans[i].origin.z());
-      resident = resident_mb();
-      peer.push_back(cpu_ms([&] { stock.insertPointCloud(cloud, origin, c.max_range, false, true); }));
-      peer_mb += resident_mb() - resident;
-      if ((i + 1) % static_cast<std::size_t>(c.compare_every) == 0 || i + 1 == scans.size())
-        differing += differing_nodes(mapper.tree(), stock);
-    }
-    if (c.compare_every != 0) identical = data_of(mapper.tree()) == data_of(stock) ? 1 : 0;
-    state.counters["nodes"] = static_cast<double>(mapper.tree().size());
-    state.counters["used_mb"] = static_cast<double>(mapper.tree().used_bytes()) / 1048576.0;
+  double resident = resident_mb();
+  Mapper mapper(config, workers);
+  octomap::OcTree stock(c.resolution);
+  found.ours_mb = resident_mb() - resident;
+  for (std::size_t i = 0; i < scans.size(); ++i) {
+    found.points += scans[i].points.size();
+    resident = resident_mb();
+    const std::size_t before = support::allocation_count();
+    found.ours.push_back(cpu_ms([&] { benchmark::DoNotOptimize(mapper.insert(scans[i].points, scans[i].origin)); }));
+    if (i >= scans.size() / 2) found.warm_allocations += support::allocation_count() - before;
+    found.ours_mb += resident_mb() - resident;
+    if (c.compare_every == 0) continue;
+    const octomap::Pointcloud cloud = to_octomap(scans[i]);
+    const octomap::point3d origin(scans[i].origin.x(), scans[i].origin.y(), scans[i].origin.z());
+    resident = resident_mb();
+    found.peer.push_back(cpu_ms([&] { stock.insertPointCloud(cloud, origin, c.max_range, false, true); }));
+    found.peer_mb += resident_mb() - resident;
+    if ((i + 1) % static_cast<std::size_t>(c.compare_every) == 0 || i + 1 == scans.size())
+      found.differing += differing_nodes(mapper.tree(), stock);
   }
+  if (c.compare_every != 0) found.identical = data_of(mapper.tree()) == data_of(stock);
+  state.counters["nodes"] = static_cast<double>(mapper.tree().size());
+  state.counters["used_mb"] = static_cast<double>(mapper.tree().used_bytes()) / 1048576.0;
+}
+
+void compare(benchmark::State& state, const std::vector<MapScan>& scans, const Case& c) {
+  if (scans.empty()) return state.SkipWithError("no recording");
+  Workers workers(1);
+  Comparison found;
+  for (auto _ : state) run_once(state, scans, c, workers, found);
   state.counters["n"] = static_cast<double>(scans.size());
-  state.counters["points"] = static_cast<double>(points) / static_cast<double>(scans.size());
-  state.counters["ours_ms"] = quantile(ours, 0.5);
-  state.counters["ours_p95_ms"] = quantile(ours, 0.95);
-  state.counters["ours_max_ms"] = quantile(ours, 1.0);
-  state.counters["ours_resident_mb"] = ours_mb;
-  state.counters["allocations"] = static_cast<double>(warm_allocations);
+  state.counters["points"] = static_cast<double>(found.points) / static_cast<double>(scans.size());
+  state.counters["ours_ms"] = quantile(found.ours, 0.5);
+  state.counters["ours_p95_ms"] = quantile(found.ours, 0.95);
+  state.counters["ours_max_ms"] = quantile(found.ours, 1.0);
+  state.counters["ours_resident_mb"] = found.ours_mb;
+  state.counters["allocations"] = static_cast<double>(found.warm_allocations);
   if (c.compare_every == 0) return;
-  state.counters["peer_ms"] = quantile(peer, 0.5);
-  state.counters["peer_resident_mb"] = peer_mb;
-  state.counters["ratio"] = quantile(peer, 0.5) / quantile(ours, 0.5);
-  state.counters["differing_voxels"] = static_cast<double>(differing);
-  state.counters["data_identical"] = static_cast<double>(identical);
+  state.counters["peer_ms"] = quantile(found.peer, 0.5);
+  state.counters["peer_resident_mb"] = found.peer_mb;
+  state.counters["ratio"] = quantile(found.peer, 0.5) / quantile(found.ours, 0.5);
+  state.counters["differing_voxels"] = static_cast<double>(found.differing);
+  state.counters["data_identical"] = found.identical ? 1 : 0;
 }
 
 std::vector<MapScan> yard(int scans) {

@@ -4,11 +4,13 @@
 #include <Eigen/Cholesky>
 #include <cstdio>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 #include <map>
 
 #include "hal/clock.hpp"
 #include "onboard/odometry/odometry.hpp"
+#include "tests/support/recorded_data.hpp"
 #include "tests/support/scenes.hpp"
 
 namespace cairn {
@@ -118,27 +120,50 @@ Scan kitti_scan(const std::string& file, int index, double angle_deg) {
   return scan;
 }
 
-void run_kitti(const std::string& folder, int scans, double angle_deg) {
+/// Poses of the LiDAR from those of the camera; none where the folder has no truth.
+std::vector<SE3> kitti_truth(const std::string& folder) {
+  Eigen::Matrix<double, 3, 4, Eigen::RowMajor> m;
+  const auto read = [&](std::istream& in) {
+    for (int k = 0; k < 12; ++k) in >> m(k / 4, k % 4);
+    return bool(in);
+  };
+  const auto pose = [&] { return SE3(Eigen::Matrix3d(m.leftCols<3>()), Eigen::Vector3d(m.col(3))); };
+  std::ifstream poses(folder + "/poses_cam0.txt"), calib(folder + "/calib.txt");
   std::vector<SE3> truth;
-  {
-    std::ifstream poses(folder + "/poses_cam0.txt");
-    Eigen::Matrix<double, 3, 4, Eigen::RowMajor> m;
-    std::vector<SE3> cam;
-    const auto read = [&](std::istream& in) {
-      for (int k = 0; k < 12; ++k) in >> m(k / 4, k % 4);
-      return bool(in);
-    };
-    while (read(poses)) cam.emplace_back(Eigen::Matrix3d(m.leftCols<3>()), Eigen::Vector3d(m.col(3)));
-    std::ifstream calib(folder + "/calib.txt");
-    std::string word;
-    SE3 Tr;
-    while (calib >> word)
-      if (word == "Tr:") {
-        read(calib);
-        Tr = SE3(Eigen::Matrix3d(m.leftCols<3>()), Eigen::Vector3d(m.col(3)));
-      }
-    for (const SE3& c : cam) truth.push_back(Tr.inverse() * c * Tr);
+  while (read(poses)) truth.push_back(pose());
+  SE3 Tr;
+  for (std::string word; calib >> word;)
+    if (word == "Tr:" && read(calib)) Tr = pose();
+  for (SE3& T : truth) T = Tr.inverse() * T * Tr;
+  return truth;
+}
+
+void trace(int scan, std::size_t points, const OdometryUpdate& u, const SE3& true_step, double ms) {
+  const Vector6 e = (u.T_previous_base.mean.inverse() * true_step).log();
+  std::printf(
+      "%d pts %zu it %d conv %d inl %.2f rms %.4f deg %d lost %d step %.4f err %.4f %.4f %.4f r %.5f %.5f %.5f ms "
+      "%.2f\n",
+      scan, points, u.iterations, u.converged, u.inlier_ratio, u.rms_m, u.degenerate_directions, u.lost,
+      u.T_previous_base.mean.translation().norm(), e[0], e[1], e[2], e[3], e[4], e[5], ms);
+}
+
+/// Mean relative errors over steps of so many scans.
+void print_relative(const std::vector<SE3>& poses, const std::vector<SE3>& truth, std::size_t gap) {
+  double sum = 0, rot = 0;
+  int n = 0;
+  for (std::size_t i = 0; i + gap < poses.size(); ++i) {
+    const SE3 step = poses[i].inverse() * poses[i + gap], true_step = truth[i].inverse() * truth[i + gap];
+    const Vector6 e = (step.inverse() * true_step).log();
+    sum += e.head<3>().norm() / true_step.translation().norm();
+    rot += e.tail<3>().norm() / true_step.translation().norm();
+    ++n;
   }
+  std::printf("  gap %2zu: %.3f %% %.5f deg/m\n", gap, 100 * sum / n, rot / n * 57.3);
+}
+
+void run_kitti(const std::filesystem::path& recording, int scans, double angle_deg) {
+  const std::string folder = recording.string();
+  const std::vector<SE3> truth = kitti_truth(folder);
   Workers workers(1);
   LidarOdometry odometry(g_config, {}, workers);
   Figures f;
@@ -154,32 +179,13 @@ void run_kitti(const std::string& folder, int scans, double angle_deg) {
     f.cpu_ms.push_back(to_milliseconds(thread_cpu_time() - t0));
     const SE3 t = truth.empty() ? u->T_odom_base.mean : truth[0].inverse() * truth[static_cast<std::size_t>(i)];
     account(f, *u, t, before, i == 0);
-    const Vector6 es = (u->T_previous_base.mean.inverse() * (before.inverse() * t)).log();
-    if (std::getenv("TRACE"))
-      std::printf(
-          "%d pts %zu it %d conv %d inl %.2f rms %.4f deg %d lost %d step %.4f err %.4f %.4f %.4f r %.5f %.5f %.5f ms "
-          "%.2f\n",
-          i, scan.cloud.size(), u->iterations, u->converged, u->inlier_ratio, u->rms_m, u->degenerate_directions,
-          u->lost, u->T_previous_base.mean.translation().norm(), es[0], es[1], es[2], es[3], es[4], es[5],
-          f.cpu_ms.back());
+    if (std::getenv("TRACE")) trace(i, scan.cloud.size(), *u, before.inverse() * t, f.cpu_ms.back());
     before = t;
     poses.push_back(u->T_odom_base.mean);
   }
-  print(folder.substr(folder.rfind('/') + 1).c_str(), f);
+  print(recording.filename().c_str(), f);
   if (truth.empty()) return (void)std::printf("  distance %.2f\n", poses.back().translation().norm());
-  for (const int gap : {1, 5, 10, 15}) {
-    double sum = 0, rot = 0;
-    int n = 0;
-    for (std::size_t i = 0; i + static_cast<std::size_t>(gap) < poses.size(); ++i) {
-      const std::size_t j = i + static_cast<std::size_t>(gap);
-      const SE3 est = poses[i].inverse() * poses[j], tru = truth[i].inverse() * truth[j];
-      const Vector6 e = (est.inverse() * tru).log();
-      sum += e.head<3>().norm() / tru.translation().norm();
-      rot += e.tail<3>().norm() / tru.translation().norm();
-      ++n;
-    }
-    std::printf("  gap %2d: %.3f %% %.5f deg/m\n", gap, 100 * sum / n, rot / n * 57.3);
-  }
+  for (const std::size_t gap : {1, 5, 10, 15}) print_relative(poses, truth, gap);
 }
 
 }  // namespace
@@ -200,12 +206,12 @@ int main(int argc, char** argv) {
   }
   if (const auto ok = config::parse(yaml, "args", section); !ok)
     return std::printf("%s\n", to_string(ok.error()).c_str()), 2;
-  const std::string data = CAIRN_SOURCE_DIR "/../shared/data/kitti/";
+  const std::filesystem::path data = support::recorded_data("kitti");
   if (what == "kitti" || what == "all") {
-    run_kitti(data + "odometry00", 16, 0.0);
-    run_kitti(data + "odometry00", 16, 0.205);
+    run_kitti(data / "odometry00", 16, 0.0);
+    run_kitti(data / "odometry00", 16, 0.205);
   }
-  if (what == "street22" || what == "all") run_kitti(data + "street22", 22, 0);
+  if (what == "street22" || what == "all") run_kitti(data / "street22", 22, 0);
   for (const auto& scene : support::all_scenes())
     if (what == scene.name || what == "all") run_scene(scene, seconds, seed);
 }

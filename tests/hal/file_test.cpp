@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <string>
+
+#include "tests/support/temporary_folder.hpp"
 
 namespace cairn {
 namespace {
@@ -14,16 +16,11 @@ namespace fs = std::filesystem;
 
 class FileTest : public ::testing::Test {
  protected:
-  FileTest() {
-    std::string pattern = (fs::temp_directory_path() / "cairn_file_XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-  }
-  ~FileTest() override { fs::remove_all(folder_); }
   std::string text(const fs::path& path) {
     const auto bytes = read_file(path, 1000);
     return bytes ? std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size()) : "error";
   }
-  fs::path folder_;
+  support::TemporaryFolder folder_;
 };
 
 TEST_F(FileTest, WritesReadsAndReplaces) {
@@ -32,7 +29,7 @@ TEST_F(FileTest, WritesReadsAndReplaces) {
   EXPECT_EQ(text(file), "one");
   ASSERT_TRUE(write_file_atomic(file, ""));
   EXPECT_EQ(text(file), "");
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1) << "no temporary file may stay";
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1) << "no temporary file may stay";
 }
 
 TEST_F(FileTest, AFailedWriteKeepsTheOldContentAndLeavesNothingBehind) {
@@ -42,7 +39,7 @@ TEST_F(FileTest, AFailedWriteKeepsTheOldContentAndLeavesNothingBehind) {
   ASSERT_FALSE(result);
   EXPECT_EQ(result.error().where, target.string());
   EXPECT_TRUE(fs::is_directory(target));
-  EXPECT_EQ(std::distance(fs::directory_iterator(folder_), {}), 1);
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder_.path()), {}), 1);
 }
 
 TEST_F(FileTest, AFullDiskIsAnErrorWithTheSystemsReason) {
@@ -59,7 +56,7 @@ TEST_F(FileTest, RefusesWhatIsTooLargeMissingOrNoFile) {
   ASSERT_TRUE(write_file_atomic(folder_ / "big", "12345"));
   EXPECT_EQ(read_file(folder_ / "big", 4).error().code, Errc::kLimit);
   EXPECT_EQ(read_file(folder_ / "none", 4).error().code, Errc::kNotFound);
-  EXPECT_FALSE(read_file(folder_, 4));
+  EXPECT_FALSE(read_file(folder_.path(), 4));
 }
 
 }  // namespace

@@ -2,7 +2,9 @@
 // The importers on recorded data, which lies outside of the project.
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <cmath>
+#include <span>
 
 #include "drivers/recording/import.hpp"
 #include "drivers/recording/kitti_files.hpp"
@@ -13,6 +15,7 @@
 #include "drivers/velodyne/pcap_source.hpp"
 #include "hal/file.hpp"
 #include "tests/drivers/recording/files.hpp"
+#include "tests/support/recorded_data.hpp"
 
 namespace cairn::recording {
 namespace {
@@ -32,7 +35,7 @@ ImportOptions options(const fs::path& source, const fs::path& out) {
   if (!fs::exists(path)) GTEST_SKIP() << test::missing(path)
 
 TEST(RealKitti, Odometry00HasSixteenSweepsAndPoses) {
-  const fs::path source = data("kitti/odometry00");
+  const fs::path source = support::recorded_data("kitti/odometry00");
   NEEDS(source);
   const TemporaryFolder folder;
   const auto report = import("kitti-odometry", options(source, folder / "out"));
@@ -59,7 +62,7 @@ TEST(RealKitti, Odometry00HasSixteenSweepsAndPoses) {
 }
 
 TEST(RealKitti, PointsOfASweepKeepTheirBits) {
-  const fs::path source = data("kitti/street22");
+  const fs::path source = support::recorded_data("kitti/street22");
   NEEDS(source);
   const TemporaryFolder folder;
   ASSERT_TRUE(import("kitti-odometry", options(source, folder / "out")));
@@ -74,7 +77,8 @@ TEST(RealKitti, PointsOfASweepKeepTheirBits) {
     const Scan& scan = **decoder.decode(packet);
     ASSERT_EQ(scan.cloud.size() * 16, original->size());
     for (std::size_t i = 0; i < scan.cloud.size(); i += 97) {
-      ASSERT_EQ(std::memcmp(scan.cloud.xyz[i].data(), original->data() + i * 16, 12), 0);
+      const auto xyz = std::as_bytes(std::span(scan.cloud.xyz[i].data(), 3));
+      ASSERT_TRUE(std::equal(xyz.begin(), xyz.end(), original->begin() + static_cast<std::ptrdiff_t>(i) * 16));
       ASSERT_GE(scan.cloud.intensity[i], 0.0F);
       ASSERT_LE(scan.cloud.intensity[i], 255.0F);
     }
@@ -83,7 +87,7 @@ TEST(RealKitti, PointsOfASweepKeepTheirBits) {
 }
 
 TEST(RealKitti, RawDriveHas24Sweeps) {
-  const fs::path source = data("kitti/raw_2011_09_26");
+  const fs::path source = support::recorded_data("kitti/raw_2011_09_26");
   NEEDS(source);
   const TemporaryFolder folder;
   const auto report = import("kitti-raw", options(source, folder / "out"));
@@ -100,7 +104,7 @@ TEST(RealKitti, RawDriveHas24Sweeps) {
 }
 
 TEST(RealPcd, TheCloudOfAnotherDecoderIsRead) {
-  const fs::path file = data("velodyne/vlp16_dual_return.expected.pcd");
+  const fs::path file = support::recorded_data("velodyne/vlp16_dual_return.expected.pcd");
   NEEDS(file);
   const auto bytes = read_file(file, kMaxPcdBytes);
   const auto pcd = parse_pcd(*bytes, file.string());

@@ -7,8 +7,8 @@
 #include <numbers>
 #include <random>
 
-#include "tests/drivers/velodyne/allocation_count.hpp"
 #include "tests/drivers/velodyne/lidar_rig.hpp"
+#include "tests/support/allocation_count.hpp"
 
 namespace cairn::velodyne {
 namespace {
@@ -153,12 +153,12 @@ TEST(Lidar, WarmDecodingAllocatesNothing) {
     for (int i = 0; i < 2000; ++i) {
       sensor.next(packet);
       if (i % 50 == 0) packet.bytes[0] = {};  // refusing allocates nothing either
-      const std::size_t before = test::allocation_count();
+      const std::size_t before = support::allocation_count();
       {
         const auto scan = rig.lidar->decode(packet);
         scans += scan && *scan != nullptr ? 1 : 0;
       }
-      allocated += test::allocation_count() - before;
+      allocated += support::allocation_count() - before;
     }
     EXPECT_GT(scans, 5U);
     EXPECT_EQ(allocated, 0U);

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <filesystem>
 #include <map>
 #include <numbers>
@@ -14,14 +13,12 @@
 #include "drivers/velodyne/pcap_source.hpp"
 #include "hal/bytes.hpp"
 #include "hal/file.hpp"
+#include "tests/support/recorded_data.hpp"
 
 namespace cairn::velodyne {
 namespace {
 
-std::filesystem::path data_folder() {
-  const char* chosen = std::getenv("CAIRN_DATA");
-  return std::filesystem::path(chosen != nullptr ? chosen : CAIRN_SOURCE_DIR "/../shared/data") / "velodyne";
-}
+std::filesystem::path data_folder() { return support::recorded_data("velodyne"); }
 
 #define SKIP_WITHOUT_DATA() \
   if (!std::filesystem::exists(data_folder())) GTEST_SKIP() << "no recordings in " << data_folder()

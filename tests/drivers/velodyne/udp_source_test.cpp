@@ -7,7 +7,7 @@
 #include <unistd.h>
 
 #include "drivers/velodyne/lidar.hpp"
-#include "tests/drivers/velodyne/allocation_count.hpp"
+#include "tests/support/allocation_count.hpp"
 #include "tests/support/velodyne_encoder.hpp"
 
 namespace cairn::velodyne {
@@ -182,10 +182,10 @@ TEST_F(UdpSourceTest, WarmReceivingAllocatesNothing) {
   sender.send(source->data_port(), bytes);
   ASSERT_EQ(next(), Poll::kPacket);
   for (int i = 0; i < 50; ++i) sender.send(source->data_port(), bytes);
-  const std::size_t before = test::allocation_count();
+  const std::size_t before = support::allocation_count();
   int received = 0;
   for (int i = 0; i < 50; ++i) received += next() == Poll::kPacket ? 1 : 0;
-  EXPECT_EQ(test::allocation_count(), before);
+  EXPECT_EQ(support::allocation_count(), before);
   EXPECT_EQ(received, 50);
 }
 

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "drivers/recording/recording_writer.hpp"
@@ -16,6 +17,7 @@
 #include "drivers/recording/trajectory_file.hpp"
 #include "onboard/mapping/map_file.hpp"
 #include "tests/support/box_world.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace cairn {
 namespace {
@@ -59,30 +61,29 @@ void record(const fs::path& folder) {
 class RunTest : public ::testing::Test {
  protected:
   static void SetUpTestSuite() {
-    std::string pattern = (fs::temp_directory_path() / "cairn_run_XXXXXX").string();
-    folder_ = ::mkdtemp(pattern.data());
-    record(folder_ / "recording");
+    folder_.emplace();
+    record(*folder_ / "recording");
   }
-  static void TearDownTestSuite() { fs::remove_all(folder_); }
+  static void TearDownTestSuite() { folder_.reset(); }
 
   static RunOptions options(const std::string& out) {
     RunOptions o;
-    o.recording = folder_ / "recording";
-    o.out = folder_ / out;
+    o.recording = *folder_ / "recording";
+    o.out = *folder_ / out;
     o.pace = Pace::kMaximum;
     return o;
   }
   static fs::path write(const std::string& name, const std::string& text) {
-    std::ofstream(folder_ / name) << text;
-    return folder_ / name;
+    std::ofstream(*folder_ / name) << text;
+    return *folder_ / name;
   }
-  static inline fs::path folder_;
+  static inline std::optional<support::TemporaryFolder> folder_;
 };
 
 TEST_F(RunTest, LeavesTrajectoryMapAndReportThatAgreeWithTheTruth) {
   const auto result = run(options("truth"));
   ASSERT_TRUE(result) << to_string(result.error());
-  const auto track = recording::read_tum(folder_ / "truth" / "trajectory.tum");
+  const auto track = recording::read_tum(*folder_ / "truth" / "trajectory.tum");
   ASSERT_TRUE(track) << to_string(track.error());
   ASSERT_EQ(track->size(), static_cast<std::size_t>(kScans));
   const SE3 moved = track->front().pose.inverse() * track->back().pose;
@@ -90,7 +91,7 @@ TEST_F(RunTest, LeavesTrajectoryMapAndReportThatAgreeWithTheTruth) {
   EXPECT_LT((truth.inverse() * moved).translation().norm(), 0.04);
   EXPECT_LT(rotation_angle(truth.inverse() * moved), 0.01);
 
-  const auto map = load_map(folder_ / "truth" / "map.cairn");
+  const auto map = load_map(*folder_ / "truth" / "map.cairn");
   ASSERT_TRUE(map) << to_string(map.error());
   const auto occupancy = [&](double x, double y, double z) {
     const Eigen::Vector3d p = path(to_seconds(track->front().stamp)).inverse() * Eigen::Vector3d(x, y, z);
@@ -104,7 +105,7 @@ TEST_F(RunTest, LeavesTrajectoryMapAndReportThatAgreeWithTheTruth) {
 
 TEST_F(RunTest, TheReportHoldsTheFieldsThatScriptsRelyOn) {
   ASSERT_TRUE(run(options("fields")));
-  std::ifstream in(folder_ / "fields" / "report.json");
+  std::ifstream in(*folder_ / "fields" / "report.json");
   const auto report = nlohmann::json::parse(in);
   for (const char* field : {"distance_m", "duration_s", "scans", "lost_packets", "stages", "ticks", "map", "memory",
                             "allocations", "peers", "events", "output_sha256"})
@@ -112,7 +113,7 @@ TEST_F(RunTest, TheReportHoldsTheFieldsThatScriptsRelyOn) {
   EXPECT_EQ(report["scans"], kScans);
   EXPECT_EQ(report["stages"]["odometry"]["count"], kScans);
   EXPECT_GT(report["map"]["occupied"], 100);
-  for (const char* file : {"map.ot", "report.html", "config.yaml"}) EXPECT_TRUE(fs::exists(folder_ / "fields" / file));
+  for (const char* file : {"map.ot", "report.html", "config.yaml"}) EXPECT_TRUE(fs::exists(*folder_ / "fields" / file));
 }
 
 TEST_F(RunTest, GivesTheSameBytesForAnyNumberOfThreadsAndEveryTime) {
@@ -132,17 +133,17 @@ TEST_F(RunTest, TheStoredConfigurationRepeatsTheRun) {
   const auto first = run(options("first"));
   ASSERT_TRUE(first);
   RunOptions again = options("again");
-  again.config = folder_ / "first" / "config.yaml";
+  again.config = *folder_ / "first" / "config.yaml";
   const auto second = run(again);
   ASSERT_TRUE(second) << to_string(second.error());
   EXPECT_EQ((*second)->report.output_sha256, (*first)->report.output_sha256);
 }
 
 TEST_F(RunTest, ADamagedScanIsAnEventAndTheRestIsUsed) {
-  fs::copy(folder_ / "recording", folder_ / "damaged", fs::copy_options::recursive);
-  fs::resize_file(folder_ / "damaged" / "scans" / "000003.bin", 1001);
+  fs::copy(*folder_ / "recording", *folder_ / "damaged", fs::copy_options::recursive);
+  fs::resize_file(*folder_ / "damaged" / "scans" / "000003.bin", 1001);
   RunOptions o = options("survived");
-  o.recording = folder_ / "damaged";
+  o.recording = *folder_ / "damaged";
   const auto result = run(o);
   ASSERT_TRUE(result) << to_string(result.error());
   EXPECT_EQ((*result)->report.scans, static_cast<std::uint64_t>(kScans) - 1);
@@ -159,7 +160,7 @@ TEST_F(RunTest, EndsWhenTheSecondsAreOver) {
 
 TEST_F(RunTest, WhatCannotWorkIsSaidBeforeAnythingRuns) {
   RunOptions missing = options("never");
-  missing.recording = folder_ / "nowhere";
+  missing.recording = *folder_ / "nowhere";
   const auto no_recording = run(missing);
   ASSERT_FALSE(no_recording);
   EXPECT_THAT(to_string(no_recording.error()), HasSubstr("nowhere"));

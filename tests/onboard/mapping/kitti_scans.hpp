@@ -2,7 +2,6 @@
 #pragma once
 
 #include <Eigen/Geometry>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -10,13 +9,11 @@
 #include <vector>
 
 #include "tests/onboard/mapping/scan_yard.hpp"
+#include "tests/support/recorded_data.hpp"
 
 namespace cairn {
 
-inline std::filesystem::path recordings() {
-  const char* given = std::getenv("CAIRN_DATA");
-  return given != nullptr ? given : CAIRN_SOURCE_DIR "/../shared/data";
-}
+inline std::filesystem::path kitti_recording() { return support::recorded_data("kitti/odometry00"); }
 
 /// One line of a KITTI pose or calibration file: twelve numbers, the upper part of a 4×4 matrix in row order.
 inline bool read_kitti_matrix(std::istream& in, Eigen::Isometry3d& T) {
@@ -29,7 +26,7 @@ inline bool read_kitti_matrix(std::istream& in, Eigen::Isometry3d& T) {
 /// At most `count` scans of KITTI odometry 00 (HDL-64E, motion-compensated) in the map frame, which is the first scan's
 /// frame; empty when the recording is not there.
 inline std::vector<MapScan> kitti_scans(int count) {
-  const std::filesystem::path folder = recordings() / "kitti/odometry00";
+  const std::filesystem::path folder = kitti_recording();
   std::ifstream poses(folder / "poses_cam0.txt"), calibration(folder / "calib.txt");
   std::string word;
   while (calibration >> word && word != "Tr:") calibration.ignore(std::numeric_limits<std::streamsize>::max(), '\n');

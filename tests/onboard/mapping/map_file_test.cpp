@@ -8,6 +8,7 @@
 #include "hal/file.hpp"
 #include "tests/onboard/mapping/random_maps.hpp"
 #include "tests/onboard/mapping/tree_compare.hpp"
+#include "tests/support/temporary_folder.hpp"
 
 namespace cairn {
 namespace {
@@ -16,11 +17,7 @@ namespace fs = std::filesystem;
 
 class MapFile : public testing::Test {
  protected:
-  void SetUp() override { fs::create_directories(folder); }
-  void TearDown() override { fs::remove_all(folder); }
-
-  fs::path folder = fs::path(testing::TempDir()) /
-                    ("cairn_map_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()));
+  support::TemporaryFolder folder;
   std::unique_ptr<SemanticOcTree> tree = random_map<SemanticOcTree>(2, 500);
 };
 

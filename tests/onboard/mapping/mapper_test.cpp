@@ -8,11 +8,11 @@
 #include <limits>
 #include <set>
 
-#include "tests/onboard/mapping/allocation_count.hpp"
 #include "tests/onboard/mapping/kitti_scans.hpp"
 #include "tests/onboard/mapping/scan_cases.hpp"
 #include "tests/onboard/mapping/scan_yard.hpp"
 #include "tests/onboard/mapping/tree_compare.hpp"
+#include "tests/support/allocation_count.hpp"
 
 namespace cairn {
 namespace {
@@ -72,7 +72,7 @@ class MapperKitti : public testing::TestWithParam<Setting> {};
 TEST_P(MapperKitti, GivesOctoMapsTreeOverRealScans) {
   const Setting& s = GetParam();
   const std::vector<MapScan> scans = kitti_scans(s.scans);
-  if (scans.empty()) GTEST_SKIP() << "no recording at " << recordings() / "kitti/odometry00";
+  if (scans.empty()) GTEST_SKIP() << "no recording at " << kitti_recording();
   Workers workers(s.threads);
   Mapper mapper(config_of(s.resolution, s.max_range), workers);
   octomap::OcTree stock(s.resolution);
@@ -218,9 +218,9 @@ TEST(Mapper, DoesNotAllocateWhenWarm) {
   for (int i = 0; i < 12; ++i) scans.push_back(yard.scan(i));
   for (const MapScan& scan : scans) ASSERT_TRUE(mapper.insert(scan.points, scan.origin));
   const std::size_t memory = mapper.tree().memoryUsage();
-  const std::uint64_t before = allocation_count();
+  const std::size_t before = support::allocation_count();
   for (const MapScan& scan : scans) ASSERT_TRUE(mapper.insert(scan.points, scan.origin));
-  EXPECT_EQ(allocation_count() - before, 0U);
+  EXPECT_EQ(support::allocation_count() - before, 0U);
   EXPECT_EQ(mapper.tree().memoryUsage(), memory);
 }
 

@@ -15,6 +15,7 @@
 #include "hal/file.hpp"
 #include "tests/onboard/mapping/random_maps.hpp"
 #include "tests/onboard/mapping/tree_compare.hpp"
+#include "tests/support/recorded_data.hpp"
 
 namespace cairn {
 namespace {
@@ -209,15 +210,10 @@ TEST(OctoMapFileRead, MemoryIsBounded) {
   EXPECT_EQ(tree.error().code, Errc::kLimit);
 }
 
-std::filesystem::path data_folder() {
-  const char* given = std::getenv("CAIRN_DATA");
-  return given != nullptr ? given : CAIRN_SOURCE_DIR "/../shared/data";
-}
-
 class OctoMapFileReal : public testing::TestWithParam<const char*> {};
 
 TEST_P(OctoMapFileReal, IsReadAsOctoMapReadsIt) {
-  const auto path = data_folder() / "octomap" / GetParam();
+  const auto path = support::recorded_data("octomap") / GetParam();
   if (!std::filesystem::exists(path)) GTEST_SKIP() << "no recording at " << path;
   const auto bytes = read_file(path, 1U << 24);
   ASSERT_TRUE(bytes);

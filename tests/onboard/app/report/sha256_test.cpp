@@ -8,10 +8,10 @@
 #include <fstream>
 #include <string_view>
 
+#include "tests/support/temporary_folder.hpp"
+
 namespace cairn {
 namespace {
-
-namespace fs = std::filesystem;
 
 std::string sum(std::string_view text) {
   Sha256 s;
@@ -29,20 +29,18 @@ TEST(Sha256, GivesThePublishedSums) {
 }
 
 TEST(Sha256OfFiles, IsTheSumOfTheirBytesOneAfterTheOther) {
-  const fs::path folder = fs::path(testing::TempDir()) / "cairn_sha256";
-  fs::create_directories(folder);
+  const support::TemporaryFolder folder;
   const std::string long_text(200'001, 'x');
   std::ofstream(folder / "a") << "ab";
   std::ofstream(folder / "b") << "c" << long_text;
-  std::ofstream(folder / "empty");
+  std::ofstream(folder / "empty") << "";
   const std::array files{folder / "a", folder / "empty", folder / "b"};
   EXPECT_EQ(sha256_of_files(files).value(), sum("abc" + long_text));
   const std::array missing{folder / "a", folder / "none"};
   ASSERT_FALSE(sha256_of_files(missing).has_value());
   EXPECT_THAT(to_string(sha256_of_files(missing).error()), testing::HasSubstr("none"));
-  const std::array unreadable{folder};
+  const std::array unreadable{folder.path()};
   EXPECT_FALSE(sha256_of_files(unreadable).has_value());
-  fs::remove_all(folder);
 }
 
 }  // namespace

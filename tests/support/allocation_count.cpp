@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/drivers/velodyne/allocation_count.hpp"
+#include "tests/support/allocation_count.hpp"
 
 #include <atomic>
 #include <cstdlib>
@@ -17,6 +17,6 @@ void* operator new(std::size_t size) {
 void operator delete(void* p) noexcept { std::free(p); }
 void operator delete(void* p, std::size_t) noexcept { std::free(p); }
 
-namespace cairn::velodyne::test {
+namespace cairn::support {
 std::size_t allocation_count() { return count.load(std::memory_order_relaxed); }
-}  // namespace cairn::velodyne::test
+}  // namespace cairn::support

@@ -3,9 +3,9 @@
 
 #include <cstddef>
 
-namespace cairn::velodyne::test {
+namespace cairn::support {
 
 /// Calls of operator new in this program so far, by any thread.
 [[nodiscard]] std::size_t allocation_count();
 
-}  // namespace cairn::velodyne::test
+}  // namespace cairn::support
