@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Format, shell scripts, and the checks of .clang-tidy:
+# Format, shell scripts, lengths of files, and the checks of .clang-tidy (lengths of functions among them):
 #   tools/ci/lint.sh [FILE…]      the checks over these files, or over all
 #   tools/ci/lint.sh --quick      over the program's .cpp files only, as CI does for its time
 #   tools/ci/lint.sh --format     format and shell scripts alone
@@ -16,6 +16,7 @@ bad=0
 
 clang-format-14 --dry-run -Werror "${sources[@]}" || { bad=1; echo "remedy: clang-format-14 -i on these files"; }
 shellcheck "${scripts[@]}" || bad=1
+awk 'FNR == 301 { print FILENAME ": longer than 300 lines: split it by meaning"; long = 1 } END { exit long }' "${sources[@]}" || bad=1
 
 # Both read the compile commands only; nothing is built. Files that no target compiles (headers) borrow a neighbour's.
 cmake --preset clang >/dev/null
