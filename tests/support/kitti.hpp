@@ -3,7 +3,6 @@
 
 #include <array>
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <optional>
@@ -11,12 +10,6 @@
 #include "hal/point_cloud.hpp"
 
 namespace cairn::support {
-
-/// Where the recordings lie that are no part of the project.
-inline std::filesystem::path recorded_data() {
-  const char* chosen = std::getenv("CAIRN_DATA");
-  return chosen != nullptr ? chosen : CAIRN_SOURCE_DIR "/../shared/data";
-}
 
 /// A sweep in KITTI's odometry layout: 10 Hz, already motion-compensated. Nothing where there is no such file.
 inline std::optional<Scan> kitti_sweep(const std::filesystem::path& sequence, int index) {

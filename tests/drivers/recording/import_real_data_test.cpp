@@ -21,7 +21,6 @@ namespace cairn::recording {
 namespace {
 
 namespace fs = std::filesystem;
-using test::data;
 using test::TemporaryFolder;
 
 ImportOptions options(const fs::path& source, const fs::path& out) {
@@ -131,7 +130,7 @@ struct Capture {
 class RealCapture : public ::testing::TestWithParam<Capture> {};
 
 TEST_P(RealCapture, TheRecordingHoldsItsDatagramsExactly) {
-  const fs::path file = data(GetParam().file);
+  const fs::path file = support::recorded_data(GetParam().file);
   NEEDS(file);
   const TemporaryFolder folder;
   const auto report = import("velodyne-pcap", options(file, folder / "out"));

@@ -4,6 +4,7 @@
 
 #include "onboard/odometry/odometry.hpp"
 #include "tests/support/kitti.hpp"
+#include "tests/support/recorded_data.hpp"
 
 namespace cairn {
 namespace {
@@ -39,7 +40,7 @@ class OdometryRecordings : public ::testing::Test {
   void SetUp() override {
     if (!std::filesystem::exists(kitti_)) GTEST_SKIP() << "no recordings in " << kitti_;
   }
-  std::filesystem::path kitti_ = support::recorded_data() / "kitti";
+  std::filesystem::path kitti_ = support::recorded_data("kitti");
 };
 
 TEST_F(OdometryRecordings, AStreetIsDrivenThroughWithoutABreak) {
