@@ -26,6 +26,20 @@ TEST(YamlDocument, ASecondDocumentIsRefusedWhereItBegins) {
   }
 }
 
+TEST(YamlDocument, OnlyUtf8IsRead) {
+  const std::string longest = "\u007f \u0080\u07ff \u0800\ud7ff\ue000\uffff \U00010000\U0010ffff";
+  EXPECT_EQ(parse_yaml_document("a: '" + longest + "'")["a"].Scalar(), longest);
+  for (const char* text : {"\x80", "\xc1\xbf", "\xe0\x9f\xbf", "\xed\xa0\x80", "\xf0\x8f\xbf\xbf", "\xf4\x90\x80\x80",
+                           "\xf5\x80\x80\x80", "\xe2\x82", "\xff", "\xfe\xff"}) {
+    try {
+      (void)parse_yaml_document("# a robot\nb: " + std::string(text) + "\n");
+      FAIL() << text;
+    } catch (const YAML::ParserException& e) {
+      EXPECT_EQ(e.mark.line, 1);
+    }
+  }
+}
+
 // yaml-cpp 0.7 takes each of these for a series of empty documents without end.
 TEST(YamlDocument, TextsThatYamlCppNeverFinishesAreRefused) {
   for (const char* text : {",", "a: {}\n,", "[a],,"})
