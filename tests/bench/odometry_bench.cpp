@@ -13,6 +13,7 @@
 #include "onboard/odometry/deskew.hpp"
 #include "onboard/odometry/odometry.hpp"
 #include "tests/support/kitti.hpp"
+#include "tests/support/recorded_data.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/vlp16_drive.hpp"
 
@@ -100,8 +101,7 @@ void ride(benchmark::State& state, const support::Scene& scene) {
 
 void street(benchmark::State& state) {
   std::vector<Scan> sweeps;
-  while (auto sweep =
-             support::kitti_sweep(support::recorded_data() / "kitti/street22", static_cast<int>(sweeps.size())))
+  while (auto sweep = support::kitti_sweep(support::recorded_data("kitti/street22"), static_cast<int>(sweeps.size())))
     sweeps.push_back(std::move(*sweep));
   if (sweeps.empty()) return state.SkipWithError("no recording");
   for (auto _ : state) {
