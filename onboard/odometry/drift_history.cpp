@@ -2,6 +2,7 @@
 #include "onboard/odometry/drift_history.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace cairn {
 namespace {
@@ -15,13 +16,15 @@ DriftHistory::DriftHistory() : covariance_(kCapacity, Matrix6::Zero()), weight_(
 
 void DriftHistory::reset(const SE3& T_odom_base, const Matrix6& covariance) {
   oldest_ = newest_ = 0;
+  empty_ = true;
   begun_ = T_odom_base;
   covariance_[0] = covariance;
 }
 
 void DriftHistory::advance(const SE3& T_odom_base, const Matrix6& covariance) {
+  if (std::exchange(empty_, false)) return;
   const SE3 moved = begun_.inverse() * T_odom_base;
-  if (moved.translation().norm() < kEpochMetres && rotation_angle(moved) < kEpochRadians) return;
+  if (newest_ > 0 && moved.translation().norm() < kEpochMetres && rotation_angle(moved) < kEpochRadians) return;
   begun_ = T_odom_base;
   ++newest_;
   oldest_ = std::max(oldest_, newest_ + 1 >= kCapacity ? newest_ + 1 - kCapacity : 0);

@@ -15,15 +15,16 @@ namespace cairn {
 /// refers to: standing still among old planes adds nothing to the drift, moving into new ones does.
 ///
 /// Time is cut into epochs, one per stretch of motion; the last kCapacity are kept, older ones count as the oldest
-/// kept.
+/// kept. The first scan is an epoch by itself: it defines the map and is placed without an error of its own, all others
+/// have that of a registration, however still the base stands.
 class DriftHistory {
  public:
   DriftHistory();
 
   /// Forgets everything; the first epoch begins here.
   void reset(const SE3& T_odom_base, const Matrix6& covariance);
-  /// Begins a new epoch if the base has moved or turned enough since the last one began. `covariance` is that of a left
-  /// perturbation of T_odom_base.
+  /// To be called for every scan that is placed, the first included. Begins a new epoch if the base has moved or turned
+  /// enough since the last one began. `covariance` is that of a left perturbation of T_odom_base.
   void advance(const SE3& T_odom_base, const Matrix6& covariance);
   /// The epoch that new points belong to.
   [[nodiscard]] float epoch() const { return static_cast<float>(newest_); }
@@ -39,6 +40,7 @@ class DriftHistory {
   std::vector<double> weight_;
   SE3 begun_;
   std::uint64_t oldest_ = 0, newest_ = 0;
+  bool empty_ = true;  // no scan is placed yet
 };
 
 }  // namespace cairn

@@ -44,6 +44,7 @@ TEST(DriftHistory, AveragesTheEpochsInUseAsAListOfThemAllDoes) {
   DriftHistory history;
   std::vector<Matrix6> epochs{drift_after(0)};
   history.reset(ahead(0), epochs[0]);
+  history.advance(ahead(0), epochs[0]);
   for (int step = 1; step < 5000; ++step) {
     history.advance(ahead(0.6 * step), drift_after(step));
     epochs.push_back(drift_after(step));
@@ -59,16 +60,29 @@ TEST(DriftHistory, AnEpochIsAStretchOfWayOrATurnAndStandingStillIsNone) {
   DriftHistory history;
   history.reset(ahead(3), of_size(1));
   for (int i = 0; i < 100; ++i) history.advance(ahead(3 + 0.001 * i), of_size(2));
-  EXPECT_EQ(history.epoch(), 0) << "ten centimetres";
-  for (int i = 0; i < 100; ++i) history.advance(ahead(3 + 0.02 * i), of_size(2));
-  EXPECT_EQ(history.epoch(), 3) << "two metres";
-  history.advance(ahead(3 + 0.02 * 99) * SE3::exp(0.5 * Vector6::Unit(5)), of_size(2));
-  EXPECT_EQ(history.epoch(), 4) << "a turn on the spot";
+  EXPECT_EQ(history.epoch(), 1) << "ten centimetres";
+  for (int i = 0; i < 100; ++i) history.advance(ahead(3 + 0.021 * i), of_size(2));
+  EXPECT_EQ(history.epoch(), 5) << "two metres";
+  history.advance(ahead(3 + 0.021 * 99) * SE3::exp(0.5 * Vector6::Unit(5)), of_size(2));
+  EXPECT_EQ(history.epoch(), 6) << "a turn on the spot";
+}
+
+TEST(DriftHistory, OnlyTheFirstScanIsPlacedWithoutTheErrorOfARegistration) {
+  DriftHistory history;
+  history.reset(ahead(0), Matrix6::Zero());
+  history.advance(ahead(0), Matrix6::Zero());
+  EXPECT_EQ(history.epoch(), 0);
+  history.advance(ahead(0), of_size(4));
+  EXPECT_EQ(history.epoch(), 1) << "though nothing moved";
+  const std::vector<KeypointUse> both{{3, 0}, {1, 1}}, second{{1, 1}};
+  EXPECT_EQ(history.average(both), of_size(1));
+  EXPECT_EQ(history.average(second), of_size(4));
 }
 
 TEST(DriftHistory, PlanesOfOneEpochHaveItsCovarianceWhateverTheirWeights) {
   DriftHistory history;
   history.reset(ahead(0), of_size(1));
+  history.advance(ahead(0), of_size(1));
   history.advance(ahead(1), of_size(4));
   history.advance(ahead(2), of_size(9));
   const std::vector<KeypointUse> middle{{1, 1}, {1e6F, 1}, {1e-3F, 1}};

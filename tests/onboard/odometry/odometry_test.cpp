@@ -72,6 +72,15 @@ TEST(Odometry, StandingStillItStays) {
   EXPECT_LT(rotation_angle(last.T_odom_base.mean), 0.003);
 }
 
+TEST(Odometry, WhatTheMapWasMadeWithIsNotForgottenByStandingStill) {
+  Ride ride(support::lobby().world, [](double) { return drive(0); });
+  ride.step();
+  const Matrix6 second = ride.step().T_odom_base.covariance;
+  OdometryUpdate last;
+  for (int i = 0; i < 20; ++i) last = ride.step();
+  for (Eigen::Index k = 0; k < 6; ++k) EXPECT_GE(last.T_odom_base.covariance(k, k), 0.9 * second(k, k)) << k;
+}
+
 TEST(Odometry, GivesTheSameBitsForAnyNumberOfThreads) {
   const auto trace = [](unsigned threads) {
     Ride ride(support::lobby().world, drive, threads);
