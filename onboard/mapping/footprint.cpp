@@ -8,6 +8,7 @@ namespace cairn {
 void Footprint::reset(const BrickGrid& grid) {
   for (std::size_t slot = 1; slot < bricks_.size() && flat_; ++slot) table_[bricks_[slot]] = 0;
   if (!flat_) std::fill(table_.begin(), table_.end(), 0U);
+  make_room(1024);
   std::fill_n(free_.begin(), bricks_.size() * kWords, 0U);
   std::fill_n(occupied_.begin(), bricks_.size() * kWords, 0U);
   bricks_.resize(1);
@@ -58,14 +59,19 @@ std::uint32_t Footprint::add_brick(std::uint64_t brick) {
     return 0;
   }
   const auto slot = static_cast<std::uint32_t>(bricks_.size());
-  if ((slot + 1) * kWords > free_.size()) {
-    const std::size_t words = std::max<std::size_t>(1024, slot * 2) * kWords;
-    free_.resize(words);
-    occupied_.resize(words);
-  }
+  if ((slot + 1) * kWords > free_.size()) make_room(2 * slot);
   bricks_.push_back(brick);
   enter(brick, slot * static_cast<std::uint32_t>(kWords));
   return slot * static_cast<std::uint32_t>(kWords);
+}
+
+/// All that holds one entry per brick grows at once, and seldom: scans of a warm robot must not allocate.
+void Footprint::make_room(std::size_t slots) {
+  if (free_.size() >= slots * kWords) return;
+  free_.resize(slots * kWords);
+  occupied_.resize(slots * kWords);
+  bricks_.reserve(slots);
+  refs_.reserve(slots);
 }
 
 void Footprint::enter(std::uint64_t brick, std::uint32_t words) {

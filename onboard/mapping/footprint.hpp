@@ -74,6 +74,7 @@ class Footprint {
   }
   [[nodiscard]] std::uint32_t find(std::uint64_t brick) const { return table_[hash_place(brick)]; }
   [[gnu::noinline]] std::uint32_t add_brick(std::uint64_t brick);
+  void make_room(std::size_t slots);
   void enter(std::uint64_t brick, std::uint32_t words);
   [[nodiscard]] std::size_t hash_place(std::uint64_t brick) const;
   void rehash(std::size_t places);

@@ -10,6 +10,7 @@ namespace cairn {
 namespace {
 
 constexpr std::size_t kMegabyte = std::size_t{1} << 20U;
+constexpr std::size_t kTiles = std::size_t{1} << 14U;  // room from the start; lists of changed tiles grow beyond it
 
 std::size_t megabytes(int n) { return static_cast<std::size_t>(n) * kMegabyte; }
 
@@ -26,6 +27,7 @@ Mapper::Mapper(const MappingConfig& config, Workers& workers)
   tree_.setClampingThresMin(config.clamping_min);
   tree_.setClampingThresMax(config.clamping_max);
   tree_.reserve_bytes(megabytes(config.reserve_mb));
+  for (std::vector<TileKey>* tiles : {&changed_, &changed_now_, &merged_}) tiles->reserve(kTiles);
 }
 
 Result<InsertReport> Mapper::insert(std::span<const Eigen::Vector3f> points_map, const Eigen::Vector3f& origin_map) {

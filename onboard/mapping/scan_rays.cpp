@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdlib>
 #include <limits>
@@ -23,6 +24,7 @@ Result<ScanRays::Counts> ScanRays::prepare(std::span<const Eigen::Vector3f> poin
                                            const Eigen::Vector3f& origin_map, Footprint& footprint) {
   hits_.clear();
   targets_.clear();
+  for (std::vector<Target>* ends : {&hits_, &targets_}) ends->reserve(std::bit_ceil(points_map.size()));
   origin_ = {origin_map.x(), origin_map.y(), origin_map.z()};
   if (!key_of(origin_, origin_key_))
     return Error{Errc::kLimit, "the sensor is outside of the map", {}, {}, "use coarser voxels"};
