@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "drivers/drive/config.hpp"
+#include "drivers/drive/wheel_odometry.hpp"
+#include "hal/drive.hpp"
+
+namespace cairn::drive {
+
+struct CanFrame;
+
+/// Frames of a drive → wheel odometry: TPDO2 of every node as this master maps it, or AgileX' odometer. The same for a
+/// live bus, a recording and a simulation. Frames that say nothing about wheels are passed over.
+class WheelDecoder final : public DriveDecoder {
+ public:
+  struct Counters {
+    std::uint64_t frames = 0, readings = 0;
+    std::uint64_t rejected = 0;  ///< malformed packets or messages
+    std::uint64_t alone = 0;     ///< readings of a wheel whose fellows' were lost
+  };
+  /// Readings of the wheels that belong together come within half a SYNC period.
+  static constexpr Duration kTogether = std::chrono::milliseconds(5);
+
+  /// Error kInvalidConfig: the scales that turn counts into metres are not configured.
+  static Result<std::unique_ptr<WheelDecoder>> create(const Config& config);
+
+  Result<const DriveState*> decode(const Packet& packet) override;
+  /// The same for a frame that is decoded already.
+  Result<const DriveState*> decode(const CanFrame& frame, Time arrival);
+  [[nodiscard]] const Counters& counters() const { return counters_; }
+
+ private:
+  struct Wheel {
+    std::uint8_t node = 0;
+    bool left = false;
+    double metres_per_count = 0;  // negative: reversed
+    WheelCounter counter;
+    std::int32_t count = 0;
+    std::optional<Time> fresh;  // a reading that is not used yet
+  };
+  explicit WheelDecoder(const Config& config);
+  Result<const DriveState*> decode_canopen(const CanFrame& frame, Time arrival);
+  Result<const DriveState*> decode_agilex(const CanFrame& frame, Time arrival);
+  void take(Wheel& wheel, std::int32_t count, Time arrival);
+  const DriveState* combine(Time arrival);
+  std::optional<Travel> take_travel(Time arrival);
+
+  Config config_;
+  bool agilex_;
+  std::vector<Wheel> wheels_;
+  WheelOdometry odometry_;
+  bool started_ = false;
+  Counters counters_;
+};
+
+}  // namespace cairn::drive
