@@ -68,7 +68,8 @@ for driver in drivers/*/; do
     "$(inc "drivers/($others)/")" "$none" "${own[@]}"
 done
 deny "decoding is pure: it never knows its transport" "decode a std::span; the transport calls the decoder" \
-  "$(inc '(drivers/[a-z_]+/(udp|pcap)_|sys/socket|pcap)')" '/(udp|pcap|import|record)[a-z_]*\.|^drivers/recording/' "${drivers[@]}"
+  "$(inc '(drivers/[a-z_]+/(udp|pcap|socketcan|libgpiod)_?|sys/socket|pcap|gpiod)')" \
+  '/(udp|pcap|socketcan|libgpiod|import|record)[a-z0-9_]*\.|^drivers/recording/' "${drivers[@]}"
 
 # Time, threads, devices
 deny "only hal/clock.cpp reads the machine's clock" "take a Clock or a Time as argument; CPU time is thread_cpu_time()" \
@@ -79,9 +80,9 @@ deny "nobody sleeps" "wait for data with a time-out (poll), or advance the Virtu
 deny "only hal/workers starts threads" "use Workers::for_each; its result is the same for any number of threads" \
   'std::(jthread|async|packaged_task|execution::)|std::thread\b($|[^:])|pthread_create|# *pragma +omp|tbb::|include *<tbb/' \
   '^hal/workers\.[ch]pp$' "${all[@]}"
-deny "sockets belong to drivers" "put it into drivers/*/udp_*, behind a Source" \
+deny "sockets belong to drivers" "put it into drivers/*/udp_* or socketcan_*, behind a Source" \
   "$(inc '(sys/socket|sys/un|netinet/|netdb|net/if|netpacket/|linux/(can|if_|net))')" \
-  '^(drivers|tests/drivers)/[a-z_]+/udp_[a-z_]*\.' "${all[@]}"
+  '^(drivers|tests/drivers)/[a-z_]+/(udp|socketcan)_[a-z_]*\.' "${all[@]}"
 deny "devices belong to drivers" "put it into drivers/, behind a port of hal/ports.hpp" \
   "$(inc '(termios|sys/ioctl|arpa/|linux/|pcap|gpiod)')" '^(tests/)?drivers/' "${all[@]}"
 deny "OctoMap's own readers recurse without bounds on hostile files" "read maps with onboard/mapping's reader" \

@@ -20,12 +20,12 @@ TEST(CanFrame, BytesAreLinuxs) {
 
 TEST(CanFrame, EncodeThenDecodeIsIdentity) {
   std::mt19937 random(1);
-  constexpr std::array kFdLengths{0, 5, 8, 12, 20, 64};
+  constexpr std::array kFdLengths{0UL, 5UL, 8UL, 12UL, 20UL, 64UL};
   for (int i = 0; i < 2000; ++i) {
     CanFrame frame;
     frame.fd = random() % 3 == 0;
     frame.id = static_cast<std::uint32_t>(random()) & (random() % 2 == 0 ? kStandardMask : kExtendedMask);
-    frame.length = static_cast<std::uint8_t>(frame.fd ? kFdLengths[random() % kFdLengths.size()] : random() % 9);
+    frame.length = static_cast<std::uint8_t>(frame.fd ? kFdLengths[random() % kFdLengths.size()] : random() % 9U);
     if (frame.fd) frame.fd_flags = static_cast<std::uint8_t>(random() % 8);
     if (!frame.fd && random() % 5 == 0) frame.id |= kRemote;
     if (!frame.fd && frame.length == 8 && random() % 2 == 0)

@@ -106,13 +106,13 @@ TEST(Candump, NamesWhatIsWrong) {
 
 TEST(Candump, WriteThenReadIsIdentity) {
   std::mt19937 random(2);
-  constexpr std::array kFdLengths{0, 5, 8, 12, 48, 64};
+  constexpr std::array kFdLengths{0UL, 5UL, 8UL, 12UL, 48UL, 64UL};
   for (int i = 0; i < 2000; ++i) {
     CanFrame frame;
     frame.fd = random() % 3 == 0;
     frame.id = random() % 2 == 0 ? random() & kStandardMask : (random() & kExtendedMask) | kExtended;
     if (!frame.fd && random() % 6 == 0) frame.id = kErrorFrame | (random() & kStandardMask);
-    frame.length = static_cast<std::uint8_t>(frame.fd ? kFdLengths[random() % kFdLengths.size()] : random() % 9);
+    frame.length = static_cast<std::uint8_t>(frame.fd ? kFdLengths[random() % kFdLengths.size()] : random() % 9U);
     if (frame.fd) frame.fd_flags = static_cast<std::uint8_t>(random() % 16);
     if (!frame.fd && !frame.error() && random() % 5 == 0) frame.id |= kRemote;
     if (!frame.fd && frame.length == 8 && random() % 2 == 0)
