@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/gpio/gpio_lines.hpp"
+
+#include <cerrno>
+#include <cstring>
+#include <string>
+
+namespace cairn::gpio {
+
+std::array<LineUse, kLines> uses_of(const Config& c) {
+  return {LineUse{Line::kEStop, c.estop_line, false, c.estop_active_low, c.estop_bias},
+          LineUse{Line::kTrigger, c.trigger_line, true, false, "as-is"},
+          LineUse{Line::kPps, c.pps_line, false, false, "as-is"}};
+}
+
+Time plausible_stamp(std::int64_t ns, Time now, std::uint64_t& unstamped) {
+  constexpr Duration kFuture = std::chrono::milliseconds(1), kPast = std::chrono::seconds(10);
+  const Time stamp{Duration{ns}};
+  if (stamp <= now + kFuture && stamp >= now - kPast) return stamp;
+  ++unstamped;
+  return now;
+}
+
+Error line_error(std::string_view cause, const Config& config, std::string_view line) {
+  const int why = errno;
+  std::string where = config.chip;
+  if (!line.empty()) where.append(", line ").append(line);
+  std::string detail = std::strerror(why);
+  if (why == EBUSY) detail += "; another program holds the line: gpioinfo shows which";
+  if (why == EACCES || why == EPERM) detail += "; add the user to the group gpio, see config/udev";
+  if (why == ENOENT || why == ENODEV) detail += "; gpiodetect and gpioinfo show what there is";
+  const bool missing = why == ENOENT || why == ENODEV;
+  return {missing ? Errc::kNotFound : Errc::kIo, cause, std::move(where), {}, std::move(detail)};
+}
+
+}  // namespace cairn::gpio
