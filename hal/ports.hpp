@@ -3,6 +3,7 @@
 
 #include <cstdint>
 
+#include "hal/image.hpp"
 #include "hal/packet.hpp"
 #include "hal/point_cloud.hpp"
 #include "hal/result.hpp"
@@ -46,6 +47,33 @@ class ScanDecoder {
   ScanDecoder() = default;
   ScanDecoder(const ScanDecoder&) = default;
   ScanDecoder& operator=(const ScanDecoder&) = default;
+};
+
+/// Bytes → pictures, one for one. Pure: no device, no clock, no file.
+class ImageDecoder {
+ public:
+  virtual ~ImageDecoder() = default;
+  /// The picture is the decoder's and stays valid until the next call. An Error means that this packet was rejected
+  /// whole; decoding goes on with the next one.
+  virtual Result<const Image*> decode(const Packet& packet) = 0;
+
+ protected:
+  ImageDecoder() = default;
+  ImageDecoder(const ImageDecoder&) = default;
+  ImageDecoder& operator=(const ImageDecoder&) = default;
+};
+
+/// The same for thermal cameras.
+class ThermalDecoder {
+ public:
+  virtual ~ThermalDecoder() = default;
+  /// As ImageDecoder::decode(), except that null says: nothing new, the device repeated its last frame.
+  virtual Result<const ThermalImage*> decode(const Packet& packet) = 0;
+
+ protected:
+  ThermalDecoder() = default;
+  ThermalDecoder(const ThermalDecoder&) = default;
+  ThermalDecoder& operator=(const ThermalDecoder&) = default;
 };
 
 }  // namespace cairn

@@ -21,6 +21,10 @@ done
 mmdebstrap --quiet --variant=extract --architectures=arm64 --hook-dir=/usr/share/mmdebstrap/hooks/merged-usr \
   --include="$(paste -sd, <<<"$wanted")" bookworm "$sysroot" "${sources[@]}" >/dev/null
 
+# OpenCV needs both; update-alternatives, a maintainer script, would have made the links.
+for library in blas lapack; do
+  ln -sfn "$library/lib$library.so.3" "$sysroot/usr/lib/aarch64-linux-gnu/lib$library.so.3"
+done
 # The linker would follow an absolute link into the root of this machine.
 find "$sysroot/usr" "$sysroot/etc" -type l -lname '/*' | while IFS= read -r link; do
   ln -sfn "$(realpath -m --relative-to="$(dirname "$(realpath -s "$link")")" "$sysroot$(readlink "$link")")" "$link"

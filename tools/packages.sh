@@ -10,7 +10,7 @@ declare -rA packages=(
   # the onboard program, the command line and the simulator
   [build]="g++ cmake ninja-build pkg-config ccache libeigen3-dev liboctomap-dev libpcap-dev libyaml-cpp-dev
            libspdlog-dev libcli11-dev nlohmann-json3-dev libexpected-dev libzstd-dev libxxhash-dev libpng-dev libssl-dev
-           libgpiod-dev libembree-dev"
+           libgpiod-dev libembree-dev libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev"
   [test]="libgtest-dev libgmock-dev libbenchmark-dev"
   [bench]="libbenchmark-dev jq"
   [ci]="clang-14 clang-format-14 clang-tidy-14 clangd-14 libclang-rt-14-dev shellcheck git"
@@ -19,7 +19,8 @@ declare -rA packages=(
   # for another architecture, into a sysroot: Debian has no Embree for arm64, so the simulator is left out there
   [sysroot]="libc6-dev libstdc++-12-dev linux-libc-dev libeigen3-dev liboctomap-dev libpcap-dev libyaml-cpp-dev
              libspdlog-dev libcli11-dev nlohmann-json3-dev libexpected-dev libzstd-dev libxxhash-dev libpng-dev libssl-dev
-             libgtest-dev libgmock-dev libgpiod-dev"
+             libgpiod-dev libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev
+             libgtest-dev libgmock-dev"
 )
 
 list() {
