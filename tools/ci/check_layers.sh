@@ -62,14 +62,17 @@ deny "includes name the path from the project's root" "write \"room/file.hpp\"" 
 for driver in drivers/*/; do
   name=$(basename "$driver")
   others=$(printf '%s\n' drivers/*/ | xargs -n 1 basename | grep -vx -e "$name" | paste -sd '|')
-  [[ $name != recording ]] || others=${others//velodyne/-}  # a recording holds Velodyne's datagrams
+  case $name in
+    recording) others=${others//velodyne/-} others=${others//camera/-} ;;  # it holds Velodyne's datagrams and cameras' frames
+    thermal | depth) others=${others//camera/-} ;;                         # their frames come from drivers/camera
+  esac
   mapfile -t own < <(code "$driver")
   [[ -z $others ]] || deny "a driver does not know other drivers" "put what both need into hal/" \
     "$(inc "drivers/($others)/")" "$none" "${own[@]}"
 done
 deny "decoding is pure: it never knows its transport" "decode a std::span; the transport calls the decoder" \
-  "$(inc '(drivers/[a-z_]+/(udp|pcap|socketcan|libgpiod)_?|sys/socket|pcap|gpiod)')" \
-  '/(udp|pcap|socketcan|libgpiod|import|record)[a-z0-9_]*\.|^drivers/recording/' "${drivers[@]}"
+  "$(inc '(drivers/[a-z_]+/(udp|pcap|v4l2|socketcan|libgpiod)_?|sys/socket|pcap|gpiod)')" \
+  '/(udp|pcap|v4l2|socketcan|libgpiod|import|record)[a-z0-9_]*\.|^drivers/recording/' "${drivers[@]}"
 
 # Time, threads, devices
 deny "only hal/clock.cpp reads the machine's clock" "take a Clock or a Time as argument; CPU time is thread_cpu_time()" \

@@ -21,7 +21,7 @@ plant() {  # plant FILE LINE…: a file that keeps the rules but for the given l
 }
 fresh() {
   rm -rf "${tree:?}"/*
-  mkdir -p "$tree"/{drivers/velodyne,drivers/recording,onboard,fusion,tools,tests,toolchains}
+  mkdir -p "$tree"/{drivers/velodyne,drivers/recording,drivers/camera,drivers/thermal,onboard,fusion,tools,tests,toolchains}
   plant hal/time.hpp
 }
 complain() { echo "FAILED: $*"; failures=$((failures + 1)); }
@@ -48,6 +48,9 @@ fresh
 denied "hal knows nobody" hal/a.cpp '#include "onboard/robot.hpp"'
 denied "drivers know only hal" drivers/velodyne/a.cpp '#include "onboard/robot.hpp"'
 denied "a driver does not know other drivers" drivers/velodyne/a.cpp '#include "drivers/recording/index.hpp"'
+denied "a driver does not know other drivers" drivers/velodyne/a.cpp '#include "drivers/camera/frame.hpp"'
+denied "a driver does not know other drivers" drivers/camera/a.cpp '#include "drivers/thermal/models.hpp"'
+denied "decoding is pure" drivers/thermal/decoder.cpp '#include "drivers/camera/v4l2_source.hpp"'
 denied "decoding is pure" drivers/velodyne/decoder.cpp '#include "drivers/velodyne/udp_source.hpp"'
 denied "onboard knows only hal" onboard/mapping/a.hpp '#include "drivers/velodyne/decoder.hpp"'
 denied "onboard knows neither tools nor tests" onboard/mapping/a.hpp '#include "tools/cli/command.hpp"'
@@ -81,6 +84,9 @@ report
 
 fresh
 plant drivers/recording/a.cpp '#include "drivers/velodyne/packet.hpp"'
+plant drivers/recording/b.cpp '#include "drivers/camera/frame.hpp"'
+plant drivers/thermal/a.cpp '#include "drivers/camera/frame.hpp"'
+plant drivers/camera/v4l2_source.cpp '#include <linux/videodev2.h>'
 plant onboard/app/a.cpp '#include "drivers/velodyne/decoder.hpp"'
 plant fusion/team.cpp '#include "onboard/mapping/tree.hpp"'
 plant onboard/app/a.hpp '#include "tools/cli/command.hpp"' 'Time t = door.clock().now();'
