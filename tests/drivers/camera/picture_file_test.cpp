@@ -9,6 +9,7 @@
 #include "hal/file.hpp"
 #include "tests/drivers/camera/frames.hpp"
 #include "tests/drivers/recording/files.hpp"
+#include "tests/support/recorded_data.hpp"
 
 namespace cairn::camera {
 namespace {
@@ -85,7 +86,7 @@ TEST(PictureFile, TiffsWithOddDirectoriesAreRefused) {
 }
 
 TEST(PictureFile, ReadsARealRadiometricTiff) {
-  const auto path = recording::test::data("thermal/example_radiometric.tiff");
+  const auto path = support::recorded_data("thermal/example_radiometric.tiff");
   if (!std::filesystem::exists(path)) GTEST_SKIP() << recording::test::missing(path);
   Bytes packet;
   ASSERT_TRUE(picture_to_packet(read_file(path, 1 << 20).value(), FrameFormat::kY16, packet));

@@ -12,6 +12,7 @@
 #include "drivers/thermal/thermal.hpp"
 #include "hal/file.hpp"
 #include "tests/drivers/recording/files.hpp"
+#include "tests/support/recorded_data.hpp"
 
 namespace cairn::thermal {
 namespace {
@@ -107,7 +108,7 @@ std::vector<Blob> moving_blobs(const std::vector<int>& counts, const std::vector
 }
 
 TEST(LeptonRecording, TheAnimalIsTheWarmestMovingBlobAndWalksToTheLeft) {
-  const auto path = recording::test::data("thermal/lepton3_possum_161x120x160_u16.npy");
+  const auto path = support::recorded_data("thermal/lepton3_possum_161x120x160_u16.npy");
   if (!fs::exists(path)) GTEST_SKIP() << recording::test::missing(path);
   const auto frames = decode_all(path);
   ASSERT_EQ(frames.size(), 161U);
@@ -131,7 +132,7 @@ TEST(LeptonRecording, TheAnimalIsTheWarmestMovingBlobAndWalksToTheLeft) {
 }
 
 TEST(TiffRecording, ARealFrameIsCountsUntilItsUnitIsTold) {
-  const auto path = recording::test::data("thermal/example_radiometric.tiff");
+  const auto path = support::recorded_data("thermal/example_radiometric.tiff");
   if (!fs::exists(path)) GTEST_SKIP() << recording::test::missing(path);
   Packet packet;
   ASSERT_TRUE(camera::picture_to_packet(read_file(path, 1 << 20).value(), camera::FrameFormat::kY16, packet.bytes));
