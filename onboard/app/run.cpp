@@ -70,6 +70,8 @@ class Loop {
     // The first and the last revolution are cut by where the data begins and ends: nothing is wrong with the sensor.
     if (scan->incomplete && figures_.scans > 1 && !ending_)
       monitor_.event(scan->valid.end, "lidar", "incomplete scan: packets were lost or late, or the motor stood");
+    // A map that begins with a part of a turn leaves directions open, and every later pose would refer to it.
+    if (scan->incomplete && figures_.scans == 1 && !ending_) return;
     const std::uint64_t before = allocations_of_this_thread();
     Budget budget = Budget::until(scan->valid.end + from_seconds(profile_.odometry_deadline_s), door_.clock(),
                                   profile_.odometry.max_iterations);

@@ -18,6 +18,7 @@
 #include "onboard/mapping/map_file.hpp"
 #include "tests/support/box_world.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/vlp16_drive.hpp"
 
 namespace cairn {
 namespace {
@@ -176,6 +177,27 @@ TEST_F(RunTest, WhatCannotWorkIsSaidBeforeAnythingRuns) {
   RunOptions nowhere = options("never");
   nowhere.out = write("a_file", "x") / "out";
   EXPECT_FALSE(run(nowhere));
+}
+
+TEST_F(RunTest, BeginsWithTheFirstWholeRevolution) {
+  recording::Recording index;
+  index.robot = "husky_1";
+  index.sources.push_back({"lidar", "velodyne", "lidar.pcap", "lidar", "VLP-16", kMount});
+  auto writer = recording::RecordingWriter::create(folder_ / "part", index);
+  ASSERT_TRUE(writer) << to_string(writer.error());
+  const support::Vlp16Drive drive(support::lobby(), SE3::from_xyz_rpy(kMount), 0.55, 1);
+  constexpr std::size_t kMissing = 60;  // of the 75 packets of a turn
+  for (std::size_t i = kMissing; i < drive.packets().size(); ++i) ASSERT_TRUE(writer->write(drive.packets()[i]));
+  ASSERT_TRUE(writer->close());
+  RunOptions o = options("whole");
+  o.recording = folder_ / "part";
+  const auto result = run(o);
+  ASSERT_TRUE(result) << to_string(result.error());
+  const auto track = recording::read_tum(folder_ / "whole" / "trajectory.tum");
+  ASSERT_TRUE(track) << to_string(track.error());
+  EXPECT_EQ(track->size() + 1, (*result)->report.scans);
+  for (const Event& event : (*result)->monitor.events()) EXPECT_NE(event.stage, "odometry") << event.what;
+  EXPECT_LT(track->back().pose.translation().norm(), 0.05) << "the robot stood";
 }
 
 }  // namespace
