@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
@@ -13,7 +14,7 @@ namespace cairn::thermal {
 class Stretch {
  public:
   /// Shares in 0…1, low < high.
-  Stretch(double low, double high) : low_(low), high_(high), histogram_(65536), table_(65536) {}
+  Stretch(double low, double high) : low_(low), high_(high), fine_(kCoarse * kFine) {}
 
   /// `counts` is kMono16, `out` becomes kMono8 of the same size. A span of counts below `min_span` is widened to it
   /// around its middle, so that noise does not become a picture.
@@ -21,13 +22,13 @@ class Stretch {
 
  private:
   void count(const ImageView& counts);
-  [[nodiscard]] std::size_t percentile(double share, std::size_t pixels) const;
-  void fill_table(double low, double span);
+  [[nodiscard]] double percentile(double share, std::size_t pixels) const;
 
   double low_, high_;
-  std::size_t coldest_ = 0, warmest_ = 65535;  // of the last picture: only between them the tables are in use
-  std::vector<std::uint32_t> histogram_;
-  std::vector<std::uint8_t> table_;
+  // Counts per value, and per kFine values so that a percentile is found in 512 steps.
+  static constexpr std::size_t kCoarse = 256, kFine = 256;
+  std::array<std::uint32_t, kCoarse> coarse_{};
+  std::vector<std::uint32_t> fine_;
 };
 
 }  // namespace cairn::thermal

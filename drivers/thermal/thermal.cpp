@@ -6,6 +6,8 @@
 #include <cstring>
 #include <utility>
 
+#include "hal/bytes.hpp"
+
 namespace cairn::thermal {
 namespace {
 
@@ -123,14 +125,15 @@ void Thermal::fill_values(const ImageView& counts, const std::optional<Scale>& k
   Image& out = image_.values;
   out.resize(known ? PixelFormat::kCelsius : PixelFormat::kMono16, counts.width, counts.height);
   for (int y = 0; y < counts.height; ++y) {
-    std::byte* row = out.bytes.data() + static_cast<std::size_t>(y) * out.stride;
+    const auto row = counts.row(y);
+    std::byte* to = out.bytes.data() + static_cast<std::size_t>(y) * out.stride;
     if (!known) {
-      std::copy_n(counts.row(y).begin(), out.stride, row);
+      std::copy(row.begin(), row.end(), to);
       continue;
     }
-    for (int x = 0; x < counts.width; ++x) {
-      const auto celsius = static_cast<float>(known->per_count * counts.at<std::uint16_t>(x, y) + known->offset);
-      std::memcpy(row + sizeof(float) * static_cast<std::size_t>(x), &celsius, sizeof celsius);
+    for (std::size_t at = 0; at < row.size(); at += 2, to += sizeof(float)) {
+      const auto celsius = static_cast<float>(known->per_count * load_le<std::uint16_t>(row, at) + known->offset);
+      std::memcpy(to, &celsius, sizeof celsius);
     }
   }
 }
