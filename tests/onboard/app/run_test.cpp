@@ -183,17 +183,17 @@ TEST_F(RunTest, BeginsWithTheFirstWholeRevolution) {
   recording::Recording index;
   index.robot = "husky_1";
   index.sources.push_back({"lidar", "velodyne", "lidar.pcap", "lidar", "VLP-16", kMount});
-  auto writer = recording::RecordingWriter::create(folder_ / "part", index);
+  auto writer = recording::RecordingWriter::create(*folder_ / "part", index);
   ASSERT_TRUE(writer) << to_string(writer.error());
   const support::Vlp16Drive drive(support::lobby(), SE3::from_xyz_rpy(kMount), 0.55, 1);
   constexpr std::size_t kMissing = 60;  // of the 75 packets of a turn
   for (std::size_t i = kMissing; i < drive.packets().size(); ++i) ASSERT_TRUE(writer->write(drive.packets()[i]));
   ASSERT_TRUE(writer->close());
   RunOptions o = options("whole");
-  o.recording = folder_ / "part";
+  o.recording = *folder_ / "part";
   const auto result = run(o);
   ASSERT_TRUE(result) << to_string(result.error());
-  const auto track = recording::read_tum(folder_ / "whole" / "trajectory.tum");
+  const auto track = recording::read_tum(*folder_ / "whole" / "trajectory.tum");
   ASSERT_TRUE(track) << to_string(track.error());
   EXPECT_EQ(track->size() + 1, (*result)->report.scans);
   for (const Event& event : (*result)->monitor.events()) EXPECT_NE(event.stage, "odometry") << event.what;
