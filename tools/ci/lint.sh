@@ -24,6 +24,8 @@ cmake --preset clang >/dev/null
 # shellcheck disable=SC2317  # xargs calls it
 tidy() {  # tidy FILE: clangd runs clang-tidy's checks over the file's own lines
   local out
+  # What is not compiled here (libgpiod 2 where there is 1) cannot be checked here.
+  [[ $1 != *.cpp ]] || grep -q "\"file\": .*/$1\"" build/clang/compile_commands.json || return 0
   out=$(clangd-14 --check="$1" --check-lines=1-1 --background-index=false 2>&1) || true
   [[ $out != *"All checks completed, 0 errors"* ]] || return 0
   grep '^E\[' <<<"$out" | sed -E "s#^E\[[^]]*\] \[([^]]*)\] Line ([0-9]+): (.*)#$1:\2: \3 [\1]#" || tail -n 5 <<<"$out"

@@ -12,6 +12,12 @@ using canopen::NmtState;
 using canopen::Object;
 using cia402::State;
 
+namespace {
+
+constexpr std::uint32_t kMostEntries = 64;  // of one PDO (CiA 301 §7.4.4)
+
+}  // namespace
+
 DriveModel::DriveModel(const DriveModelConfig& config) : config_(config), random_(config.seed, config.node) {}
 
 std::uint32_t DriveModel::object(Object o) const {
@@ -107,7 +113,8 @@ void DriveModel::take_rpdo(const CanFrame& frame) {
     if ((id & 0x80000000U) != 0 || !frame.is(id & 0x7FFU)) continue;
     const auto mapping = static_cast<std::uint16_t>(0x1600 + n);
     std::size_t at = 0;
-    for (std::uint8_t sub = 1; sub <= object({mapping, 0}); ++sub) {
+    const auto entries = static_cast<std::uint8_t>(std::min(object({mapping, 0}), kMostEntries));
+    for (std::uint8_t sub = 1; sub <= entries; ++sub) {
       const std::uint32_t entry = object({mapping, sub});
       const Object target{static_cast<std::uint16_t>(entry >> 16U), static_cast<std::uint8_t>(entry >> 8U & 0xFFU)};
       const std::size_t bytes = (entry & 0xFFU) / 8;
@@ -129,7 +136,8 @@ void DriveModel::send_tpdos(Frames& out) {
     const auto mapping = static_cast<std::uint16_t>(0x1A00 + n);
     CanFrame frame;
     frame.id = id & 0x7FFU;
-    for (std::uint8_t sub = 1; sub <= object({mapping, 0}); ++sub) {
+    const auto entries = static_cast<std::uint8_t>(std::min(object({mapping, 0}), kMostEntries));
+    for (std::uint8_t sub = 1; sub <= entries; ++sub) {
       const std::uint32_t entry = object({mapping, sub});
       const std::size_t bytes = (entry & 0xFFU) / 8;
       if (frame.length + bytes > 8) return;
