@@ -99,8 +99,8 @@ std::uint32_t DriveModel::write(const canopen::SdoRequest& request) {
   Entry& entry = dictionary_.at(key(request.object));
   if (!entry.writable) return canopen::kAbortReadOnly;
   if (entry.bytes != request.bytes) return 0x06070010;
-  const bool mapping =
-      request.object.index >= 0x1600 && request.object.index < 0x1C00 && request.object.index != 0x1800;
+  const unsigned group = request.object.index & 0xFF00U;
+  const bool mapping = group == 0x1600 || group == 0x1A00;
   if (mapping && nmt_ == NmtState::kOperational) return canopen::kAbortState;
   entry.value = request.value;
   if (request.object == cia402::kControlword) obey(static_cast<std::uint16_t>(request.value));

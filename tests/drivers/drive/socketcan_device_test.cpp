@@ -41,6 +41,7 @@ class DriveDeviceTest : public testing::Test {
     link = open(own);
     peer = open(other != nullptr ? other : own);
     shared = other == nullptr;
+    ASSERT_TRUE(link && peer);
   }
   std::unique_ptr<SocketCanLink> open(const std::string& name) {
     auto opened = SocketCanLink::open(name, SourceId{1}, clock);
