@@ -1,0 +1,65 @@
+# SPDX-License-Identifier: Apache-2.0
+# shellcheck shell=bash
+# Sourced by guest.sh: make_devices sets the virtual machine's devices up and exports their names for the tests.
+#   CAIRN_TEST_CAN        vcan0, which also carries CAN FD
+#   CAIRN_TEST_CAN_A, _B  can0 and can1: two SJA1000 on one bus, 500 kbit/s
+#   CAIRN_TEST_GPIOCHIP   /dev/gpiochipN of gpio-sim, eight lines
+#   CAIRN_TEST_GPIOSIM    its folder in sysfs: sim_gpioL/pull moves an input, sim_gpioL/value shows an output
+#   CAIRN_TEST_VIDEO      vivid's capture device
+#   CAIRN_TEST_UVC        the emulated camera (uvc_frames.hpp says what it shows), by a name that survives its replugging
+
+complain() {
+  echo "vm: $*: FAILED"
+  return 1
+}
+
+make_can() {
+  ip link add vcan0 type vcan && ip link set vcan0 mtu 72 up || return
+  local card
+  for card in can0 can1; do
+    ip link set "$card" type can bitrate 500000 restart-ms 100 && ip link set "$card" up || return
+  done
+  export CAIRN_TEST_CAN=vcan0 CAIRN_TEST_CAN_A=can0 CAIRN_TEST_CAN_B=can1
+}
+
+make_gpio() {
+  local config=/sys/kernel/config/gpio-sim/cairn chip device
+  mkdir -p "$config/bank0" && echo 8 >"$config/bank0/num_lines" && echo 1 >"$config/live" || return
+  chip=$(<"$config/bank0/chip_name") device=$(<"$config/dev_name")
+  export CAIRN_TEST_GPIOCHIP=/dev/$chip CAIRN_TEST_GPIOSIM=/sys/devices/platform/$device/$chip
+  [[ -c $CAIRN_TEST_GPIOCHIP && -d $CAIRN_TEST_GPIOSIM ]]
+}
+
+# What udev does on a robot: cameras get names that stay when their numbers change.
+name_cameras() {
+  mkdir -p /dev/v4l/by-id
+  /dev/shm/busybox uevent /bin/bash "$VM_PROJECT/tests/vm/hotplug.sh" >/dev/null 2>&1 &
+}
+
+# await PATH: waits until it exists, 30 s at most.
+await() {
+  local tenths
+  for ((tenths = 0; tenths < 300; ++tenths)); do
+    [[ ! -e $1 ]] || return 0
+    sleep 0.1
+  done
+  return 1
+}
+
+make_cameras() {
+  local vivid
+  vivid=$(grep -l '^vivid.*-vid-cap$' /sys/class/video4linux/*/name | head -n 1) && [[ -n $vivid ]] || return
+  vivid=${vivid%/name}
+  name_cameras
+  "$VM_PROGRAMS/uvc_camera" plug || return
+  export CAIRN_TEST_VIDEO=/dev/${vivid##*/} CAIRN_TEST_UVC=/dev/v4l/by-id/usb-Cairn_UVC_camera-video-index0
+  await "$CAIRN_TEST_UVC"
+}
+
+make_devices() {
+  make_can || complain "CAN interfaces" || return
+  make_gpio || complain "gpio-sim" || return
+  make_cameras || complain "cameras" || return
+  echo "vm: devices after $(cut -d ' ' -f 1 /proc/uptime) s: $CAIRN_TEST_CAN $CAIRN_TEST_CAN_A $CAIRN_TEST_CAN_B" \
+    "$CAIRN_TEST_GPIOCHIP $CAIRN_TEST_VIDEO $(readlink -f "$CAIRN_TEST_UVC")"
+}

@@ -1,0 +1,57 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# Inside the virtual machine, on the host's root filesystem: makes the devices, then runs the device tests, or the command
+# that the job names.   guest.sh JOB
+# shellcheck source=/dev/null
+set -uo pipefail
+source "$1"
+source "$VM_PROJECT/tests/vm/devices.sh"
+bad=0
+
+# bring FILE…: copies what there is of these programs and their libraries into memory, which overlayfs does when a file is
+# touched. Where the machine's clock jumps ahead when all wait, waiting for the host's disk would look like hours.
+bring() {
+  local file
+  for file in "$@"; do
+    [[ -x $file ]] || continue
+    { echo "$file" && ldd "$file" | sed -n 's#^[^/]*\(/[^ ]*\) .*#\1#p'; }
+  done | sort -u | xargs touch -c
+}
+
+# try NAME PROGRAM [VARIABLE=VALUE…]: a GoogleTest program has to pass, and at least one of its tests has to run.
+try() {
+  local name=$1 program=$VM_PROGRAMS/$2 log=/tmp/$2.log begin=$SECONDS code=0 passed
+  shift 2
+  [[ -x $program ]] || return 0
+  found=yes
+  env "$@" timeout -k 5 "$VM_LIMIT" "$program" --gtest_color=no 2>&1 | tee "$log" || code=$?
+  passed=$(sed -n 's/^\[  PASSED  \] \([0-9]*\) test.*/\1/p' "$log")
+  if ((code != 0)); then
+    echo "vm: $name: FAILED (exit code $code)"
+    sed -n 's/^\[  FAILED  \] \([^ ]*\.[^ ]*\).*/vm:   \1/p' "$log" | sort -u
+    bad=1
+  elif ((${passed:-0} == 0)); then
+    echo "vm: $name: FAILED (none of its tests ran: the device was not there)"
+    bad=1
+  else
+    echo "vm: $name: ok, $passed tests in $((SECONDS - begin)) s$(sed -n 's/^\[  SKIPPED \] \([0-9]*\) test.*/, \1 skipped/p' "$log")"
+  fi
+}
+
+bring /bin/sh /bin/bash /bin/{cut,grep,ln,readlink,rm,sleep,tee} /usr/bin/{env,timeout} "$(command -v ip)" "$VM_PROGRAMS/uvc_camera" \
+  "$VM_PROGRAMS"/test_*_device
+make_devices || exit 1
+if [[ -n $VM_COMMAND ]]; then
+  bash -c "$VM_COMMAND"
+  exit
+fi
+found=''
+try "drive on vcan" test_drive_device
+try "drive on two SJA1000" test_drive_device CAIRN_TEST_CAN=can0 CAIRN_TEST_CAN_PEER=can1
+try "GPIO on gpio-sim" test_gpio_device
+try "camera on vivid" test_camera_device
+try "camera on uvcvideo" test_camera_device CAIRN_TEST_VIDEO="$CAIRN_TEST_UVC" CAIRN_TEST_VIDEO_RAMP=1 \
+  CAIRN_TEST_VIDEO_UNPLUG="$VM_PROGRAMS/uvc_camera unplug" CAIRN_TEST_VIDEO_REPLUG="$VM_PROGRAMS/uvc_camera plug" \
+  CAIRN_TEST_VIDEO_CYCLES="$VM_CYCLES"
+[[ -n $found ]] || echo "vm: no test_*_device program in $VM_PROGRAMS; the devices alone came up"
+exit "$bad"
