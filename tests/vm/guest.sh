@@ -8,16 +8,6 @@ source "$1"
 source "$VM_PROJECT/tests/vm/devices.sh"
 bad=0
 
-# bring FILE…: copies what there is of these programs and their libraries into memory, which overlayfs does when a file is
-# touched. Where the machine's clock jumps ahead when all wait, waiting for the host's disk would look like hours.
-bring() {
-  local file
-  for file in "$@"; do
-    [[ -x $file ]] || continue
-    { echo "$file" && ldd "$file" | sed -n 's#^[^/]*\(/[^ ]*\) .*#\1#p'; }
-  done | sort -u | xargs touch -c
-}
-
 # try NAME PROGRAM [VARIABLE=VALUE…]: a GoogleTest program has to pass, and at least one of its tests has to run.
 try() {
   local name=$1 program=$VM_PROGRAMS/$2 log=/tmp/$2.log begin=$SECONDS code=0 passed
@@ -38,8 +28,6 @@ try() {
   fi
 }
 
-bring /bin/sh /bin/bash /bin/{cut,grep,ln,readlink,rm,sleep,tee} /usr/bin/{env,timeout} "$(command -v ip)" "$VM_PROGRAMS/uvc_camera" \
-  "$VM_PROGRAMS"/test_*_device
 make_devices || exit 1
 if [[ -n $VM_COMMAND ]]; then
   bash -c "$VM_COMMAND"

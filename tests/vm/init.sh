@@ -1,8 +1,8 @@
 #!/bin/busybox sh
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=dash
-# The virtual machine's first process: loads the modules, lays a tmpfs over the host's root filesystem (9p, read-only) and
-# runs guest.sh there. Its exit code goes to the second serial port; without that line the run counts as failed.
+# The virtual machine's first process: loads the modules, lays what run.sh has packed and a tmpfs over the host's root
+# filesystem (9p, read-only) and runs guest.sh there. Its exit code goes to the second serial port; without that line the run counts as failed.
 /bin/busybox --install -s /bin
 export PATH=/bin
 
@@ -27,7 +27,7 @@ done </modules/order
 
 mount -t 9p -o ro,trans=virtio,version=9p2000.L,msize=512000,cache=loose host /host || fail "mounting the host's root"
 mount -t tmpfs over /over && mkdir /over/upper /over/work
-mount -t overlay -o lowerdir=/host,upperdir=/over/upper,workdir=/over/work root /new || fail "laying a tmpfs over it"
+mount -t overlay -o lowerdir=/packed:/host,upperdir=/over/upper,workdir=/over/work root /new || fail "laying the packed files and a tmpfs over it"
 for folder in proc sys dev; do mount --move "/$folder" "/new/$folder"; done
 mkdir -p /new/dev/pts /new/dev/shm
 mount -t devpts pts /new/dev/pts

@@ -31,21 +31,11 @@ vivid n_devs=1 node_types=0x1 num_inputs=1 input_types=0'
 
 say() { echo "kernel.sh: $*" >&2; }
 
-candidate() { apt-cache depends "$meta" 2>/dev/null | sed -n 's/.*Depends: linux-image-//p' | head -n 1; }
-
-# as_root COMMAND…: fails where neither root nor sudo is to be had.
-as_root() {
-  if ((EUID == 0)); then "$@"; else sudo -n "$@"; fi
-}
-
-newest() {  # the version that apt knows, such as 6.12.1+deb12-amd64
-  local found
-  found=$(candidate)
-  if [[ -z $found || $update == --update ]]; then
-    rm -f "$cache/download/"*.deb
-    as_root apt-get -qq update >&2 || say "apt-get update failed; going on with what apt knows"
-    found=$(candidate)
-  fi
+newest() {  # the version that apt knows, such as 6.12.1+deb12-amd64; its lists may be old or empty
+  local as_root=() found
+  ((EUID == 0)) || as_root=(sudo -n)
+  "${as_root[@]}" apt-get -qq update >&2 || say "apt-get update failed; going on with what apt knows"
+  found=$(apt-cache depends "$meta" 2>/dev/null | sed -n 's/.*Depends: linux-image-//p' | head -n 1) || true
   [[ -n $found ]] || { say "apt knows no $meta"; exit 77; }
   echo "$found"
 }
@@ -59,9 +49,8 @@ fetch() {  # fetch NAME…: downloads those packages that are not there
   ((${#absent[@]} > 0)) || return 0
   say "downloading ${absent[*]}"
   (cd "$cache/download" && apt-get -qq download "${absent[@]}" >&2) && return
-  say "trying again with fresh package lists"
-  as_root apt-get -qq update >&2
-  (cd "$cache/download" && apt-get -qq download "${absent[@]}" >&2)
+  say "remedy: --update, if the kernel's version is no longer offered"
+  return 1
 }
 
 # gpio_sim_source: prints the folder with the two files of gpio-sim, from the source package's archive. It is unpacked once,
@@ -147,11 +136,14 @@ prepare() {  # prepare VERSION OUT
 }
 
 stamp=$cache/$flavour.version
-if [[ ! -s $stamp || $update == --update ]]; then
+if [[ -s $stamp && $update != --update ]]; then
+  version=$(<"$stamp")
+else
   version=$(newest)
-  echo "$version" >"$stamp"
+  # The source is the only package whose name does not tell its version.
+  [[ $update != --update ]] || rm -f "$cache/download"/linux-source-6.12_*.deb
 fi
-version=$(<"$stamp")
 ready=$cache/$version-$(sha256sum "$here/kernel.sh" | cut -c 1-8)
 [[ -s $ready/vmlinuz ]] || prepare "$version" "$ready"
+echo "$version" >"$stamp"
 echo "$ready"
