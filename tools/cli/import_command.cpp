@@ -19,13 +19,13 @@ namespace {
 using recording::ImportOptions;
 using recording::ImportReport;
 
-struct Options {
+struct ImportArguments {
   std::string kind;
   ImportOptions import;
   bool overwrite = false, json = false;
 };
 
-Json to_json(const Options& options, const ImportReport& r) {
+Json to_json(const ImportArguments& options, const ImportReport& r) {
   Json json{{"kind", options.kind},
             {"out", options.import.out.string()},
             {"items", r.items},
@@ -40,7 +40,7 @@ Json to_json(const Options& options, const ImportReport& r) {
   return json;
 }
 
-void print_report(const Options& options, const ImportReport& r) {
+void print_report(const ImportArguments& options, const ImportReport& r) {
   const bool packets = options.kind == "velodyne-pcap";
   std::cout << options.import.out.string() << ": " << r.items << (packets ? " packets" : " sweeps") << " in "
             << to_seconds(r.last - r.first) << " s";
@@ -52,7 +52,7 @@ void print_report(const Options& options, const ImportReport& r) {
   if (r.damaged > r.damage.size()) std::cerr << "cairn: left out: " << r.damaged - r.damage.size() << " more\n";
 }
 
-int import_data(Options options) {
+int import_data(ImportArguments options) {
   options.import.overwrite = options.overwrite ? recording::Overwrite::kYes : recording::Overwrite::kNo;
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
   if (terminal)
@@ -71,7 +71,7 @@ int import_data(Options options) {
 
 void add_import_command(Commands& commands) {
   auto* sub = commands.app.add_subcommand("import", "foreign data → recording");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<ImportArguments>();
   sub->add_option("kind", o->kind, "velodyne-pcap (a file), kitti-odometry, kitti-raw or pcd-folder (folders)")
       ->required()
       ->check(CLI::IsMember(recording::import_kinds()));

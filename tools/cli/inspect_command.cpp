@@ -11,12 +11,12 @@
 namespace cairn::cli {
 namespace {
 
-struct Options {
+struct InspectArguments {
   InspectOptions inspect;
   bool json = false;
 };
 
-int run(const Options& options) {
+int run(const InspectArguments& options) {
   const auto found = inspect(options.inspect);
   if (!found) return fail(found.error());
   if (options.json) return print(*found);
@@ -28,7 +28,7 @@ int run(const Options& options) {
 
 void add_inspect_command(Commands& commands) {
   auto* sub = commands.app.add_subcommand("inspect", "what is in a capture, recording, map, trajectory or point cloud");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<InspectArguments>();
   sub->add_option("path", o->inspect.path, "file or folder")->required();
   sub->add_option("--model", o->inspect.model, "sensor model, instead of what the packets or the recording say");
   sub->add_option("--out", o->inspect.out, "write one scan as PCD: x y z intensity ring time return_type");

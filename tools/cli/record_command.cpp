@@ -26,13 +26,13 @@ using recording::Recording;
 using recording::RecordingWriter;
 using recording::RecordReport;
 
-struct Options {
+struct RecordArguments {
   fs::path config, out;
   std::optional<double> seconds;
   bool overwrite = false, json = false;
 };
 
-Recording describe(const Options& options, const RobotProfile& profile, const Clock& clock) {
+Recording describe(const RecordArguments& options, const RobotProfile& profile, const Clock& clock) {
   Recording r;
   r.robot = profile.name;
   r.profile = options.config.filename().string();
@@ -54,7 +54,7 @@ Json losses(const velodyne::UdpSource::Counters& c) {
           {"unstamped", c.unstamped},       {"receive_buffer_bytes", c.receive_buffer_bytes}};
 }
 
-recording::RecordOptions record_options(const Options& options, const RecordingWriter& writer) {
+recording::RecordOptions record_options(const RecordArguments& options, const RecordingWriter& writer) {
   recording::RecordOptions record;
   if (options.seconds) record.length = from_seconds(*options.seconds);
   record.stop = stop_requested;
@@ -68,7 +68,7 @@ recording::RecordOptions record_options(const Options& options, const RecordingW
 }
 
 /// One line per sensor: what it sent and what of it was lost or is doubtful.
-std::string as_table(const Options& options, const Recording& recording, const RecordReport& recorded,
+std::string as_table(const RecordArguments& options, const Recording& recording, const RecordReport& recorded,
                      const RecordingWriter& writer, const velodyne::UdpSource::Counters& c) {
   std::string table = fmt::format("{}: {:.1f} s\n", options.out.string(), to_seconds(recorded.length));
   constexpr auto kRow = "  {:<10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n";
@@ -81,7 +81,7 @@ std::string as_table(const Options& options, const Recording& recording, const R
   return table;
 }
 
-int verdict(const Options& options, std::uint64_t packets) {
+int verdict(const RecordArguments& options, std::uint64_t packets) {
   if (packets > 0) return kDone;
   return fail({Errc::kLinkDown,
                "not one packet came in",
@@ -90,7 +90,7 @@ int verdict(const Options& options, std::uint64_t packets) {
                "check cable, power, the sensor's destination address and the ports of the profile"});
 }
 
-int record(const Options& options) {
+int record(const RecordArguments& options) {
   const auto profile = load_profile(options.config);
   if (!profile) return fail(profile.error());
   const LiveClock clock;
@@ -125,7 +125,7 @@ int record(const Options& options) {
 
 void add_record_command(Commands& commands) {
   auto* sub = commands.app.add_subcommand("record", "records raw sensor bytes");
-  auto o = std::make_shared<Options>();
+  auto o = std::make_shared<RecordArguments>();
   sub->add_option("--config", o->config, "robot profile, such as config/husky.yaml; defaults without one");
   sub->add_option("--out", o->out, "folder of the new recording")->required();
   sub->add_option("--seconds", o->seconds, "end after so much time; otherwise at SIGINT or SIGTERM")
