@@ -2,6 +2,7 @@
 # shellcheck shell=bash
 # Sourced by guest.sh: make_devices sets the virtual machine's devices up and exports their names for the tests.
 #   CAIRN_TEST_CAN        vcan0, which also carries CAN FD
+#   CAIRN_TEST_CAN_SLOW   vcan1, which carries 60 frames a second and queues 20: emulated controllers send at once
 #   CAIRN_TEST_CAN_A, _B  can0 and can1: two SJA1000 on one bus, 500 kbit/s
 #   CAIRN_TEST_GPIOCHIP   /dev/gpiochipN of gpio-sim, eight lines
 #   CAIRN_TEST_GPIOSIM    its folder in sysfs: sim_gpioL/pull moves an input, sim_gpioL/value shows an output
@@ -19,7 +20,8 @@ make_can() {
   for card in can0 can1; do
     ip link set "$card" type can bitrate 500000 restart-ms 100 && ip link set "$card" up || return
   done
-  export CAIRN_TEST_CAN=vcan0 CAIRN_TEST_CAN_A=can0 CAIRN_TEST_CAN_B=can1
+  ip link add vcan1 type vcan && ip link set vcan1 up && tc qdisc add dev vcan1 root netem rate 8kbit limit 20 || return
+  export CAIRN_TEST_CAN=vcan0 CAIRN_TEST_CAN_SLOW=vcan1 CAIRN_TEST_CAN_A=can0 CAIRN_TEST_CAN_B=can1
 }
 
 make_gpio() {

@@ -43,7 +43,7 @@ class FlatBlocks {
   void add(int component, int level) {
     const int difference = level - last_[static_cast<std::size_t>(component)];
     last_[static_cast<std::size_t>(component)] = level;
-    const int size = std::bit_width(static_cast<unsigned>(std::abs(difference)));
+    const int size = static_cast<int>(std::bit_width(static_cast<unsigned>(std::abs(difference))));
     put(static_cast<unsigned>(size), 4);
     put(static_cast<unsigned>(difference < 0 ? difference + (1 << size) - 1 : difference), size);
     put(0, 1);
