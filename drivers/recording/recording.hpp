@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -18,14 +19,23 @@ namespace cairn::recording {
 /// Kinds of source that a recording may hold.
 inline constexpr std::string_view kVelodyne = "velodyne";  ///< `file` is a pcap of Velodyne datagrams (lidar.pcap)
 inline constexpr std::string_view kScans = "scans";  ///< `file` lists sweeps without packets (data.csv, scan_file.hpp)
+inline constexpr std::string_view kCamera = "camera";    ///< `file` lists pictures (camera/data.csv, image_folder.hpp)
+inline constexpr std::string_view kThermal = "thermal";  ///< the same, 16-bit raw counts
+inline constexpr std::string_view kDepth = "depth";      ///< the same, 16-bit depth
+inline constexpr std::string_view kDrive = "drive";      ///< `file` holds candump's lines (drive.log), stamped in UTC
+inline constexpr std::string_view kGpio = "gpio";        ///< `file` is gpio.csv
+inline constexpr std::array kKinds{kVelodyne, kScans, kCamera, kThermal, kDepth, kDrive, kGpio};
+[[nodiscard]] constexpr bool is_picture_kind(std::string_view kind) {
+  return kind == kCamera || kind == kThermal || kind == kDepth;
+}
 
 /// One source of a recording. Its index in Recording::sources is the SourceId of its packets.
 struct SourceEntry {
   std::string id;     ///< unique in the recording: letters, digits, `_`, `-`, `.`
-  std::string kind;   ///< kVelodyne or kScans
+  std::string kind;   ///< one of kKinds
   std::string file;   ///< relative to the recording's folder, with `/`; never absolute, never with `..`
   std::string frame;  ///< frame of the sensor (REP-105 style, such as `lidar`)
-  std::string model;  ///< velodyne: the sensor (`VLP-16`, …); scans: what recorded it; may be empty
+  std::string model;  ///< the sensor (`VLP-16`, `lepton3`, …), the drive's protocol, or what recorded it; may be empty
   /// T_base_sensor as x y z roll pitch yaw (metres, radians, fixed axes); kept as numbers so that files keep their
   /// bits.
   std::optional<Vector6> base_sensor_xyz_rpy{};

@@ -5,6 +5,9 @@
 #include <string>
 #include <utility>
 
+#include "drivers/drive/candump_source.hpp"
+#include "drivers/gpio/csv_source.hpp"
+#include "drivers/recording/image_folder.hpp"
 #include "drivers/recording/scan_source.hpp"
 #include "drivers/velodyne/pcap_source.hpp"
 
@@ -26,19 +29,19 @@ class FailedSource final : public Source {
   std::optional<Error> error_;
 };
 
-/// A capture file with its UTC stamps put on the robot's time line.
-class CaptureSource final : public Source {
+/// A file with stamps in UTC, put on the robot's time line.
+class UtcSource final : public Source {
  public:
-  CaptureSource(std::unique_ptr<PcapSource> capture, std::string file, std::int64_t realtime_offset_ns)
-      : capture_(std::move(capture)), file_(std::move(file)), offset_(realtime_offset_ns) {}
+  UtcSource(std::unique_ptr<Source> utc, std::string file, std::int64_t realtime_offset_ns)
+      : utc_(std::move(utc)), file_(std::move(file)), offset_(realtime_offset_ns) {}
 
   Result<Poll> next(Packet& packet, Duration timeout) override {
-    const auto poll = capture_->next(packet, timeout);
-    if (!poll || *poll == Poll::kTimeout) return poll;
-    if (*poll == Poll::kEnd) return end();
+    const auto poll = utc_->next(packet, timeout);
+    if (!poll || *poll != Poll::kPacket) return poll;
+    const std::int64_t utc = packet.arrival.time_since_epoch().count();
     packet.arrival -= offset_;
     const std::int64_t ns = packet.arrival.time_since_epoch().count();
-    if (ns >= -kMaxUtcNs && ns <= kMaxUtcNs) return Poll::kPacket;
+    if (utc >= -kMaxUtcNs && utc <= kMaxUtcNs && ns >= -kMaxUtcNs && ns <= kMaxUtcNs) return Poll::kPacket;
     return Error{Errc::kMalformed,
                  "a stamp lies beyond any robot's time line",
                  file_,
@@ -47,7 +50,20 @@ class CaptureSource final : public Source {
   }
 
  private:
-  Result<Poll> end() {
+  std::unique_ptr<Source> utc_;
+  std::string file_;
+  Duration offset_;
+};
+
+/// A capture file that says once when it ends inside a record.
+class CaptureSource final : public Source {
+ public:
+  CaptureSource(std::unique_ptr<PcapSource> capture, std::string file)
+      : capture_(std::move(capture)), file_(std::move(file)) {}
+
+  Result<Poll> next(Packet& packet, Duration timeout) override {
+    const auto poll = capture_->next(packet, timeout);
+    if (!poll || *poll != Poll::kEnd) return poll;
     if (!capture_->counters().truncated_tail || std::exchange(tail_reported_, true)) return Poll::kEnd;
     return Error{Errc::kTruncated,
                  "the capture ends inside its last record",
@@ -56,29 +72,49 @@ class CaptureSource final : public Source {
                  "after " + std::to_string(capture_->counters().records) + " whole records"};
   }
 
+ private:
   std::unique_ptr<PcapSource> capture_;
   std::string file_;
-  Duration offset_;
   bool tail_reported_ = false;
 };
 
-Result<std::unique_ptr<Source>> open_source(const std::filesystem::path& dir, const Recording& recording,
-                                            std::size_t i) {
+using Opened = Result<std::unique_ptr<Source>>;
+
+template <class T>
+Opened as_source(Result<std::unique_ptr<T>> opened) {
+  if (!opened) return opened.error();
+  return std::unique_ptr<Source>(std::move(*opened));
+}
+
+Opened open_capture(const std::filesystem::path& file, const SourceEntry& entry, SourceId id) {
+  PcapSource::Options options;
+  options.source = id;
+  options.ports = {entry.data_port, entry.position_port};
+  auto capture = PcapSource::open(file, options);
+  if (!capture) return capture.error();
+  return std::unique_ptr<Source>(std::make_unique<CaptureSource>(std::move(*capture), file.string()));
+}
+
+Opened open_can(const std::filesystem::path& file, SourceId id) {
+  return as_source(drive::CandumpSource::open(
+      file, {.source = id, .interface = {}, .stamps = drive::CandumpTime::Stamps::kSinceStart}));
+}
+
+Opened open_source(const std::filesystem::path& dir, const Recording& recording, std::size_t i) {
   const SourceEntry& entry = recording.sources[i];
-  if (entry.kind == kScans) {
-    auto scans = ScanSource::open(dir, entry.file);
-    if (!scans) return scans.error();
-    return std::unique_ptr<Source>(std::move(*scans));
+  const auto id = static_cast<SourceId>(i);
+  if (entry.kind == kScans) return as_source(ScanSource::open(dir, entry.file));
+  if (is_picture_kind(entry.kind)) {
+    const auto deep = entry.kind == kDepth ? camera::FrameFormat::kZ16 : camera::FrameFormat::kY16;
+    return as_source(ImageFolderSource::open(dir, entry.file, {id, deep}));
   }
   const auto file = resolve_inside(dir, entry.file);
   if (!file) return file.error();
-  PcapSource::Options options;
-  options.source = static_cast<SourceId>(i);
-  options.ports = {entry.data_port, entry.position_port};
-  auto capture = PcapSource::open(*file, options);
-  if (!capture) return capture.error();
+  if (entry.kind == kGpio) return as_source(gpio::CsvSource::open(*file, id));
+  auto utc = entry.kind == kDrive ? open_can(*file, id) : open_capture(*file, entry, id);
+  if (!utc) return utc;
   return std::unique_ptr<Source>(
-      std::make_unique<CaptureSource>(std::move(*capture), file->string(), recording.realtime_offset_ns));
+      std::make_unique<UtcSource>(std::move(*utc), file->string(), recording.realtime_offset_ns));
 }
 
 }  // namespace

@@ -1,12 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/recording/recording_writer.hpp"
 
-#include <cstdio>
 #include <string>
 #include <system_error>
 #include <utility>
-
-#include "drivers/recording/scan_file.hpp"
 
 namespace cairn::recording {
 namespace {
@@ -15,31 +12,14 @@ namespace fs = std::filesystem;
 
 constexpr const char* kGroundTruth = "ground_truth.tum";
 
-/// The folder of the sweeps listed in `index`: scans for data.csv, and one of its own for any other index.
-std::string scans_folder(const std::string& index) {
-  return index == "data.csv" ? "scans" : "scans_" + fs::path(index).stem().string();
-}
-
-bool is_sweep(const fs::directory_entry& entry) {
-  std::error_code ignored;
-  return entry.is_regular_file(ignored) && entry.path().extension() == ".bin";
-}
-
 /// The files that a recording with these sources owns in `dir`, as far as they exist.
 std::vector<fs::path> owned_files(const fs::path& dir, const Recording& recording) {
-  std::vector<fs::path> files{dir / kIndexFile, dir / kGroundTruth};
-  std::error_code error;
-  for (const SourceEntry& s : recording.sources) {
-    if (path_fault(s.file) != nullptr) continue;
-    files.push_back(dir / s.file);
-    if (s.kind != kScans) continue;
-    for (const auto& entry : fs::directory_iterator(dir / scans_folder(s.file), error))
-      if (is_sweep(entry)) files.push_back(entry.path());
-  }
-  std::erase_if(files, [](const fs::path& f) {
-    std::error_code ignored;
-    return !fs::exists(fs::symlink_status(f, ignored));
-  });
+  std::vector<fs::path> files;
+  std::error_code ignored;
+  for (const char* name : {kIndexFile, kGroundTruth})
+    if (fs::exists(fs::symlink_status(dir / name, ignored))) files.push_back(dir / name);
+  for (const SourceEntry& source : recording.sources)
+    for (fs::path& file : existing_files(dir, source)) files.push_back(std::move(file));
   return files;
 }
 
@@ -67,9 +47,6 @@ Result<void> clear(const fs::path& dir, const Recording& recording, Overwrite ov
   return {};
 }
 
-/// The sensor's factory address, counted up for further sensors: a recording does not know where its packets came from.
-Ipv4 sensor_address(std::size_t source) { return {192, 168, 1, static_cast<std::uint8_t>(201 + source % 50)}; }
-
 }  // namespace
 
 Result<RecordingWriter> RecordingWriter::create(const fs::path& dir, const Recording& recording, Overwrite overwrite) {
@@ -84,53 +61,19 @@ Result<RecordingWriter> RecordingWriter::create(const fs::path& dir, const Recor
 }
 
 Result<void> RecordingWriter::open_outputs() {
-  for (const SourceEntry& s : recording_.sources) {
-    std::error_code error;
-    const fs::path file = dir_ / s.file;
-    const std::string folder = scans_folder(s.file);
-    fs::create_directories(s.kind == kScans ? dir_ / folder : file.parent_path(), error);
-    fs::create_directories(file.parent_path(), error);
-    if (error) return io_error("cannot create a folder of the recording", file, error);
-    if (s.kind == kVelodyne) {
-      auto pcap = PcapWriter::create(file);
-      if (!pcap) return pcap.error();
-      outputs_.emplace_back(std::move(*pcap));
-      continue;
-    }
-    auto index = AppendFile::create(file);
-    if (!index) return index.error();
-    if (auto header = index->append_line(kScanIndexHeader); !header) return header.error();
-    outputs_.emplace_back(Scans{std::move(*index), folder});
+  for (std::size_t i = 0; i < recording_.sources.size(); ++i) {
+    auto output = open_source_writer(dir_, recording_, i);
+    if (!output) return output.error();
+    outputs_.push_back(std::move(*output));
   }
   return {};
-}
-
-Result<void> RecordingWriter::write_scan(Scans& scans, const Packet& packet) {
-  if (packet.bytes.size() > kMaxScanBytes || packet.channel > 1)
-    return Error{Errc::kLimit, "not a sweep that can be recorded", scans.index.path().string(), {}, {}};
-  char name[32];
-  std::snprintf(name, sizeof name, "/%06llu.bin", static_cast<unsigned long long>(scans.count));
-  auto file = AppendFile::create(dir_ / (scans.folder + name));
-  if (!file) return file.error();
-  file->buffer().assign(packet.bytes.begin(), packet.bytes.end());
-  if (auto written = file->end_record(); !written) return written;
-  // Waiting for the disk after each of thousands of sweeps would take minutes.
-  if (auto closed = file->close(false); !closed) return closed;
-  ++scans.count;
-  return scans.index.append_line(
-      to_csv({packet.arrival, scans.folder + name, static_cast<ScanLayout>(packet.channel)}));
 }
 
 Result<void> RecordingWriter::write(const Packet& packet) {
   const auto source = static_cast<std::size_t>(packet.source);
   if (source >= outputs_.size())
     return Error{Errc::kNotFound, "the recording has no such source", dir_.string(), {}, std::to_string(source)};
-  Output& output = outputs_[source];
-  auto* pcap = std::get_if<PcapWriter>(&output);
-  auto written = pcap != nullptr ? pcap->write(recording_.utc_ns(packet.arrival), sensor_address(source),
-                                               packet.channel, packet.payload(), packet.truncated)
-                                 : write_scan(std::get<Scans>(output), packet);
-  if (!written) return written;
+  if (auto written = outputs_[source]->write(packet); !written) return written;
   ++packets_;
   payload_bytes_ += packet.bytes.size();
   return {};
@@ -138,21 +81,15 @@ Result<void> RecordingWriter::write(const Packet& packet) {
 
 Result<void> RecordingWriter::flush() {
   Result<void> first;
-  for (Output& output : outputs_) {
-    auto* pcap = std::get_if<PcapWriter>(&output);
-    auto flushed = pcap != nullptr ? pcap->flush() : std::get<Scans>(output).index.flush();
-    if (!flushed && first) first = flushed;
-  }
+  for (const auto& output : outputs_)
+    if (auto flushed = output->flush(); !flushed && first) first = flushed;
   return first;
 }
 
 Result<void> RecordingWriter::close() {
   Result<void> first;
-  for (Output& output : outputs_) {
-    auto* pcap = std::get_if<PcapWriter>(&output);
-    auto closed = pcap != nullptr ? pcap->close() : std::get<Scans>(output).index.close();
-    if (!closed && first) first = closed;
-  }
+  for (const auto& output : outputs_)
+    if (auto closed = output->close(); !closed && first) first = closed;
   outputs_.clear();
   return first;
 }

@@ -3,12 +3,11 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <variant>
+#include <memory>
 #include <vector>
 
-#include "drivers/recording/append_file.hpp"
-#include "drivers/recording/pcap_writer.hpp"
 #include "drivers/recording/recording.hpp"
+#include "drivers/recording/source_writer.hpp"
 #include "hal/packet.hpp"
 #include "hal/result.hpp"
 
@@ -25,8 +24,9 @@ class RecordingWriter {
   [[nodiscard]] static Result<RecordingWriter> create(const std::filesystem::path& dir, const Recording& recording,
                                                       Overwrite overwrite = Overwrite::kNo);
 
-  /// Appends the packet to the file of its source: a datagram to the port in `channel`, or a sweep with the ScanLayout
-  /// in `channel`. After an error the caller may go on with other sources; what was written before is kept.
+  /// Appends the packet to the file of its source: a datagram to the port in `channel`, a sweep with the ScanLayout in
+  /// `channel`, a picture, a CAN frame, a line's edge. After an error the caller may go on with other sources; what was
+  /// written before is kept.
   [[nodiscard]] Result<void> write(const Packet& packet);
   /// Hands everything buffered to the operating system; call it about once a second.
   [[nodiscard]] Result<void> flush();
@@ -37,21 +37,13 @@ class RecordingWriter {
   [[nodiscard]] std::uint64_t payload_bytes() const { return payload_bytes_; }
 
  private:
-  struct Scans {
-    AppendFile index;
-    std::string folder;  // relative to the recording
-    std::uint64_t count = 0;
-  };
-  using Output = std::variant<PcapWriter, Scans>;
-
   RecordingWriter(std::filesystem::path dir, const Recording& recording)
       : dir_(std::move(dir)), recording_(recording) {}
   Result<void> open_outputs();
-  Result<void> write_scan(Scans& scans, const Packet& packet);
 
   std::filesystem::path dir_;
   Recording recording_;
-  std::vector<Output> outputs_;  // one per source, in its order
+  std::vector<std::unique_ptr<SourceWriter>> outputs_;  // one per source, in its order
   std::uint64_t packets_ = 0, payload_bytes_ = 0;
 };
 

@@ -151,7 +151,8 @@ void Checker::source(const YAML::Node& node, const std::string& prefix, SourceEn
   };
   const Setter kind = [&](const YAML::Node& n, const std::string& key) {
     s.kind = n.IsScalar() ? n.Scalar() : "";
-    if (s.kind != kVelodyne && s.kind != kScans) fault(n, key, "must be velodyne or scans");
+    if (std::find(kKinds.begin(), kKinds.end(), s.kind) == kKinds.end())
+      fault(n, key, "must be velodyne, scans, camera, thermal, depth, drive or gpio");
   };
   const Setter file = [&](const YAML::Node& n, const std::string& key) {
     text(s.file, path_fault)(n, key);

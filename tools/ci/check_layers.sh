@@ -63,7 +63,7 @@ for driver in drivers/*/; do
   name=$(basename "$driver")
   others=$(printf '%s\n' drivers/*/ | xargs -n 1 basename | grep -vx -e "$name" | paste -sd '|')
   case $name in
-    recording) others=${others//velodyne/-} others=${others//camera/-} ;;  # it holds Velodyne's datagrams and cameras' frames
+    recording) others=${others//velodyne/-} others=${others//camera/-} others=${others//drive/-} others=${others//gpio/-} ;;  # their native files
     thermal | depth) others=${others//camera/-} ;;                         # their frames come from drivers/camera
   esac
   mapfile -t own < <(code "$driver")

@@ -1,0 +1,203 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/recording/source_writer.hpp"
+
+#include <cstdio>
+#include <string>
+#include <system_error>
+#include <utility>
+
+#include "drivers/drive/candump.hpp"
+#include "drivers/gpio/line_event.hpp"
+#include "drivers/recording/append_file.hpp"
+#include "drivers/recording/image_folder.hpp"
+#include "drivers/recording/pcap_writer.hpp"
+#include "drivers/recording/scan_file.hpp"
+
+namespace cairn::recording {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// The name that drive.log gives the robot's bus: `canplayer vcan0=can0 -I drive.log` plays it on another.
+constexpr const char* kBus = "can0";
+
+/// The folder of the sweeps listed in `index`: scans for data.csv, and one of its own for any other index.
+std::string scans_folder(const std::string& index) {
+  return index == "data.csv" ? "scans" : "scans_" + fs::path(index).stem().string();
+}
+
+/// The sensor's factory address, counted up for further sensors: a recording does not know where its packets came from.
+Ipv4 sensor_address(std::size_t source) { return {192, 168, 1, static_cast<std::uint8_t>(201 + source % 50)}; }
+
+class Datagrams final : public SourceWriter {
+ public:
+  Datagrams(PcapWriter file, std::size_t source, std::int64_t offset)
+      : file_(std::move(file)), source_(source), offset_(offset) {}
+  Result<void> write(const Packet& p) override {
+    return file_.write(p.arrival.time_since_epoch().count() + offset_, sensor_address(source_), p.channel, p.payload(),
+                       p.truncated);
+  }
+  Result<void> flush() override { return file_.flush(); }
+  Result<void> close() override { return file_.close(); }
+
+ private:
+  PcapWriter file_;
+  std::size_t source_;
+  std::int64_t offset_;
+};
+
+class Sweeps final : public SourceWriter {
+ public:
+  Sweeps(AppendFile index, fs::path dir, std::string folder)
+      : index_(std::move(index)), dir_(std::move(dir)), folder_(std::move(folder)) {}
+  Result<void> write(const Packet& packet) override;
+  Result<void> flush() override { return index_.flush(); }
+  Result<void> close() override { return index_.close(); }
+
+ private:
+  AppendFile index_;
+  fs::path dir_;
+  std::string folder_;  // relative to the recording
+  std::uint64_t count_ = 0;
+};
+
+Result<void> Sweeps::write(const Packet& packet) {
+  if (packet.bytes.size() > kMaxScanBytes || packet.channel > 1)
+    return Error{Errc::kLimit, "not a sweep that can be recorded", index_.path().string(), {}, {}};
+  char name[32];
+  std::snprintf(name, sizeof name, "/%06llu.bin", static_cast<unsigned long long>(count_));
+  auto file = AppendFile::create(dir_ / (folder_ + name));
+  if (!file) return file.error();
+  file->buffer().assign(packet.bytes.begin(), packet.bytes.end());
+  if (auto written = file->end_record(); !written) return written;
+  // Waiting for the disk after each of thousands of sweeps would take minutes.
+  if (auto closed = file->close(false); !closed) return closed;
+  ++count_;
+  return index_.append_line(to_csv({packet.arrival, folder_ + name, static_cast<ScanLayout>(packet.channel)}));
+}
+
+class Pictures final : public SourceWriter {
+ public:
+  explicit Pictures(ImageFolderWriter folder) : folder_(std::move(folder)) {}
+  Result<void> write(const Packet& packet) override { return folder_.write(packet); }
+  Result<void> flush() override { return folder_.flush(); }
+  Result<void> close() override { return folder_.close(); }
+
+ private:
+  ImageFolderWriter folder_;
+};
+
+/// Files of one line per packet.
+class Lines : public SourceWriter {
+ public:
+  explicit Lines(AppendFile file) : file_(std::move(file)) {}
+  Result<void> write(const Packet& packet) override {
+    line_.clear();
+    if (auto made = append(packet, line_); !made) return at(file_.path().string(), made.error());
+    return file_.append_line(line_);
+  }
+  Result<void> flush() override { return file_.flush(); }
+  Result<void> close() override { return file_.close(); }
+
+ private:
+  virtual Result<void> append(const Packet& packet, std::string& line) = 0;
+
+  AppendFile file_;
+  std::string line_;
+};
+
+class CanLines final : public Lines {
+ public:
+  CanLines(AppendFile file, std::int64_t offset) : Lines(std::move(file)), offset_(offset) {}
+
+ private:
+  Result<void> append(const Packet& packet, std::string& line) override {
+    const auto frame = drive::decode_frame(packet.payload());
+    if (!frame) return frame.error();
+    const Time utc = packet.arrival + Duration{offset_};
+    if (utc < Time{}) return Error{Errc::kMalformed, "a stamp before 1970", {}, {}, "realtime_offset_ns is wrong"};
+    const auto sent = packet.channel == static_cast<std::uint16_t>(drive::Direction::kSent);
+    append_candump(line, utc, kBus, *frame, sent ? std::optional(drive::Direction::kSent) : std::nullopt);
+    return {};
+  }
+  std::int64_t offset_;
+};
+
+class GpioLines final : public Lines {
+ public:
+  using Lines::Lines;
+
+ private:
+  Result<void> append(const Packet& packet, std::string& line) override {
+    const auto event = gpio::decode_event(packet);
+    if (!event) return event.error();
+    gpio::append_csv(line, packet.arrival.time_since_epoch().count(), gpio::name_of(event->line), event->level);
+    return {};
+  }
+};
+
+using Opened = Result<std::unique_ptr<SourceWriter>>;
+
+Opened open_datagrams(const fs::path& file, std::size_t index, std::int64_t offset) {
+  auto pcap = PcapWriter::create(file);
+  if (!pcap) return pcap.error();
+  return std::unique_ptr<SourceWriter>(std::make_unique<Datagrams>(std::move(*pcap), index, offset));
+}
+
+Opened open_pictures(const fs::path& index) {
+  auto folder = ImageFolderWriter::create(index.parent_path());
+  if (!folder) return folder.error();
+  return std::unique_ptr<SourceWriter>(std::make_unique<Pictures>(std::move(*folder)));
+}
+
+Opened open_sweeps(const fs::path& dir, const SourceEntry& entry, AppendFile index) {
+  const std::string folder = scans_folder(entry.file);
+  std::error_code error;
+  fs::create_directories(dir / folder, error);
+  if (error) return Error{Errc::kIo, "cannot create the folder", (dir / folder).string(), {}, error.message()};
+  if (auto header = index.append_line(kScanIndexHeader); !header) return header.error();
+  return std::unique_ptr<SourceWriter>(std::make_unique<Sweeps>(std::move(index), dir, folder));
+}
+
+Opened open_gpio(AppendFile file) {
+  if (auto header = file.append_line(gpio::kCsvHeader); !header) return header.error();
+  return std::unique_ptr<SourceWriter>(std::make_unique<GpioLines>(std::move(file)));
+}
+
+void add_files(const fs::path& folder, std::initializer_list<const char*> extensions, std::vector<fs::path>& files) {
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    for (const char* extension : extensions)
+      if (entry.is_regular_file(error) && entry.path().extension() == extension) files.push_back(entry.path());
+}
+
+}  // namespace
+
+Result<std::unique_ptr<SourceWriter>> open_source_writer(const fs::path& dir, const Recording& recording,
+                                                         std::size_t index) {
+  const SourceEntry& entry = recording.sources[index];
+  const fs::path path = dir / entry.file;
+  std::error_code error;
+  fs::create_directories(path.parent_path(), error);
+  if (error) return Error{Errc::kIo, "cannot create the folder", path.parent_path().string(), {}, error.message()};
+  if (entry.kind == kVelodyne) return open_datagrams(path, index, recording.realtime_offset_ns);
+  if (is_picture_kind(entry.kind)) return open_pictures(path);
+  auto file = AppendFile::create(path);
+  if (!file) return file.error();
+  if (entry.kind == kScans) return open_sweeps(dir, entry, std::move(*file));
+  if (entry.kind == kGpio) return open_gpio(std::move(*file));
+  return std::unique_ptr<SourceWriter>(std::make_unique<CanLines>(std::move(*file), recording.realtime_offset_ns));
+}
+
+std::vector<fs::path> existing_files(const fs::path& dir, const SourceEntry& entry) {
+  std::vector<fs::path> files;
+  if (path_fault(entry.file) != nullptr) return files;
+  const fs::path own = dir / entry.file;
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(own, error))) files.push_back(own);
+  if (entry.kind == kScans) add_files(dir / scans_folder(entry.file), {".bin"}, files);
+  if (is_picture_kind(entry.kind)) add_files(own.parent_path() / "data", {".png", ".jpg"}, files);
+  return files;
+}
+
+}  // namespace cairn::recording
