@@ -100,7 +100,10 @@ Opened open_can(const std::filesystem::path& file, SourceId id) {
       file, {.source = id, .interface = {}, .stamps = drive::CandumpTime::Stamps::kSinceStart}));
 }
 
-Opened open_source(const std::filesystem::path& dir, const Recording& recording, std::size_t i) {
+}  // namespace
+
+Result<std::unique_ptr<Source>> open_recorded_source(const std::filesystem::path& dir, const Recording& recording,
+                                                     std::size_t i) {
   const SourceEntry& entry = recording.sources[i];
   const auto id = static_cast<SourceId>(i);
   if (entry.kind == kScans) return as_source(ScanSource::open(dir, entry.file));
@@ -117,14 +120,12 @@ Opened open_source(const std::filesystem::path& dir, const Recording& recording,
       std::make_unique<UtcSource>(std::move(*utc), file->string(), recording.realtime_offset_ns));
 }
 
-}  // namespace
-
 Result<std::unique_ptr<RecordingReader>> RecordingReader::open(const std::filesystem::path& dir) {
   auto recording = load_recording(dir);
   if (!recording) return recording.error();
   std::vector<std::unique_ptr<Source>> sources;
   for (std::size_t i = 0; i < recording->sources.size(); ++i) {
-    auto source = open_source(dir, *recording, i);
+    auto source = open_recorded_source(dir, *recording, i);
     if (source)
       sources.push_back(std::move(*source));
     else

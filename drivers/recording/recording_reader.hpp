@@ -10,6 +10,10 @@
 
 namespace cairn::recording {
 
+/// Source `index` of a recording in `dir`, its packets on the robot's time line. Errors: those of its file.
+[[nodiscard]] Result<std::unique_ptr<Source>> open_recorded_source(const std::filesystem::path& dir,
+                                                                   const Recording& recording, std::size_t index);
+
 /// Replays a recording folder: the packets of all its sources as they arrived, on the robot's monotonic time line, in
 /// the order of (arrival, source, sequence). Never waits; PacedSource does where that is wanted.
 class RecordingReader final : public Source {

@@ -76,6 +76,8 @@ Result<void> RecordingWriter::write(const Packet& packet) {
   if (auto written = outputs_[source]->write(packet); !written) return written;
   ++packets_;
   payload_bytes_ += packet.bytes.size();
+  ++written_[source].packets;
+  written_[source].payload_bytes += packet.bytes.size();
   return {};
 }
 

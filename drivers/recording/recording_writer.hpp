@@ -33,17 +33,23 @@ class RecordingWriter {
   /// Flushes, syncs and closes all files; the first error of any of them.
   [[nodiscard]] Result<void> close();
 
+  struct Written {
+    std::uint64_t packets = 0, payload_bytes = 0;
+  };
+  /// Of each source, in the recording's order.
+  [[nodiscard]] const std::vector<Written>& written() const { return written_; }
   [[nodiscard]] std::uint64_t packets() const { return packets_; }
   [[nodiscard]] std::uint64_t payload_bytes() const { return payload_bytes_; }
 
  private:
   RecordingWriter(std::filesystem::path dir, const Recording& recording)
-      : dir_(std::move(dir)), recording_(recording) {}
+      : dir_(std::move(dir)), recording_(recording), written_(recording.sources.size()) {}
   Result<void> open_outputs();
 
   std::filesystem::path dir_;
   Recording recording_;
   std::vector<std::unique_ptr<SourceWriter>> outputs_;  // one per source, in its order
+  std::vector<Written> written_;
   std::uint64_t packets_ = 0, payload_bytes_ = 0;
 };
 

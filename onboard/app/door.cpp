@@ -60,6 +60,12 @@ ScanDecoder* Door::decoder(SourceId id) const {
 }
 
 Result<Door> open_devices(const RobotProfile& profile, Monitor& monitor) {
+  if (!profile.lidar.enabled)
+    return Error{Errc::kInvalidConfig,
+                 "this robot has no LiDAR, and odometry needs one",
+                 profile.name,
+                 {},
+                 "its other sensors can be recorded: cairn record"};
   Door door;
   door.owned_clock = std::make_unique<LiveClock>();
   auto decoder = velodyne_decoder(profile.lidar.driver, SourceId{0}, LiveClock::realtime_offset(), monitor);
@@ -81,6 +87,10 @@ Result<Door> open_recording(const std::filesystem::path& folder, Pace pace, Robo
   door.virtual_clock = clock.get();
   door.owned_clock = std::move(clock);
   for (const SourceEntry& entry : recorded.sources) {
+    if (entry.kind != recording::kVelodyne && entry.kind != recording::kScans) {
+      door.decoders.push_back(nullptr);
+      continue;
+    }
     take_over(entry, profile.lidar);
     const SourceId id{static_cast<std::uint16_t>(door.decoders.size())};
     auto decoder = decoder_for(entry, id, recorded, profile, monitor);

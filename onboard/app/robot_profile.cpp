@@ -9,16 +9,15 @@ RobotConfig RobotProfile::robot() const {
   return {SE3::from_xyz_rpy(Eigen::Map<const Vector6>(lidar.base_xyz_rpy.data())), odometry, mapping};
 }
 
-void declare(config::Section& s, LidarProfile& p) {
-  declare(s, p.driver);
-  s.numbers("T_base_lidar", p.base_xyz_rpy, {-100, 100}, "m, rad",
-            "pose of the LiDAR in base_link: x, y, z, roll, pitch, yaw (fixed axes)");
-}
-
 void declare(config::Section& s, RobotProfile& p) {
   s.text("name", p.name, "the robot's name in files and to its peers");
   s.integer("threads", p.threads, {1, 64}, "", "threads for odometry and mapping; the result does not depend on it");
   s.group("lidar", p.lidar, "the LiDAR and its mount");
+  s.group("camera", p.camera, "the colour camera, single or stereo; it exists when capture.device is named");
+  s.group("thermal", p.thermal, "the thermal camera; likewise");
+  s.group("depth", p.depth, "the depth camera; likewise");
+  s.group("drive", p.drive, "the drive on its CAN bus; it exists when interface is named");
+  s.group("gpio", p.gpio, "e-stop, camera trigger and PPS; they exist when their lines are named");
   s.group("odometry", p.odometry, "scan-to-map registration");
   s.number("odometry_deadline_s", p.odometry_deadline_s, {0.001, 10}, "s",
            "live: no further refinement of a pose this long after its last packet");

@@ -3,25 +3,23 @@
 
 #include <filesystem>
 #include <string>
-#include <vector>
 
-#include "drivers/velodyne/config.hpp"
 #include "hal/config.hpp"
 #include "hal/result.hpp"
+#include "onboard/app/sensor_profiles.hpp"
 #include "onboard/robot.hpp"
 
 namespace cairn {
-
-/// How a LiDAR is mounted and spoken to.
-struct LidarProfile {
-  velodyne::Config driver;
-  std::vector<double> base_xyz_rpy{0, 0, 0, 0, 0, 0};  ///< T_base_lidar: x y z [m], roll pitch yaw [rad], fixed axes
-};
 
 /// Everything that is said about one robot: config/husky.yaml and its like.
 struct RobotProfile {
   std::string name = "robot";
   LidarProfile lidar;
+  CameraProfile camera;
+  ThermalProfile thermal;
+  DepthProfile depth;
+  DriveProfile drive;
+  GpioProfile gpio;
   OdometryConfig odometry;
   MappingConfig mapping;
   double odometry_deadline_s = 0.08;  ///< live: no further refinement of a pose this long after its last packet
@@ -30,7 +28,6 @@ struct RobotProfile {
   [[nodiscard]] RobotConfig robot() const;
 };
 
-void declare(config::Section& section, LidarProfile& profile);
 void declare(config::Section& section, RobotProfile& profile);
 
 /// Defaults where `path` is empty; otherwise the file, with every fault reported at once.

@@ -13,7 +13,8 @@
 #include <string>
 
 #include "drivers/recording/record.hpp"
-#include "drivers/velodyne/udp_source.hpp"
+#include "onboard/app/devices.hpp"
+#include "onboard/app/live_sources.hpp"
 #include "onboard/app/report/report_json.hpp"
 #include "onboard/app/robot_profile.hpp"
 #include "onboard/app/stop_signal.hpp"
@@ -38,20 +39,19 @@ Recording describe(const RecordArguments& options, const RobotProfile& profile, 
   r.profile = options.config.filename().string();
   r.realtime_offset_ns = LiveClock::realtime_offset().count();
   r.start_utc_ns = r.utc_ns(clock.now());
-  recording::SourceEntry lidar{"lidar", std::string(recording::kVelodyne), "lidar.pcap", "lidar",
-                               profile.lidar.driver.model};
-  lidar.base_sensor_xyz_rpy = Eigen::Map<const Vector6>(profile.lidar.base_xyz_rpy.data());
-  lidar.data_port = static_cast<std::uint16_t>(profile.lidar.driver.data_port);
-  lidar.position_port = static_cast<std::uint16_t>(profile.lidar.driver.position_port);
-  r.sources.push_back(std::move(lidar));
+  r.sources = devices_of(profile);
   return r;
 }
 
-/// What the network lost cannot be seen in the packets that came; it is kept with the recording.
-Json losses(const velodyne::UdpSource::Counters& c) {
-  return {{"kernel_drops", c.kernel_drops}, {"foreign", c.foreign},
-          {"flooded", c.flooded},           {"truncated", c.truncated},
-          {"unstamped", c.unstamped},       {"receive_buffer_bytes", c.receive_buffer_bytes}};
+/// What was written of each sensor, and what was lost before: that cannot be seen in the packets that came.
+Json sensors(const std::vector<Device>& devices, const RecordingWriter& writer) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    Json& sensor = json[devices[i].id];
+    sensor = {{"packets", writer.written()[i].packets}, {"bytes", writer.written()[i].payload_bytes}};
+    for (const auto& [name, count] : devices[i].losses()) sensor["losses"][name] = count;
+  }
+  return json;
 }
 
 recording::RecordOptions record_options(const RecordArguments& options, const RecordingWriter& writer) {
@@ -67,58 +67,96 @@ recording::RecordOptions record_options(const RecordArguments& options, const Re
   return record;
 }
 
+/// "flooded 3, restarts 1": what has no column of its own.
+std::string other_losses(const Json& losses) {
+  std::string text;
+  for (const auto& [name, count] : losses.items())
+    if (name != "kernel_drops" && name != "truncated" && name != "unstamped" && count != 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count.get<std::uint64_t>());
+  return text;
+}
+
 /// One line per sensor: what it sent and what of it was lost or is doubtful.
-std::string as_table(const RecordArguments& options, const Recording& recording, const RecordReport& recorded,
-                     const RecordingWriter& writer, const velodyne::UdpSource::Counters& c) {
+std::string as_table(const RecordArguments& options, const Json& sensors, const RecordReport& recorded) {
   std::string table = fmt::format("{}: {:.1f} s\n", options.out.string(), to_seconds(recorded.length));
-  constexpr auto kRow = "  {:<10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10} {:>10}\n";
-  table += fmt::format(kRow, "sensor", "packets", "MB", "dropped", "flooded", "cut short", "unstamped", "foreign");
-  table += fmt::format(kRow, recording.sources[0].id, writer.packets(),
-                       fmt::format("{:.1f}", 1e-6 * static_cast<double>(writer.payload_bytes())), c.kernel_drops,
-                       c.flooded, c.truncated, c.unstamped, c.foreign);
+  constexpr auto kRow = "  {:<10} {:>10} {:>10} {:>10} {:>10} {:>10}  {}\n";
+  table += fmt::format(kRow, "sensor", "packets", "MB", "dropped", "cut short", "unstamped", "also");
+  for (const auto& [id, s] : sensors.items()) {
+    const Json& losses = s["losses"];
+    table +=
+        fmt::format(kRow, id, s["packets"].get<std::uint64_t>(), fmt::format("{:.1f}", 1e-6 * s["bytes"].get<double>()),
+                    losses.value("kernel_drops", std::uint64_t{0}), losses.value("truncated", std::uint64_t{0}),
+                    losses.value("unstamped", std::uint64_t{0}), other_losses(losses));
+  }
   if (recorded.source_errors > 0)
-    table += fmt::format("  {} errors of the source, at first: {}\n", recorded.source_errors, recorded.first_error);
+    table += fmt::format("  {} errors of the sensors, at first: {}\n", recorded.source_errors, recorded.first_error);
   return table;
 }
 
-int verdict(const RecordArguments& options, std::uint64_t packets) {
-  if (packets > 0) return kDone;
+/// Sensors that gave nothing are the failure of a recording that nobody notices until it is needed.
+int verdict(const RecordArguments& options, const Json& sensors) {
+  std::string silent;
+  for (const auto& [id, s] : sensors.items())
+    // Edges and frames come when something happens.
+    if (s["packets"] == 0 && id != recording::kGpio && id != recording::kDrive)
+      silent += (silent.empty() ? "" : ", ") + id;
+  if (silent.empty()) return kDone;
   return fail({Errc::kLinkDown,
                "not one packet came in",
-               options.out.string(),
+               options.out.string() + " (" + silent + ")",
                {},
                "check cable, power, the sensor's destination address and the ports of the profile"});
+}
+
+Json summary(const RecordArguments& options, const std::vector<Device>& devices, const RecordingWriter& writer,
+             const RecordReport& recorded) {
+  return {{"out", options.out.string()},
+          {"packets", writer.packets()},
+          {"bytes", writer.payload_bytes()},
+          {"duration_s", to_seconds(recorded.length)},
+          {"source_errors", recorded.source_errors},
+          {"first_error", recorded.first_error},
+          {"sensors", sensors(devices, writer)}};
+}
+
+Result<RecordReport> record_all(const RecordArguments& options, const std::vector<Device>& devices, const Clock& clock,
+                                RecordingWriter& writer) {
+  std::vector<Source*> sources;
+  for (const Device& device : devices) sources.push_back(device.source.get());
+  LiveSources source(std::move(sources), clock);
+  catch_stop_signals();
+  auto recorded = recording::record(source, clock, writer, record_options(options, writer));
+  if (::isatty(STDERR_FILENO) != 0) std::fputc('\n', stderr);
+  return recorded;
 }
 
 int record(const RecordArguments& options) {
   const auto profile = load_profile(options.config);
   if (!profile) return fail(profile.error());
   const LiveClock clock;
-  const auto source = velodyne::UdpSource::open(profile->lidar.driver, SourceId{0}, clock);
-  if (!source) return fail(source.error());
+  const auto devices = open_devices_of(*profile, clock);
+  if (!devices) return fail(devices.error());
+  if (devices->empty())
+    return fail({Errc::kInvalidConfig,
+                 "the profile has no device",
+                 options.config.string(),
+                 {},
+                 "name one: camera.capture.device, drive.interface, …"});
   Recording description = describe(options, *profile, clock);
   const auto overwrite = options.overwrite ? recording::Overwrite::kYes : recording::Overwrite::kNo;
   auto writer = RecordingWriter::create(options.out, description, overwrite);
   if (!writer) return fail(writer.error());
 
-  catch_stop_signals();
-  const auto recorded = recording::record(**source, clock, *writer, record_options(options, *writer));
-  if (::isatty(STDERR_FILENO) != 0) std::fputc('\n', stderr);
+  const auto recorded = record_all(options, *devices, clock, *writer);
   if (!recorded) return fail(recorded.error());
-  Json json{{"out", options.out.string()},
-            {"packets", writer->packets()},
-            {"bytes", writer->payload_bytes()},
-            {"duration_s", to_seconds(recorded->length)},
-            {"source_errors", recorded->source_errors},
-            {"first_error", recorded->first_error},
-            {"losses", losses((*source)->counters())}};
-  description.notes = "recorded live; losses: " + json["losses"].dump();
+  const Json json = summary(options, *devices, *writer, *recorded);
+  description.notes = "recorded live; sensors: " + json["sensors"].dump();
   if (const auto saved = recording::save_recording(options.out, description); !saved) return fail(saved.error());
   if (options.json)
     print(json);
   else
-    std::cout << as_table(options, description, *recorded, *writer, (*source)->counters());
-  return verdict(options, writer->packets());
+    std::cout << as_table(options, json["sensors"], *recorded);
+  return verdict(options, json["sensors"]);
 }
 
 }  // namespace

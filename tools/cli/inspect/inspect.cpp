@@ -17,6 +17,7 @@
 #include "onboard/app/report/map_measures.hpp"
 #include "onboard/mapping/map_file.hpp"
 #include "tools/cli/inspect/inspect_stream.hpp"
+#include "tools/cli/inspect/native_file.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -185,6 +186,14 @@ Result<Json> inspect_map(const InspectOptions& options) {
   return json;
 }
 
+Result<Json> inspect_native_file(const InspectOptions& options, NativeFile file) {
+  SourceEntry& entry = file.recording.sources.front();
+  if (!options.model.empty()) entry.model = options.model;
+  auto source = recording::open_recorded_source(file.dir, file.recording, 0);
+  if (!source) return source.error();
+  return inspect_stream(options, file.recording, **source, {{"kind", entry.kind}, {"path", options.path.string()}});
+}
+
 /// "points_per_scan": 3 → "points per scan: 3", nested values indented below.
 void write_plain(std::string& out, const Json& value, const std::string& indent) {
   const auto scalar = [](const Json& v) {
@@ -212,6 +221,7 @@ Result<Json> inspect(const InspectOptions& options) {
   if (!fs::exists(options.path, error))
     return Error{Errc::kNotFound, "there is no such file or folder", options.path.string(), {}, {}};
   if (is_capture(options.path)) return inspect_capture(options);
+  if (auto file = recognise_native_file(options.path)) return inspect_native_file(options, std::move(*file));
   const std::string extension = options.path.extension().string();
   if (extension == ".pcd") return inspect_cloud(options);
   if (extension == ".cairn" || extension == ".ot" || extension == ".bt") return inspect_map(options);
@@ -220,7 +230,8 @@ Result<Json> inspect(const InspectOptions& options) {
                  "what this file holds is not known",
                  options.path.string(),
                  {},
-                 "known: folders of recordings, pcap, pcapng, .pcd, .cairn, .ot, .bt, .tum"};
+                 "known: folders of recordings, pcap, pcapng, candump, gpio.csv, lists of pictures, .pcd, .cairn, .ot, "
+                 ".bt, .tum"};
   Json json{{"kind", "trajectory"}, {"path", options.path.string()}};
   json.update(describe_trajectory(options.path));
   return json;

@@ -64,8 +64,14 @@ Json to_json(const velodyne::Counters& c) {
 
 }  // namespace
 
-ScanDecoder& StreamInspection::Stream::decoder() const {
-  return lidar != nullptr ? static_cast<ScanDecoder&>(*lidar) : *sweeps;
+Result<const Scan*> StreamInspection::Stream::decode(const Packet& packet) {
+  if (sensor != nullptr) return sensor->take(packet);
+  return lidar != nullptr ? lidar->decode(packet) : sweeps->decode(packet);
+}
+
+const Scan* StreamInspection::Stream::flush() {
+  if (sensor != nullptr) return nullptr;
+  return lidar != nullptr ? lidar->flush() : sweeps->flush();
 }
 
 Result<std::unique_ptr<StreamInspection>> StreamInspection::create(const recording::Recording& recording,
@@ -79,8 +85,12 @@ Result<std::unique_ptr<StreamInspection>> StreamInspection::create(const recordi
       auto lidar = make_lidar(entry, id, Duration(recording.realtime_offset_ns), inspection->monitor_);
       if (!lidar) return at("source " + entry.id, lidar.error());
       stream.lidar = std::move(*lidar);
-    } else {
+    } else if (entry.kind == recording::kScans) {
       stream.sweeps = std::make_unique<recording::ScanFileDecoder>(entry.deskewed);
+    } else {
+      auto sensor = make_sensor_figures(entry);
+      if (!sensor) return at("source " + entry.id, sensor.error());
+      stream.sensor = std::move(*sensor);
     }
     inspection->streams_.push_back(std::move(stream));
   }
@@ -98,13 +108,13 @@ void StreamInspection::run(Source& source) {
     else if (*poll == Poll::kPacket)
       take(packet);
   }
-  for (Stream& stream : streams_) take(stream, stream.decoder().flush());
+  for (Stream& stream : streams_) take(stream, stream.flush());
 }
 
 void StreamInspection::take(const Packet& packet) {
   Stream& stream = streams_.at(static_cast<std::size_t>(packet.source));
   stream.packets.add(packet);
-  const auto scan = stream.decoder().decode(packet);
+  const auto scan = stream.decode(packet);
   if (scan)
     take(stream, *scan);
   else if (stream.lidar == nullptr)  // a Lidar counts its refusals by cause
@@ -136,7 +146,8 @@ Json StreamInspection::sources() const {
       json["T_base_sensor"] =
           std::vector<double>(s.entry.base_sensor_xyz_rpy->begin(), s.entry.base_sensor_xyz_rpy->end());
     json["packets"] = s.packets.to_json();
-    json["scans"] = s.scans.to_json();
+    if (s.sensor == nullptr || s.entry.kind == recording::kDepth) json["scans"] = s.scans.to_json();
+    if (s.sensor != nullptr) json[s.entry.kind] = s.sensor->to_json();
     if (s.lidar != nullptr) json["velodyne"] = to_json(s.lidar->counters());
     if (s.sweeps != nullptr)
       json["sweeps"] = {{"rejected_points", s.sweeps->rejected_points()}, {"rejected", s.sweeps->rejected_packets()}};

@@ -14,6 +14,7 @@
 #include "hal/ports.hpp"
 #include "tools/cli/inspect/packet_figures.hpp"
 #include "tools/cli/inspect/scan_figures.hpp"
+#include "tools/cli/inspect/sensor_figures.hpp"
 
 namespace cairn::cli {
 
@@ -41,9 +42,11 @@ class StreamInspection {
     recording::SourceEntry entry;
     PacketFigures packets;
     ScanFigures scans;
-    std::unique_ptr<velodyne::Lidar> lidar;  // exactly one of the two
+    std::unique_ptr<velodyne::Lidar> lidar;  // exactly one of the three
     std::unique_ptr<recording::ScanFileDecoder> sweeps;
-    [[nodiscard]] ScanDecoder& decoder() const;
+    std::unique_ptr<SensorFigures> sensor;
+    [[nodiscard]] Result<const Scan*> decode(const Packet& packet);
+    [[nodiscard]] const Scan* flush();
   };
 
   explicit StreamInspection(std::optional<std::uint64_t> wanted) : wanted_(wanted) {}

@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "drivers/recording/recording.hpp"
+
+namespace cairn::cli {
+
+/// A recording's file on its own, told by its first lines: candump's text, gpio.csv, or the list of a folder of
+/// pictures (EuRoC's data.csv; the folder's name says whether 16-bit pictures are thermal or depth).
+struct NativeFile {
+  std::filesystem::path dir;
+  recording::Recording recording;  ///< one source, its file relative to `dir`
+};
+
+/// Null: the file is none of these.
+[[nodiscard]] std::optional<NativeFile> recognise_native_file(const std::filesystem::path& path);
+
+}  // namespace cairn::cli
