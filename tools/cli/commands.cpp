@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/commands.hpp"
 
+#include "tools/cli/doctor_command.hpp"
 #include "tools/cli/evaluate_command.hpp"
 #include "tools/cli/import_command.hpp"
 #include "tools/cli/inspect_command.hpp"
@@ -21,6 +22,7 @@ void add_tool_commands(Commands& commands) {
   add_inspect_command(commands);
   add_map_command(commands);
   add_evaluate_command(commands);
+  add_doctor_command(commands);
 }
 
 }  // namespace cairn::cli

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/doctor/robot.hpp"
+
+#include <fmt/format.h>
+
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "onboard/app/devices.hpp"
+#include "tools/cli/inspect/inspect.hpp"
+
+namespace cairn::cli {
+namespace {
+
+using Level = Finding::Level;
+
+Finding problem(const std::string& who, const Error& error) {
+  Error cause = error;
+  const std::string remedy = std::exchange(cause.detail, {});
+  return {Level::kProblem, who + ": " + to_string(cause), remedy};
+}
+
+const char* remedy_for_silence(std::string_view kind) {
+  if (kind == recording::kVelodyne)
+    return "check cable and power; the sensor's web page says to which address and ports it sends";
+  if (kind == recording::kDrive) return "check the bus' power, termination and bit rate: candump shows what is on it";
+  return "check cable and power: another USB port or a powered hub";
+}
+
+/// Everything that came in the time that is given to one device.
+Finding listen_to(Device& device, const recording::SourceEntry& entry, const Clock& clock, Duration listen) {
+  Packet packet;
+  std::uint64_t packets = 0;
+  const Time end = clock.now() + listen;
+  for (Time now = clock.now(); now < end; now = clock.now()) {
+    const auto poll = device.source->next(packet, end - now);
+    if (!poll) return problem(entry.id, poll.error());
+    packets += *poll == Poll::kPacket ? 1 : 0;
+  }
+  const double seconds = to_seconds(listen);
+  if (packets > 0)
+    return {Level::kOk, fmt::format("{}: {:.0f} packets/s", entry.id, static_cast<double>(packets) / seconds), {}};
+  if (entry.kind == recording::kGpio)
+    return {Level::kOk, fmt::format("{}: open, no edge in {:.1f} s", entry.id, seconds), {}};
+  return {Level::kProblem, fmt::format("{}: open, but silent for {:.1f} s", entry.id, seconds),
+          remedy_for_silence(entry.kind)};
+}
+
+Finding examine_device(const RobotProfile& profile, const recording::SourceEntry& entry, Duration listen) {
+  const LiveClock clock;
+  auto device = open_device(profile, entry, SourceId{0}, clock);
+  if (!device) return problem(entry.id, device.error());
+  return listen_to(*device, entry, clock, listen);
+}
+
+Finding examine_source(const Json& source) {
+  const std::string id = source["id"].get<std::string>();
+  const auto packets = source["packets"]["packets"].get<std::uint64_t>();
+  if (packets == 0)
+    return {Level::kProblem, id + ": the recording holds nothing of it", "record again, after cairn doctor --config"};
+  const auto missing = source["packets"].value("missing_sequence_numbers", std::uint64_t{0});
+  std::uint64_t lost = missing;
+  if (source.contains("velodyne")) lost += source["velodyne"]["lost_packets"].get<std::uint64_t>();
+  if (lost == 0) return {Level::kOk, fmt::format("{}: {} packets, none lost", id, packets), {}};
+  return {Level::kNote, fmt::format("{}: {} packets, {} lost before they were recorded", id, packets, lost),
+          "look for a full receive buffer or a bad cable: cairn doctor"};
+}
+
+}  // namespace
+
+Findings examine_profile(const std::filesystem::path& path, Duration listen) {
+  const auto profile = load_profile(path);
+  if (!profile) return {problem("profile", profile.error())};
+  Findings findings{{Level::kOk, "profile: " + path.string() + " is in order", {}}};
+  const auto entries = devices_of(*profile);
+  if (entries.empty())
+    findings.push_back(
+        {Level::kProblem, "profile: it has no device", "name one: camera.capture.device, drive.interface, …"});
+  for (const auto& entry : entries) findings.push_back(examine_device(*profile, entry, listen));
+  return findings;
+}
+
+Findings examine_recording(const std::filesystem::path& folder) {
+  const auto found = inspect({folder, {}, {}, {}});
+  if (!found) return {problem("recording", found.error())};
+  Findings findings;
+  if (!found->contains("sources"))
+    return {
+        {Level::kProblem, "recording: " + folder.string() + " is no recording", "name a folder with recording.yaml"}};
+  for (const Json& source : (*found)["sources"]) findings.push_back(examine_source(source));
+  for (const Json& damage : (*found)["damage"])
+    findings.push_back(
+        {Level::kProblem, "recording: " + damage.get<std::string>(), "what lies before and behind the damage is used"});
+  return findings;
+}
+
+}  // namespace cairn::cli
