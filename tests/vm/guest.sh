@@ -41,5 +41,32 @@ try "camera on vivid" test_camera_device CAIRN_TEST_VIDEO_EARLY=1
 try "camera on uvcvideo" test_camera_device CAIRN_TEST_VIDEO="$CAIRN_TEST_UVC" CAIRN_TEST_VIDEO_RAMP=1 \
   CAIRN_TEST_VIDEO_UNPLUG="$VM_PROGRAMS/uvc_camera unplug" CAIRN_TEST_VIDEO_REPLUG="$VM_PROGRAMS/uvc_camera plug" \
   CAIRN_TEST_VIDEO_CYCLES="$VM_CYCLES"
+# What a user does with all of them at once. The frames and edges are made meanwhile.
+record_everything() {
+  local log=/tmp/record.log
+  cat >/tmp/robot.yaml <<YAML
+name: vm
+lidar: {enabled: false}
+thermal: {capture: {device: $CAIRN_TEST_UVC, width: 160, height: 120, rate_hz: 9}}
+drive: {interface: vcan0}
+gpio: {chip: $CAIRN_TEST_GPIOCHIP, estop_line: "0"}
+YAML
+  "$VM_PROGRAMS/cairn" doctor --config /tmp/robot.yaml --seconds 1 | tee "$log"
+  (for level in pull-up pull-down pull-up pull-down pull-up pull-down; do
+    sleep 0.5
+    echo "$level" >"$CAIRN_TEST_GPIOSIM/sim_gpio0/pull"
+  done) &
+  (sleep 1 && "$VM_PROGRAMS/test_drive_device" --gtest_filter='*BringsACia402DriveUp*' >/dev/null) &
+  timeout -k 5 "$VM_LIMIT" "$VM_PROGRAMS/cairn" record --config /tmp/robot.yaml --out /tmp/recorded --seconds 3 | tee -a "$log"
+  "$VM_PROGRAMS/cairn" doctor --recording /tmp/recorded | tee -a "$log"
+  if (($(grep -Ec '^ok: (thermal|drive|gpio): [1-9][0-9]* packets, none lost' "$log") == 3)); then
+    sed -n 's/^ok: \([a-z]*: [0-9]* packets, none lost\)/vm: recorded \1/p' "$log"
+    echo "vm: doctor and record: ok"
+  else
+    echo "vm: doctor and record: FAILED"
+    bad=1
+  fi
+}
+[[ ! -x $VM_PROGRAMS/cairn ]] || record_everything
 [[ -n $found ]] || echo "vm: no test_*_device program in $VM_PROGRAMS; the devices alone came up"
 exit "$bad"

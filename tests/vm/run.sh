@@ -69,8 +69,8 @@ with_libraries() {  # with_libraries FILE…: those that exist, and what they ar
     ldd "$file" 2>/dev/null | sed -n 's#^[^/]*\(/[^ ]*\) .*#\1#p' || true  # a script has none
   done
 }
-with_libraries /bin/{sh,bash,cut,env,grep,ln,readlink,rm,sleep,tee,timeout} "$(command -v ip)" "$(command -v tc)" \
-  tests/vm/{guest,devices,hotplug}.sh "$programs"/{uvc_camera,test_*_device} |
+with_libraries /bin/{cat,cut,env,grep,ln,readlink,rm,sed,sh,bash,sleep,tee,timeout} "$(command -v ip)" "$(command -v tc)" \
+  tests/vm/{guest,devices,hotplug}.sh "$programs"/{cairn,uvc_camera,test_*_device} |
   xargs -d '\n' realpath | sort -u | xargs -d '\n' cp --parents --target-directory="$root/packed"
 (cd "$root" && find . | cpio --quiet -o -H newc -R 0:0) >"$root.cpio"
 

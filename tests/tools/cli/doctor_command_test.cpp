@@ -95,7 +95,9 @@ TEST(DoctorCommand, DamageOfARecordingIsNamed) {
   const TemporaryFolder folder;
   recording::Recording r;
   r.robot = "robot_1";
-  r.sources = {{"sweeps", "scans", "data.csv", "base_link", ""}, {"gpio", "gpio", "gpio.csv", "base_link", ""}};
+  r.sources = {{"sweeps", "scans", "data.csv", "base_link", ""},
+               {"gpio", "gpio", "gpio.csv", "base_link", ""},
+               {"drive", "drive", "drive.log", "base_link", "cia402"}};
   auto writer = recording::RecordingWriter::create(folder / "r", r).value();
   Packet p;
   PointCloud cloud;
@@ -108,7 +110,7 @@ TEST(DoctorCommand, DamageOfARecordingIsNamed) {
   const Outcome o = doctor({"--recording", folder / "r"});
   EXPECT_EQ(o.exit_code, kFailed);
   EXPECT_THAT(o.out, HasSubstr("ok: sweeps: 1 packets, none lost"));
-  EXPECT_THAT(o.out, HasSubstr("problem: gpio: the recording holds nothing of it"));
+  EXPECT_THAT(o.out, HasSubstr("problem: drive: the recording holds nothing of it"));
   EXPECT_THAT(o.out, HasSubstr("gpio.csv"));
   EXPECT_EQ(doctor({"--recording", folder / "nowhere"}).exit_code, kFailed);
 }

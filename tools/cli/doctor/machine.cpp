@@ -7,9 +7,11 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <optional>
 #include <string>
 
+#include "drivers/camera/frame.hpp"
 #include "drivers/camera/v4l2_stream.hpp"
 
 namespace cairn::cli {
@@ -57,6 +59,17 @@ std::string lasting_name(const fs::path& root, const std::string& device) {
   return "/dev/" + device;
 }
 
+/// What of a camera's modes Cairn can use; test devices offer thousands.
+std::string offer_of(const fs::path& device) {
+  const auto offered = camera::offered_modes(camera::kernel_calls(), device.string());
+  if (offered.empty()) return "no capture device";
+  std::vector<camera::OfferedMode> usable;
+  std::copy_if(offered.begin(), offered.end(), std::back_inserter(usable),
+               [](const camera::OfferedMode& mode) { return camera::find_format(mode.format) != nullptr; });
+  if (usable.empty()) return "offers no format that is known: " + to_string(offered);
+  return "offers " + to_string(usable);
+}
+
 Finding examine_interface(const fs::path& folder, const std::string& name) {
   const std::string state = line_of(folder / "operstate");
   const auto queue = number_of(folder / "tx_queue_len").value_or(0);
@@ -97,9 +110,7 @@ Findings examine_cameras(const fs::path& root) {
       findings.push_back({Level::kProblem, title + ", which this user may not open", kRules});
       continue;
     }
-    const auto modes = camera::offered_modes(camera::kernel_calls(), path.string());
-    findings.push_back(
-        {Level::kOk, title + (modes.empty() ? ", no capture device" : ", offers " + to_string(modes)), {}});
+    findings.push_back({Level::kOk, title + ", " + offer_of(path), {}});
   }
   if (findings.empty()) findings.push_back({Level::kOk, "cameras: none plugged in", {}});
   return findings;

@@ -38,10 +38,10 @@ Finding listen_to(Device& device, const recording::SourceEntry& entry, const Clo
     packets += *poll == Poll::kPacket ? 1 : 0;
   }
   const double seconds = to_seconds(listen);
+  if (entry.kind == recording::kGpio)
+    return {Level::kOk, fmt::format("{}: open, {} edges in {:.1f} s", entry.id, packets, seconds), {}};
   if (packets > 0)
     return {Level::kOk, fmt::format("{}: {:.0f} packets/s", entry.id, static_cast<double>(packets) / seconds), {}};
-  if (entry.kind == recording::kGpio)
-    return {Level::kOk, fmt::format("{}: open, no edge in {:.1f} s", entry.id, seconds), {}};
   return {Level::kProblem, fmt::format("{}: open, but silent for {:.1f} s", entry.id, seconds),
           remedy_for_silence(entry.kind)};
 }
@@ -56,6 +56,7 @@ Finding examine_device(const RobotProfile& profile, const recording::SourceEntry
 Finding examine_source(const Json& source) {
   const std::string id = source["id"].get<std::string>();
   const auto packets = source["packets"]["packets"].get<std::uint64_t>();
+  if (packets == 0 && source["kind"] == recording::kGpio) return {Level::kOk, id + ": no edge", {}};
   if (packets == 0)
     return {Level::kProblem, id + ": the recording holds nothing of it", "record again, after cairn doctor --config"};
   const auto missing = source["packets"].value("missing_sequence_numbers", std::uint64_t{0});
