@@ -3,6 +3,7 @@
 
 #include "tools/cli/doctor_command.hpp"
 #include "tools/cli/evaluate_command.hpp"
+#include "tools/cli/faults_command.hpp"
 #include "tools/cli/import_command.hpp"
 #include "tools/cli/inspect_command.hpp"
 #include "tools/cli/map_command.hpp"
@@ -23,6 +24,7 @@ void add_tool_commands(Commands& commands) {
   add_map_command(commands);
   add_evaluate_command(commands);
   add_doctor_command(commands);
+  add_faults_command(commands);
 }
 
 }  // namespace cairn::cli
