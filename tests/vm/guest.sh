@@ -37,6 +37,7 @@ found=''
 try "drive on vcan" test_drive_device
 try "drive on two SJA1000" test_drive_device CAIRN_TEST_CAN=can0 CAIRN_TEST_CAN_PEER=can1
 try "GPIO on gpio-sim" test_gpio_device
+try "e-stop to motors" test_estop_device
 try "camera on vivid" test_camera_device CAIRN_TEST_VIDEO_EARLY=1
 try "camera on uvcvideo" test_camera_device CAIRN_TEST_VIDEO="$CAIRN_TEST_UVC" CAIRN_TEST_VIDEO_RAMP=1 \
   CAIRN_TEST_VIDEO_UNPLUG="$VM_PROGRAMS/uvc_camera unplug" CAIRN_TEST_VIDEO_REPLUG="$VM_PROGRAMS/uvc_camera plug" \
