@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "onboard/odometry/gap_search.hpp"
+
 namespace cairn {
 namespace {
 
@@ -14,6 +16,11 @@ constexpr float kFirstKeypointSpacing = 0.4F;
 // Standard deviation [m/s] above which the prediction is as good as none, and speeds are tried one by one.
 constexpr double kSpeedUnknown = 2.0;
 constexpr double kGuessGate = 0.5;
+// Standard deviation [rad] of the predicted heading above which the neighbourhood is searched: after two lost scans.
+constexpr double kHeadingUnknown = 0.12;
+constexpr double kGapGate = 0.2;
+// A scan that follows a gap and is shorter than this share of a revolution says too little to find the way back with.
+constexpr double kGapPeriods = 1.8, kWholeShare = 0.6;
 
 PatchMap::Config map_config(const OdometryConfig& c) {
   PatchCriteria criteria;
@@ -41,6 +48,9 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget) {
   if (!last_stamp_) return start(scan.valid.end);
 
   const double dt = to_seconds(scan.valid.end - *last_stamp_);
+  if (dt > kGapPeriods * revolution_s_ && duration_s_ < kWholeShare * revolution_s_)
+    return Error{Errc::kTruncated, "the first scan after a gap is less than a revolution"};
+  revolution_s_ = std::max(duration_s_, 0.9 * revolution_s_);
   last_stamp_ = scan.valid.end;
   T_odom_previous_ = filter_.state().T_odom_base;
   filter_.predict(dt, {config_.linear_acceleration, config_.angular_acceleration});
@@ -132,24 +142,31 @@ OdometryUpdate LidarOdometry::start(Time stamp) {
   return update;
 }
 
+double LidarOdometry::inliers(const MotionState& at, double gate) {
+  return linearise_(keypoints_, map_, {at.T_odom_base, at.twist, T_base_lidar_, duration_s_, gate}, workers_).inliers;
+}
+
 MotionState LidarOdometry::first_guess(double dt) {
-  const MotionState& predicted = filter_.state();
-  if (guesses_left_ == 0 || filter_.uncertainty().local(6, 6) < kSpeedUnknown * kSpeedUnknown) return predicted;
+  const auto& local = filter_.uncertainty().local;
+  if (guesses_left_ > 0 && local(6, 6) > kSpeedUnknown * kSpeedUnknown) return guess_speed(dt);
+  if (local(5, 5) > kHeadingUnknown * kHeadingUnknown)
+    return search_after_gap(filter_.state(), local, dt,
+                            [this](const MotionState& at) { return inliers(at, kGapGate); });
+  return filter_.state();
+}
+
+MotionState LidarOdometry::guess_speed(double dt) {
   --guesses_left_;
-  const auto inliers = [&](const MotionState& at) {
-    return linearise_(keypoints_, map_, {at.T_odom_base, at.twist, T_base_lidar_, duration_s_, kGuessGate}, workers_)
-        .inliers;
-  };
-  MotionState best = predicted;
+  MotionState best = filter_.state();
   // Where all speeds look alike, rest is the best guess.
-  double most = 1.1 * inliers(predicted);
+  double most = 1.1 * inliers(best, kGuessGate);
   for (double speed = 1.0; speed <= 2.0 * config_.initial_speed; speed += 1.0) {
     for (const double v : {speed, -speed}) {
       Vector12 change = Vector12::Zero();
       change[0] = dt * v;
       change[6] = v;
-      const MotionState guess = predicted + change;
-      const double n = inliers(guess);
+      const MotionState guess = filter_.state() + change;
+      const double n = inliers(guess, kGuessGate);
       if (n > most) {
         most = n;
         best = guess;

@@ -77,7 +77,11 @@ class LidarOdometry {
   void take(const Scan& scan);
   void choose_keypoints();
   /// The prediction; while the speed is unknown, the forward speed that puts most points onto planes.
+  /// Where registration begins: the prediction, or what fits better where the prediction says little.
   MotionState first_guess(double dt);
+  MotionState guess_speed(double dt);
+  /// Keypoints that would lie within `gate` [m] of their planes.
+  [[nodiscard]] double inliers(const MotionState& at, double gate);
   Fit fit(const MotionState& guess, Budget& budget);
   [[nodiscard]] bool plausible(const Fit& fit, double dt) const;
   void accept(const Fit& fit);
@@ -112,6 +116,7 @@ class LidarOdometry {
   std::vector<Eigen::Vector3f> points_lidar_;
   std::vector<float> age_s_;
   double duration_s_ = 0;
+  double revolution_s_ = 0;  // the longest of the last scans; zero for scans without firing times
   std::vector<std::uint32_t> in_range_;
   std::span<const std::uint32_t> dense_points_;
   std::vector<Keypoint> keypoints_;

@@ -32,30 +32,13 @@ make_gpio() {
   [[ -c $CAIRN_TEST_GPIOCHIP && -d $CAIRN_TEST_GPIOSIM ]]
 }
 
-# What udev does on a robot: cameras get names that stay when their numbers change.
-name_cameras() {
-  mkdir -p /dev/v4l/by-id
-  /dev/shm/busybox uevent /bin/bash "$VM_PROJECT/tests/vm/hotplug.sh" >/dev/null 2>&1 &
-}
-
-# await PATH: waits until it exists, 30 s at most.
-await() {
-  local tenths
-  for ((tenths = 0; tenths < 300; ++tenths)); do
-    [[ ! -e $1 ]] || return 0
-    sleep 0.1
-  done
-  return 1
-}
-
 make_cameras() {
   local vivid
   vivid=$(grep -l '^vivid.*-vid-cap$' /sys/class/video4linux/*/name | head -n 1) && [[ -n $vivid ]] || return
   vivid=${vivid%/name}
-  name_cameras
-  "$VM_PROGRAMS/uvc_camera" plug || return
+  "$VM_PROJECT/tests/vm/camera.sh" "$VM_PROGRAMS/uvc_camera" plug || return
   export CAIRN_TEST_VIDEO=/dev/${vivid##*/} CAIRN_TEST_UVC=/dev/v4l/by-id/usb-Cairn_UVC_camera-video-index0
-  await "$CAIRN_TEST_UVC"
+  [[ -c $CAIRN_TEST_UVC ]]
 }
 
 make_devices() {

@@ -39,8 +39,9 @@ try "drive on two SJA1000" test_drive_device CAIRN_TEST_CAN=can0 CAIRN_TEST_CAN_
 try "GPIO on gpio-sim" test_gpio_device
 try "e-stop to motors" test_estop_device
 try "camera on vivid" test_camera_device CAIRN_TEST_VIDEO_EARLY=1
+camera="$VM_PROJECT/tests/vm/camera.sh $VM_PROGRAMS/uvc_camera"
 try "camera on uvcvideo" test_camera_device CAIRN_TEST_VIDEO="$CAIRN_TEST_UVC" CAIRN_TEST_VIDEO_RAMP=1 \
-  CAIRN_TEST_VIDEO_UNPLUG="$VM_PROGRAMS/uvc_camera unplug" CAIRN_TEST_VIDEO_REPLUG="$VM_PROGRAMS/uvc_camera plug" \
+  CAIRN_TEST_VIDEO_UNPLUG="$camera unplug" CAIRN_TEST_VIDEO_REPLUG="$camera plug" \
   CAIRN_TEST_VIDEO_CYCLES="$VM_CYCLES"
 # What a user does with all of them at once. The frames and edges are made meanwhile.
 record_everything() {

@@ -34,7 +34,7 @@ mount -t devpts pts /new/dev/pts
 mount -t tmpfs shm /new/dev/shm
 mount -t configfs config /new/sys/kernel/config
 ip link set lo up
-cp /job /busybox /new/dev/shm/
+cp /job /new/dev/shm/
 echo "vm: the host's root after $(cut -d ' ' -f 1 /new/proc/uptime) s"
 
 # shellcheck source=/dev/null

@@ -54,7 +54,6 @@ root=$(mktemp -d build/vm/root.XXXXXX)
 trap 'rm -rf "$root" "$root.cpio"' EXIT
 mkdir -p "$root/bin" "$root/packed"
 cp "$kernel/busybox" "$root/bin/"
-cp "$kernel/busybox" "$root/"
 cp -r "$kernel/modules" "$root/"
 cp tests/vm/init.sh "$root/init"
 printf 'export %s=%q\n' VM_PROJECT "$PWD" VM_PROGRAMS "$programs" VM_COMMAND "$command" VM_LIMIT "$limit" \
@@ -69,8 +68,8 @@ with_libraries() {  # with_libraries FILE…: those that exist, and what they ar
     ldd "$file" 2>/dev/null | sed -n 's#^[^/]*\(/[^ ]*\) .*#\1#p' || true  # a script has none
   done
 }
-with_libraries /bin/{cat,cut,env,grep,ln,readlink,rm,sed,sh,bash,sleep,tee,timeout} "$(command -v ip)" "$(command -v tc)" \
-  tests/vm/{guest,devices,hotplug}.sh "$programs"/{cairn,uvc_camera,test_*_device} |
+with_libraries /bin/{cat,cut,env,grep,ln,mkdir,readlink,rm,sed,sh,bash,sleep,tee,timeout} "$(command -v ip)" "$(command -v tc)" \
+  tests/vm/{guest,devices,camera}.sh "$programs"/{cairn,uvc_camera,test_*_device} |
   xargs -d '\n' realpath | sort -u | xargs -d '\n' cp --parents --target-directory="$root/packed"
 (cd "$root" && find . | cpio --quiet -o -H newc -R 0:0) >"$root.cpio"
 

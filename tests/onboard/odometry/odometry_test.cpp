@@ -29,6 +29,25 @@ class Ride {
     const Scan scan = lidar_.scan(world_, path_, 0.1 * count_++);
     return feed(scan);
   }
+  /// Scans that are made and never come.
+  void lose(int scans) {
+    for (int i = 0; i < scans; ++i) (void)lidar_.scan(world_, path_, 0.1 * count_++);
+  }
+  /// The last `share` of the next revolution alone, as after a pause.
+  Result<OdometryUpdate> step_with_the_end_of_a_scan(double share) {
+    const Scan whole = lidar_.scan(world_, path_, 0.1 * count_++);
+    Scan part = whole;
+    part.cloud = {};
+    part.incomplete = true;
+    const auto skipped =
+        static_cast<std::uint32_t>((1 - share) * static_cast<double>((whole.valid.end - whole.valid.start).count()));
+    part.valid.start = whole.valid.start + Duration(skipped);
+    for (std::size_t i = 0; i < whole.cloud.size(); ++i)
+      if (whole.cloud.offset_ns[i] >= skipped)
+        part.cloud.push_back(whole.cloud.xyz[i], 0, whole.cloud.offset_ns[i] - skipped, 0, ReturnType::kStrongest);
+    Budget budget = Budget::steps(12);
+    return odometry_.update(part, budget);
+  }
   OdometryUpdate feed(const Scan& scan) {
     Budget budget = Budget::steps(12);
     const auto update = odometry_.update(scan, budget);
@@ -62,6 +81,24 @@ TEST(Odometry, FollowsARideThroughALobbyToCentimetres) {
   EXPECT_LT(error.tail<3>().norm(), 0.01);
   EXPECT_FALSE(last.lost);
   EXPECT_EQ(last.degenerate_directions, 0);
+}
+
+TEST(Odometry, ATurnThatEndsWhileNoScanComesIsFollowed) {
+  for (const double rate : {-1.2, 0.9, 1.2}) {
+    const auto turning = [rate](double t) {  // gently faster for 0.8 s, then evenly, and at 1.6 s it stands at once
+      const double even = std::clamp(t, 0.8, 1.6) - 0.8, early = std::min(t, 0.8);
+      return SE3::from_xyz_rpy((Vector6() << 5, 4, 0, 0, 0, rate * (early * early / 1.6 + even)).finished());
+    };
+    Ride ride(support::lobby().world, turning);
+    OdometryUpdate last;
+    for (int i = 0; i < 15; ++i) last = ride.step();
+    ASSERT_LT(ride.error(last).norm(), 0.05) << rate;
+    ride.lose(3);  // until 1.8 s: it has been standing for 0.2 s
+    EXPECT_FALSE(ride.step_with_the_end_of_a_scan(0.3)) << "too little to find the way back with";
+    for (int i = 0; i < 5; ++i) last = ride.step();
+    EXPECT_LT(ride.error(last).tail<3>().norm(), 0.01) << rate;
+    EXPECT_LT(ride.error(last).head<3>().norm(), 0.05) << rate;
+  }
 }
 
 TEST(Odometry, StandingStillItStays) {
