@@ -77,6 +77,9 @@ void add_simulate_command(Commands& commands) {
       ->check(CLI::Range(0.1, simulator::kMaxSeconds))
       ->capture_default_str();
   sub->add_option("--seed", s.seed, "same seed, same bytes")->capture_default_str();
+  sub->add_option("--people", s.people, "how many people walk about, crossing the robots' ways")
+      ->check(CLI::Range(0, simulator::kMaxPeople))
+      ->capture_default_str();
   sub->add_option("--threads", s.threads, "changes nothing but the time it takes")
       ->check(CLI::Range(1U, 256U))
       ->capture_default_str();

@@ -50,14 +50,15 @@ std::string rmc_sentence(std::int64_t utc_s) {
 }  // namespace
 
 Lidar::Lidar(const velodyne::Model& model, const Tracer& tracer, const Trajectory& trajectory,
-             const LidarConfig& config, std::int64_t start_utc_ns, std::uint64_t seed)
+             const LidarConfig& config, std::int64_t start_utc_ns, std::uint64_t seed, const Crowd* people)
     : model_(model),
       tracer_(tracer),
       trajectory_(trajectory),
       config_(config),
       T_base_sensor_(SE3::from_xyz_rpy(config.base_sensor_xyz_rpy)),
       start_utc_ns_(start_utc_ns),
-      seed_(seed) {
+      seed_(seed),
+      people_(people) {
   Random random(seed, kClockStream);
   first_azimuth_ = random.uniform(0.0, 2.0 * kPi);
   device_start_us_ =
@@ -89,7 +90,7 @@ std::uint32_t Lidar::device_microseconds(Time t) const {
   return static_cast<std::uint32_t>(us % velodyne::kMicrosecondsPerHour);
 }
 
-int Lidar::fill(std::uint64_t n, DataPacket& packet) const {
+int Lidar::fill(std::uint64_t n, DataPacket& packet, Labels* labels) const {
   packet.fill(std::byte{0});
   const Time first = first_firing(n);
   int returns = 0;
@@ -109,6 +110,8 @@ int Lidar::fill(std::uint64_t n, DataPacket& packet) const {
           base + velodyne::kBlockReturnsOffset + static_cast<std::size_t>(slot) * velodyne::kReturnBytes;
       store_le(packet, at, echo.distance);
       store_le(packet, at + 2, echo.reflectivity);
+      if (labels != nullptr)
+        (*labels)[static_cast<std::size_t>(block * velodyne::kBlockChannels + slot)] = echo.class_id;
       returns += echo.distance != 0 ? 1 : 0;
     }
   }
@@ -125,7 +128,10 @@ Lidar::Echo Lidar::shoot(Time t, std::size_t channel, std::uint64_t shot) const 
                                   beam.sin_elevation);
   const SE3 T_world_sensor = trajectory_.T_world_base(t) * T_base_sensor_;
   const Ray ray{T_world_sensor * Eigen::Vector3d(0, 0, beam.vertical_offset), T_world_sensor.quaternion() * direction};
-  const auto hit = tracer_.trace(ray, 0.01, config_.max_range_m);
+  auto hit = tracer_.trace(ray, 0.01, config_.max_range_m);
+  if (people_ != nullptr) {
+    if (const auto body = people_->trace(ray, t, hit ? hit->distance : config_.max_range_m)) hit = body;
+  }
   return hit && hit->distance >= config_.min_range_m ? receive(*hit, shot) : Echo{};
 }
 
@@ -145,7 +151,8 @@ Lidar::Echo Lidar::receive(const Hit& hit, std::uint64_t shot) const {
   const double brightness = 100.0 * surface.reflectivity * (surface.reflectivity > 1.0 ? 1.0 : 0.4 + 0.6 * lit);
   const double reported = brightness + config_.intensity_noise * intensity_noise;
   const double highest = surface.reflectivity > 1.0 ? 255.0 : 100.0;
-  return {static_cast<std::uint16_t>(raw), static_cast<std::uint8_t>(std::lround(std::clamp(reported, 0.0, highest)))};
+  return {static_cast<std::uint16_t>(raw), static_cast<std::uint8_t>(std::lround(std::clamp(reported, 0.0, highest))),
+          surface.class_id};
 }
 
 void Lidar::fill_position(Time t, PositionPacket& packet) const {

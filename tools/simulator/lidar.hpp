@@ -4,10 +4,12 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 
 #include "drivers/velodyne/models.hpp"
 #include "hal/se3.hpp"
 #include "hal/time.hpp"
+#include "tools/simulator/people/crowd.hpp"
 #include "tools/simulator/tracer.hpp"
 #include "tools/simulator/trajectory.hpp"
 
@@ -32,15 +34,19 @@ struct LidarConfig {
 /// offset. Not modelled: the width of the beam (returns from edges mix two distances), rain, other sensors.
 class Lidar {
  public:
-  /// `model`, `tracer` and `trajectory` must outlive it. `start_utc_ns` is the wall time at the trajectory's start.
+  /// `model`, `tracer`, `trajectory` and `people` (where there are any) must outlive it. `start_utc_ns` is the wall
+  /// time at the trajectory's start.
   Lidar(const velodyne::Model& model, const Tracer& tracer, const Trajectory& trajectory, const LidarConfig& config,
-        std::int64_t start_utc_ns, std::uint64_t seed);
+        std::int64_t start_utc_ns, std::uint64_t seed, const Crowd* people = nullptr);
 
   using DataPacket = std::array<std::byte, velodyne::kDataBytes>;
   using PositionPacket = std::array<std::byte, velodyne::kPositionBytes>;
 
-  /// The n-th data packet; returns how many lasers got a return.
-  int fill(std::uint64_t n, DataPacket& packet) const;
+  /// True trainIds of a data packet's returns, in the packet's order; kIgnoredClass where nothing returned.
+  using Labels = std::array<std::uint8_t, velodyne::kBlocks * velodyne::kBlockChannels>;
+
+  /// The n-th data packet; returns how many lasers got a return. Fills `labels` where given.
+  int fill(std::uint64_t n, DataPacket& packet, Labels* labels = nullptr) const;
   [[nodiscard]] Time first_firing(std::uint64_t n) const;
   /// When packet n reaches the computer.
   [[nodiscard]] Time arrival(std::uint64_t n) const;
@@ -52,6 +58,7 @@ class Lidar {
   struct Echo {
     std::uint16_t distance = 0;
     std::uint8_t reflectivity = 0;
+    std::uint8_t class_id = kIgnoredClass;
   };
   struct Beam {  // what of a laser does not change while it turns
     double cos_elevation = 1, sin_elevation = 0, vertical_offset = 0, rotation_correction = 0;
@@ -69,6 +76,7 @@ class Lidar {
   SE3 T_base_sensor_;
   std::int64_t start_utc_ns_;
   std::uint64_t seed_;
+  const Crowd* people_;
   double first_azimuth_;          // radians, at the start
   std::int64_t device_start_us_;  // the sensor's free-running counter at the start
   std::array<Beam, velodyne::kBlockChannels> beams_{};

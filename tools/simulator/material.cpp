@@ -6,11 +6,12 @@
 namespace cairn::simulator {
 namespace {
 
-constexpr std::uint8_t kRoad = 0, kSidewalk = 1, kBuilding = 2, kWall = 3, kPoleClass = 5, kSign = 7, kVegetation = 8,
-                       kTerrain = 9, kCar = 13, kIgnore = 255;
+constexpr std::uint8_t kRoad = 0, kSidewalk = 1, kBuilding = 2, kWall = 3, kFenceClass = 4, kPoleClass = 5, kLight = 6,
+                       kSign = 7, kVegetation = 8, kTerrain = 9, kCar = 13, kTruck = 14, kBus = 15,
+                       kMotorcycleClass = 17, kBicycleClass = 18, kIgnore = kIgnoredClass;
 
 // In the order of the enum. A mirror-like lobe of 400 lets glass answer within a few degrees of the normal only.
-constexpr std::array<MaterialProperties, 25> kTable{{
+constexpr std::array<MaterialProperties, kMaterials> kTable{{
     {kWall, 0.75},             // plaster
     {kBuilding, 0.40},         // concrete
     {kBuilding, 0.80},         // ceiling
@@ -36,8 +37,29 @@ constexpr std::array<MaterialProperties, 25> kTable{{
     {kVegetation, 0.35},       // bark
     {kVegetation, 0.45},       // leaves
     {kTerrain, 0.35},          // rock
+    {kTerrain, 0.50},          // grass
+    {kSidewalk, 0.40},         // pavement
+    {kRoad, 0.65},             // road paint
+    {kBuilding, 0.45},         // brick
+    {kBuilding, 0.70},         // render
+    {kBuilding, 0.35},         // roof tile
+    {kBuilding, 0.25, 300.0},  // window
+    {kWall, 0.40},             // stone wall
+    {kFenceClass, 0.40},       // fence
+    {kLight, 0.25},            // traffic light
+    {kBus, 0.55},              // bus paint
+    {kTruck, 0.60},            // truck paint
+    {kTruck, 0.50},            // tarpaulin
+    {kBicycleClass, 0.30},     // bicycle
+    {kMotorcycleClass, 0.25},  // motorcycle
+    {kCar, 0.25, 300.0},       // vehicle glass
+    {kPersonClass, 0.55},      // skin
+    {kPersonClass, 0.15},      // hair
+    {kPersonClass, 0.30},      // dark clothes: cotton is brighter at 905 nm than it looks
+    {kPersonClass, 0.45},      // blue clothes
+    {kPersonClass, 0.50},      // red clothes
+    {kPersonClass, 0.75},      // light clothes
 }};
-static_assert(kTable.size() == static_cast<std::size_t>(Material::kRock) + 1);
 
 }  // namespace
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 
 namespace cairn::simulator {
@@ -31,6 +32,30 @@ enum class Material : std::uint8_t {
   kBark,
   kLeaves,
   kRock,
+  // outdoors
+  kGrass,
+  kPavement,
+  kRoadPaint,
+  kBrick,
+  kRender,
+  kRoofTile,
+  kWindow,
+  kStoneWall,
+  kFence,
+  kTrafficLight,
+  kBusPaint,
+  kTruckPaint,
+  kTarpaulin,
+  kBicycle,
+  kMotorcycle,
+  kVehicleGlass,
+  // people
+  kSkin,
+  kHair,
+  kClothesDark,
+  kClothesBlue,
+  kClothesRed,
+  kClothesLight,
 };
 
 /// What a sensor sees of a surface.
@@ -39,6 +64,9 @@ struct MaterialProperties {
   double reflectivity;  ///< at 905 nm: 0…1 diffuse; 1…2.55 retro-reflecting, as the VLP-16 scales its reflectivity byte
   double lobe = 1.0;  ///< the return falls with cos(incidence)^lobe: 1 = Lambertian, hundreds = mirror-like
 };
+
+inline constexpr std::size_t kMaterials = static_cast<std::size_t>(Material::kClothesLight) + 1;
+inline constexpr std::uint8_t kSkyClass = 10, kPersonClass = 11, kIgnoredClass = 255;
 
 [[nodiscard]] const MaterialProperties& properties(Material material);
 

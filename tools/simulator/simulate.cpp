@@ -20,7 +20,7 @@ namespace fs = std::filesystem;
 
 constexpr Time kStart = Time(std::chrono::seconds(10));          // of every recording's own time line
 constexpr std::int64_t kFirstDayNs = 1'780'293'600'000'000'000;  // 2026-06-01T06:00:00Z
-constexpr std::uint64_t kDaytimeStream = 20, kDriveStream = 21, kLidarStream = 22;
+constexpr std::uint64_t kDaytimeStream = 20, kDriveStream = 21, kLidarStream = 22, kPeopleStream = 23;
 constexpr std::size_t kBatch = 512;           // packets that are traced at a time
 constexpr std::uint64_t kPositionEvery = 14;  // data packets per position packet, as a real sensor sends them
 
@@ -29,7 +29,8 @@ struct Stage {
   World world;
   FloorPlan plan;
   Tracer tracer;
-  std::vector<Path> paths;
+  std::vector<Trajectory> trajectories;
+  Crowd people;
   std::string world_ot;
   std::int64_t start_utc_ns;
 };
@@ -37,6 +38,7 @@ struct Stage {
 Result<void> check(const SimulationConfig& config) {
   Error error{Errc::kInvalidConfig, "cannot simulate that", "simulate", {}, ""};
   if (config.robots < 1 || config.robots > kMaxRobots) error.detail += "robots must be 1 to 16; ";
+  if (config.people < 0 || config.people > kMaxPeople) error.detail += "people must be 0 to 50; ";
   if (!(config.seconds > 0 && config.seconds <= kMaxSeconds)) error.detail += "seconds must be above 0, at most 3600; ";
   if (config.out.empty()) error.detail += "no output folder given; ";
   if (!error.detail.empty()) return error;
@@ -70,6 +72,16 @@ std::string true_map(const World& world, const std::vector<Path>& paths) {
   return std::move(text).str();
 }
 
+std::vector<Trajectory> drive_all(const SimulationConfig& config, const World& world, const FloorPlan& plan,
+                                  const std::vector<Path>& paths) {
+  std::vector<Trajectory> all;
+  for (std::size_t robot = 0; robot < paths.size(); ++robot) {
+    all.push_back(drive(world, plan, paths[robot], kStart, from_seconds(config.seconds), config.drive,
+                        mix(mix(config.seed ^ kDriveStream) + robot)));
+  }
+  return all;
+}
+
 Result<Stage> set_up(const SimulationConfig& config) {
   auto world = make_world(config.scene);
   if (!world) {
@@ -83,9 +95,17 @@ Result<Stage> set_up(const SimulationConfig& config) {
   auto paths = RoutePlanner(*world, plan, config.seed).plan(config.robots, config.drive.speed * config.seconds + 2.0);
   if (!paths) return paths.error();
   std::string world_ot = true_map(*world, *paths);
+  auto trajectories = drive_all(config, *world, plan, *paths);
+  Crowd people;
+  if (config.people > 0) people = Crowd(*world, plan, trajectories, config.people, mix(config.seed ^ kPeopleStream));
   const auto second = static_cast<std::int64_t>(Random(config.seed, kDaytimeStream).below(12 * 3600));
-  return Stage{std::move(*world), std::move(plan),     std::move(*tracer),
-               std::move(*paths), std::move(world_ot), kFirstDayNs + second * 1'000'000'000};
+  return Stage{std::move(*world),
+               std::move(plan),
+               std::move(*tracer),
+               std::move(trajectories),
+               std::move(people),
+               std::move(world_ot),
+               kFirstDayNs + second * 1'000'000'000};
 }
 
 recording::Recording describe(const SimulationConfig& config, const Stage& stage, const std::string& robot) {
@@ -159,13 +179,16 @@ class LidarRecorder {
   Packet packet_;
 };
 
-Result<void> write_truth(const fs::path& dir, const Trajectory& trajectory, const std::string& world_ot) {
+Result<void> write_truth(const fs::path& dir, const Trajectory& trajectory, const Stage& stage) {
   std::vector<recording::StampedPose> poses;
   for (std::size_t i = 0; i < trajectory.knots().size(); ++i) {
     poses.push_back({trajectory.knot_time(i), SE3::from_xyz_rpy(trajectory.knots()[i])});
   }
   if (auto written = recording::write_tum(dir / "ground_truth.tum", poses); !written) return written;
-  return write_file_atomic(dir / "world.ot", world_ot);
+  if (stage.people.size() > 0) {
+    if (auto written = write_file_atomic(dir / "people.csv", stage.people.to_csv()); !written) return written;
+  }
+  return write_file_atomic(dir / "world.ot", stage.world_ot);
 }
 
 double least_clearance(const FloorPlan& plan, const Trajectory& trajectory) {
@@ -179,8 +202,7 @@ double least_clearance(const FloorPlan& plan, const Trajectory& trajectory) {
 Result<RobotSummary> run_robot(const SimulationConfig& config, const Stage& stage, std::size_t robot, Workers& workers,
                                const fs::path& dir, const Progress& progress) {
   const Duration duration = from_seconds(config.seconds);
-  const Trajectory trajectory = drive(stage.world, stage.plan, stage.paths[robot], kStart, duration, config.drive,
-                                      mix(mix(config.seed ^ kDriveStream) + robot));
+  const Trajectory& trajectory = stage.trajectories[robot];
   RobotSummary summary;
   summary.name = dir.filename().string();
   summary.distance_m = trajectory.length();
@@ -191,12 +213,12 @@ Result<RobotSummary> run_robot(const SimulationConfig& config, const Stage& stag
   auto writer = recording::RecordingWriter::create(dir, describe(config, stage, summary.name));
   if (!writer) return writer.error();
   const Lidar lidar(*velodyne::find_model("VLP-16"), stage.tracer, trajectory, config.lidar, stage.start_utc_ns,
-                    mix(mix(config.seed ^ kLidarStream) + robot));
+                    mix(mix(config.seed ^ kLidarStream) + robot), config.people > 0 ? &stage.people : nullptr);
   if (auto recorded = LidarRecorder(lidar, workers, *writer, summary).record(kStart + duration, progress); !recorded) {
     return recorded.error();
   }
   if (auto closed = writer->close(); !closed) return closed.error();
-  if (auto truth = write_truth(dir, trajectory, stage.world_ot); !truth) return truth.error();
+  if (auto truth = write_truth(dir, trajectory, stage); !truth) return truth.error();
   return summary;
 }
 
@@ -210,7 +232,7 @@ Result<std::vector<RobotSummary>> simulate(const SimulationConfig& config, const
   if (auto made = make(config.out); !made) return made.error();
   Workers workers(config.threads);
   std::vector<RobotSummary> summaries;
-  for (std::size_t robot = 0; robot < stage->paths.size(); ++robot) {
+  for (std::size_t robot = 0; robot < stage->trajectories.size(); ++robot) {
     const fs::path dir = config.out / ("robot_" + std::to_string(robot + 1));
     const auto share = [&](double done) {
       if (progress) progress((static_cast<double>(robot) + done) / config.robots);

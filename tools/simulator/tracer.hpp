@@ -2,8 +2,10 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "hal/result.hpp"
@@ -22,6 +24,13 @@ struct Hit {
   Material material{};
 };
 
+/// What a camera's ray meets.
+struct Surface {
+  double distance = std::numeric_limits<double>::infinity();  ///< m; infinite: nothing, the sky
+  Eigen::Vector3d normal{0, 0, 0};                            ///< unit length, towards the ray's origin
+  Material material{};
+};
+
 /// Finds what a ray hits first. Embree finds the triangle; the distance is then computed in double precision from that
 /// triangle, so no digit of it depends on the vector units of the machine. Safe to call from several threads at once.
 class Tracer {
@@ -31,6 +40,13 @@ class Tracer {
 
   /// Distances in [min_distance, max_distance], metres; null when nothing is there.
   [[nodiscard]] std::optional<Hit> trace(const Ray& ray, double min_distance, double max_distance) const;
+
+  /// The same for many rays from one point, four at a time: for pictures, where neighbours see much the same.
+  /// `directions` have unit length; `out` is as long.
+  void trace(const Eigen::Vector3d& origin, std::span<const Eigen::Vector3d> directions, double max_distance,
+             std::span<Surface> out) const;
+  /// Whether anything lies between `from` and `max_distance` in `direction` (unit length).
+  [[nodiscard]] bool blocked(const Eigen::Vector3d& from, const Eigen::Vector3d& direction, double max_distance) const;
 
  private:
   struct Embree;

@@ -7,7 +7,7 @@ namespace cairn::simulator {
 namespace {
 
 TEST(Material, PropertiesArePhysicalAndClassesExist) {
-  for (int i = 0; i <= static_cast<int>(Material::kRock); ++i) {
+  for (int i = 0; i < static_cast<int>(kMaterials); ++i) {
     const MaterialProperties& p = properties(static_cast<Material>(i));
     EXPECT_GE(p.reflectivity, 0.0) << i;
     EXPECT_LE(p.reflectivity, 2.55) << i;
@@ -24,6 +24,10 @@ TEST(Material, TableIsInTheOrderOfTheEnum) {
   EXPECT_EQ(properties(Material::kCarPaintDark).class_id, 13);
   EXPECT_EQ(properties(Material::kLeaves).class_id, 8);
   EXPECT_EQ(properties(Material::kRock).class_id, 9);
+  EXPECT_EQ(properties(Material::kTrafficLight).class_id, 6);
+  EXPECT_EQ(properties(Material::kTruckPaint).class_id, 14);
+  EXPECT_EQ(properties(Material::kVehicleGlass).class_id, 13);
+  EXPECT_EQ(properties(Material::kClothesLight).class_id, kPersonClass);
 }
 
 }  // namespace

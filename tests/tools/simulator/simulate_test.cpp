@@ -90,6 +90,24 @@ TEST_F(Simulate, AnotherSeedGivesOtherPathsAndNoiseInTheSameWorld) {
   EXPECT_EQ(bytes("a/robot_1/world.ot"), bytes("b/robot_1/world.ot"));
 }
 
+TEST_F(Simulate, PeopleAreSeenByTheLidarAndToldInACsv) {
+  SimulationConfig crowded = config("crowded");
+  crowded.people = 5;
+  crowded.threads = 2;
+  SimulationConfig again = crowded;
+  again.out = dir_ / "again";
+  again.threads = 1;
+  ASSERT_TRUE(simulate(crowded));
+  ASSERT_TRUE(simulate(again));
+  ASSERT_TRUE(simulate(config("empty")));
+  EXPECT_EQ(bytes("crowded/robot_1/lidar.pcap"), bytes("again/robot_1/lidar.pcap"));
+  EXPECT_EQ(bytes("crowded/robot_1/people.csv"), bytes("again/robot_1/people.csv"));
+  EXPECT_NE(bytes("crowded/robot_1/lidar.pcap"), bytes("empty/robot_1/lidar.pcap"));
+  EXPECT_EQ(bytes("crowded/robot_1/ground_truth.tum"), bytes("empty/robot_1/ground_truth.tum"));
+  EXPECT_EQ(bytes("crowded/robot_1/world.ot"), bytes("empty/robot_1/world.ot"));
+  EXPECT_FALSE(fs::exists(dir_ / "empty/robot_1/people.csv"));
+}
+
 TEST_F(Simulate, TellsItsProgress) {
   std::vector<double> told;
   ASSERT_TRUE(simulate(config("out"), [&](double done) { told.push_back(done); }));

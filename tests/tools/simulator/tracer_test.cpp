@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "tools/simulator/random.hpp"
+#include "tools/simulator/world.hpp"
 
 namespace cairn::simulator {
 namespace {
@@ -104,6 +105,36 @@ TEST(Tracer, LeaksNowhereBetweenTriangles) {
           tracer->trace({{0.1, 0.2, 0.3}, (target.cast<double>() - Vector3d(0.1, 0.2, 0.3)).normalized()}, 0.01, 100));
     }
   }
+}
+
+TEST(Tracer, ManyRaysAtOnceSeeWhatEachSees) {
+  const auto world = make_world("lobby");
+  ASSERT_TRUE(world);
+  const auto tracer = Tracer::build(world->mesh);
+  ASSERT_TRUE(tracer);
+  const Vector3d eye = world->bounds.center();
+  std::vector<Vector3d> directions;
+  Random random(4);
+  for (int i = 0; i < 4001; ++i) {  // no multiple of the packets' size
+    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
+    directions.push_back(Vector3d(x, y, z).normalized());
+  }
+  std::vector<Surface> seen(directions.size());
+  tracer->trace(eye, directions, 100, seen);
+  int different = 0, hits = 0;
+  for (std::size_t i = 0; i < seen.size(); ++i) {
+    const auto alone = tracer->trace(Ray{eye, directions[i]}, 1e-3, 100);
+    if (!alone) continue;
+    ++hits;
+    // Where two surfaces touch either may be named.
+    different += std::abs(seen[i].distance - alone->distance) > 1e-6 || seen[i].material != alone->material ? 1 : 0;
+    EXPECT_LE(seen[i].normal.dot(directions[i]), 0);
+    const Vector3d near = eye + (seen[i].distance - 1e-3) * directions[i];
+    EXPECT_TRUE(tracer->blocked(eye, directions[i], seen[i].distance + 1e-2));
+    EXPECT_TRUE(tracer->blocked(near, directions[i], 0.1));
+  }
+  EXPECT_GT(hits, 3500);
+  EXPECT_LT(different, 8);
 }
 
 }  // namespace

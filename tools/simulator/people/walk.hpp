@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "tools/simulator/path.hpp"
+#include "tools/simulator/people/crowd.hpp"
+#include "tools/simulator/random.hpp"
+
+namespace cairn::simulator {
+
+/// Somebody on the way. All walkers of a crowd advance together, step by step.
+class Walker {
+ public:
+  /// Starts near where `robots[number % robots]` starts, at a place where there is room.
+  Walker(const FloorPlan& plan, std::span<const Trajectory> robots, std::uint64_t number, double height,
+         std::uint64_t seed);
+
+  [[nodiscard]] const Stride& stride() const { return stride_; }
+  [[nodiscard]] double pace() const { return pace_; }  ///< m/s, where nothing is in the way
+
+  /// One step of `dt` seconds from time `t`; `others` are the places of all walkers, this one's at `self`.
+  void step(Time t, double dt, std::span<const Eigen::Vector2d> others, std::size_t self);
+
+ private:
+  void choose_goal(Time t);
+  [[nodiscard]] Eigen::Vector2d ahead();
+  [[nodiscard]] Eigen::Vector2d wish(Time t, std::span<const Eigen::Vector2d> others, std::size_t self);
+  void turn(double dt);
+
+  const FloorPlan& plan_;
+  std::span<const Trajectory> robots_;
+  std::size_t robot_;
+  double height_, pace_;
+  Random random_;
+  Stride stride_;
+  Path path_;
+  std::size_t next_ = 0;
+  Time patience_{};  // another goal is chosen then
+};
+
+}  // namespace cairn::simulator
