@@ -52,7 +52,7 @@ constexpr std::array<MaterialProperties, kMaterials> kTable{{
     {kTruck, 0.50},            // tarpaulin
     {kBicycleClass, 0.30},     // bicycle
     {kMotorcycleClass, 0.25},  // motorcycle
-    {kCar, 0.25, 300.0},       // vehicle glass
+    {kCar, 0.30, 400.0},       // vehicle glass: as other glass
     {kPersonClass, 0.55},      // skin
     {kPersonClass, 0.15},      // hair
     {kPersonClass, 0.30},      // dark clothes: cotton is brighter at 905 nm than it looks

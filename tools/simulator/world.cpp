@@ -12,11 +12,12 @@ struct Scene {
   const char* name;
   World (*make)();
 };
-constexpr std::array<Scene, 5> kScenes{{{"corridor", scenes::corridor},
+constexpr std::array<Scene, 6> kScenes{{{"corridor", scenes::corridor},
                                         {"lobby", scenes::lobby},
                                         {"office", scenes::office},
                                         {"carpark", scenes::carpark},
-                                        {"forest", scenes::forest}}};
+                                        {"forest", scenes::forest},
+                                        {"street", scenes::street}}};
 
 /// Scenes are drawn in whole centimetres. Real walls do not stand on the faces of somebody's 0.1 m voxels, where
 /// rounding alone decides which voxel is hit; moved by this, neither do these.

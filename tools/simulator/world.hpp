@@ -19,6 +19,7 @@ struct World {
   std::string name;
   Mesh mesh;
   Eigen::AlignedBox3d bounds;                    ///< of the mesh
+  bool open_air = false;                         ///< sun and sky instead of lamps
   Eigen::Vector3d inner_size{0, 0, 0};           ///< clear length, width, height of the hall, building or plot
   std::vector<Eigen::Vector2d> places;           ///< where robots may start and go
   std::function<double(double, double)> ground;  ///< height of what the wheels stand on, smooth in x and y

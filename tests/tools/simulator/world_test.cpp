@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstring>
+#include <set>
 
 #include "tools/simulator/drive.hpp"
 #include "tools/simulator/floor_plan.hpp"
@@ -105,6 +106,16 @@ TEST(World, CorridorTellsNothingAboutItsLongAxis) {
 TEST(World, OfficeHasManyAlikeRooms) {
   // Each open room adds one place to the 27 of the corridors.
   EXPECT_GE(make_world("office")->places.size() - 27, 40u);
+}
+
+TEST(World, StreetHasMostOfCityscapesClasses) {
+  std::set<int> classes;
+  const World world = *make_world("street");
+  for (const Triangle& t : world.mesh.triangles()) classes.insert(properties(t.material).class_id);
+  classes.erase(kIgnoredClass);
+  EXPECT_GE(classes.size(), 14u);
+  for (const int promised : {0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 13, 14, 15, 17, 18})
+    EXPECT_EQ(classes.count(promised), 1u) << promised;
 }
 
 TEST(World, ForestHasASlope) {

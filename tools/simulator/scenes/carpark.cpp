@@ -4,6 +4,7 @@
 #include "tools/simulator/random.hpp"
 #include "tools/simulator/scenes/furniture.hpp"
 #include "tools/simulator/scenes/scenes.hpp"
+#include "tools/simulator/scenes/vehicles.hpp"
 
 namespace cairn::simulator::scenes {
 namespace {
@@ -11,32 +12,6 @@ namespace {
 constexpr double kLength = 48.0, kWidth = 32.0, kHeight = 2.8;
 constexpr double kBay = 2.5, kFirstBay = 0.5;
 constexpr double kPi = std::numbers::pi;
-
-enum class CarKind { kSedan, kHatchback, kVan };
-
-/// The front is at +x.
-void car(Mesh& m, const Placement& p, CarKind kind, Material paint) {
-  const bool van = kind == CarKind::kVan;
-  const double length = van ? 4.9 : kind == CarKind::kSedan ? 4.6 : 3.9, width = van ? 1.9 : 1.75;
-  const double waist = van ? 1.05 : 0.88, height = van ? 1.95 : 1.45;
-  const double cabin = van ? 0.8 * length : kind == CarKind::kSedan ? 0.55 * length : 0.66 * length;
-  const double cabin_at = van ? -0.35 : kind == CarKind::kSedan ? -0.1 : -0.45;
-  m.frustum(p.at(0, 0, 0.22), length, width, length - 0.15, width - 0.08, 0, waist - 0.22, paint);
-  m.frustum(p.at(cabin_at, 0, waist), cabin, width - 0.12, 0.68 * cabin, width - 0.42, -0.1, height - waist - 0.02,
-            Material::kGlass);
-  m.box(p.at(cabin_at - 0.1, 0, height - 0.03), 0.66 * cabin, width - 0.44, 0.04, paint);
-  for (const double x : {-0.31, 0.31}) {
-    for (const double y : {-0.5, 0.5}) {
-      m.wheel(p.at(x * length, y * (width - 0.18), 0.31), 0.31, 0.21, Material::kTyre);
-    }
-  }
-  for (const double end : {-0.5, 0.5}) {
-    m.box(p.at(end * (length + 0.01), 0, 0.45), 0.03, 0.52, 0.11, Material::kRetroreflector);
-  }
-  for (const double side : {-0.5, 0.5}) {
-    m.box(p.at(0.22 * length, side * (width + 0.16), waist), 0.12, 0.18, 0.12, paint);
-  }
-}
 
 /// Bays along x at `y`; cars stand nose in (towards +y when `nose` is +1).
 void bays(Mesh& m, double x0, double x1, double y, double nose, Random& random) {

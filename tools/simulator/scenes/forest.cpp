@@ -144,6 +144,7 @@ World forest() {
   world.inner_size = {kSize, kSize, m.bounds().sizes().z()};
   world.places = clearings(obstacles, 1.25);
   world.ground = hillside;
+  world.open_air = true;
   return world;
 }
 

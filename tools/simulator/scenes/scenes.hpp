@@ -17,5 +17,8 @@ namespace cairn::simulator::scenes {
 [[nodiscard]] World carpark();
 /// 60 × 60 m of sloping, undulating forest floor with trees, bushes, rocks and fallen logs.
 [[nodiscard]] World forest();
+/// 80 × 56 m of a town in the open air: a street between houses with everything that is parked and stands there, and a
+/// campus green with paths, trees, fence and wall. 17 of the 19 Cityscapes classes, people included.
+[[nodiscard]] World street();
 
 }  // namespace cairn::simulator::scenes
