@@ -72,8 +72,9 @@ void transform_line(std::vector<double>& f, std::vector<int>& v, std::vector<dou
 
 }  // namespace
 
-FloorPlan::FloorPlan(const World& world)
-    : origin_(world.bounds.min().head<2>()),
+FloorPlan::FloorPlan(const World& world, const ObstacleBand& band)
+    : band_(band),
+      origin_(world.bounds.min().head<2>()),
       width_(static_cast<int>(std::ceil(world.bounds.sizes().x() / kCell))),
       height_(static_cast<int>(std::ceil(world.bounds.sizes().y() / kCell))) {
   std::vector<bool> obstacle(index(0, height_));
@@ -95,7 +96,7 @@ void FloorPlan::mark(const World& world, const Triangle& t, std::vector<bool>& o
   Polygon polygon{t.a.cast<double>(), t.b.cast<double>(), t.c.cast<double>()};
   const Vector3d middle = (polygon[0] + polygon[1] + polygon[2]) / 3.0;
   const double ground = world.ground(middle.x(), middle.y());
-  polygon = clip(clip(polygon, ground + Body::kObstacleLow, 1), ground + Body::kObstacleHigh, -1);
+  polygon = clip(clip(polygon, ground + band_.low, 1), ground + band_.high, -1);
   if (polygon.empty()) return;
   Eigen::AlignedBox2d box;
   for (const Vector3d& p : polygon) box.extend(p.head<2>());

@@ -17,13 +17,18 @@ struct Body {
   static constexpr double kObstacleLow = 0.10, kObstacleHigh = 1.10;  ///< above the ground: what can be hit
 };
 
+/// What is between these heights above the ground, in metres, is an obstacle.
+struct ObstacleBand {
+  double low = Body::kObstacleLow, high = Body::kObstacleHigh;
+};
+
 /// The world as a robot on the ground sees it: cells of kCell metres and, for each, the distance to the nearest
 /// obstacle or to the edge of the world.
 class FloorPlan {
  public:
   static constexpr double kCell = 0.05;
 
-  explicit FloorPlan(const World& world);
+  explicit FloorPlan(const World& world, const ObstacleBand& band = {});
 
   /// Distance to the nearest obstacle in metres, within a cell's diagonal; 0 in obstacles and outside of the world.
   [[nodiscard]] double clearance(const Eigen::Vector2d& p) const;
@@ -45,6 +50,7 @@ class FloorPlan {
   void mark(const World& world, const Triangle& triangle, std::vector<bool>& obstacle) const;
   void measure(const std::vector<bool>& obstacle);
 
+  ObstacleBand band_;
   Eigen::Vector2d origin_;
   int width_ = 0, height_ = 0;
   std::vector<float> clearance_;

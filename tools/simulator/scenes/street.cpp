@@ -143,6 +143,7 @@ World street() {
   along_the_road(m);
   green(m);
   world.open_air = true;
+  world.flight = {2.0, 4.0};
   world.inner_size = {kEast - kWest, kNorthFront - kSouthFront, 11.2};
   world.places = meeting_places();
   world.ground = level;

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/simulator/sensors/view.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cairn::simulator {
+
+using Eigen::Vector3d;
+
+namespace {
+
+/// From the world into the frame of where somebody stands.
+Vector3d into(const Placement& stand, const Vector3d& p) {
+  const double c = std::cos(stand.yaw), s = std::sin(stand.yaw);
+  const double x = p.x() - stand.x, y = p.y() - stand.y;
+  return {c * x + s * y, c * y - s * x, p.z() - stand.z};
+}
+
+}  // namespace
+
+Vector3d Lens::direction(int u, int v) const {
+  return Vector3d(1.0, -(u + 0.5 - cx) / fx, -(v + 0.5 - cy) / fy).normalized();
+}
+
+bool Instant::sunlit(const Vector3d& from, const Vector3d& normal, const Vector3d& sun) const {
+  const Ray ray{from + 2e-3 * normal, sun};
+  return !tracer.blocked(ray.origin, sun, kSight) && !trace(people, ray, kSight);
+}
+
+void look(const Instant& instant, const Lens& lens, const SE3& T_world_camera, int row, std::span<Sighting> out) {
+  const Vector3d eye = T_world_camera.translation();
+  const Eigen::Matrix3d turn = T_world_camera.quaternion().toRotationMatrix();
+  std::vector<Vector3d> directions(out.size());
+  for (std::size_t u = 0; u < out.size(); ++u) directions[u] = turn * lens.direction(static_cast<int>(u), row);
+  std::vector<Surface> surfaces(out.size());
+  instant.tracer.trace(eye, directions, kSight, surfaces);
+  for (std::size_t u = 0; u < out.size(); ++u) {
+    Sighting& s = out[u];
+    s = {surfaces[u].distance, directions[u], eye, eye, surfaces[u].normal, surfaces[u].material, -1};
+    const auto body = trace(instant.people, {eye, directions[u]}, std::min(s.distance, kSight));
+    if (body) {
+      s.distance = body->distance;
+      s.normal = body->normal;
+      s.material = body->part->material;
+      s.person = body->figure->person;
+    }
+    if (s.sky()) continue;
+    s.point = eye + s.distance * s.direction;
+    s.pattern = body ? into(body->figure->stand, s.point) : s.point;
+  }
+}
+
+}  // namespace cairn::simulator

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/simulator/sensors/warmth.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tools/simulator/random.hpp"
+#include "tools/simulator/sensors/look.hpp"
+
+namespace cairn::simulator {
+namespace {
+
+/// Kelvins above the air: `shade` by day, `sun` more where it shines squarely, `night` after sunset.
+struct Warmth {
+  double shade, sun, night, emissivity;
+};
+
+Warmth warmth(Material material) {
+  switch (material) {
+    case Material::kAsphalt:
+    case Material::kRoadPaint:
+      return {3.0, 20.0, 4.0, 0.95};
+    case Material::kBrick:
+    case Material::kStoneWall:
+    case Material::kConcrete:
+    case Material::kRoofTile:
+    case Material::kRender:
+    case Material::kPavement:
+    case Material::kKerb:
+    case Material::kRock:
+      return {1.0, 15.0, 3.0, 0.93};
+    case Material::kGrass:
+    case Material::kLeaves:
+    case Material::kBark:
+    case Material::kSoil:
+      return {-1.0, 5.0, -1.5, 0.97};
+    case Material::kWindow:
+    case Material::kGlass:
+    case Material::kVehicleGlass:
+    case Material::kDarkGlass:
+      return {0.5, 4.0, 2.0, 0.85};
+    case Material::kCarPaintLight:
+    case Material::kCarPaintDark:
+    case Material::kBusPaint:
+    case Material::kTruckPaint:
+    case Material::kMotorcycle:
+      return {1.0, 17.0, -3.0, 0.90};
+    case Material::kMetal:
+    case Material::kPole:
+    case Material::kRetroreflector:
+    case Material::kTrafficLight:
+    case Material::kBicycle:
+      return {0.5, 9.0, -2.0, 0.80};
+    case Material::kScreen:
+      return {7.0, 0.0, 7.0, 0.92};
+    default:
+      return {0.0, 8.0, 0.0, 0.94};
+  }
+}
+
+/// Skin 34.5 °C, the face warmest; clothes halfway to the air; hair between.
+double body_celsius(const Sighting& s, const Climate& climate) {
+  const double each = Random(7, static_cast<std::uint64_t>(s.person)).uniform(-0.6, 0.6);
+  const double cover = 0.4 * (value_noise(s.pattern / 0.12) - 0.5);
+  if (s.material == Material::kSkin) return 34.6 + each + cover;
+  const double share = s.material == Material::kHair ? 0.6 : 0.5;
+  return climate.air_c + share * (33.0 - climate.air_c) + each + 3.0 * cover;
+}
+
+double own_celsius(const Sighting& s, const Climate& climate, const Instant& instant, const Warmth& w) {
+  const bool sunlit = climate.may_be_sunlit(s.normal) && instant.sunlit(s.point, s.normal, climate.sun);
+  const double sun = sunlit ? s.normal.dot(climate.sun) : 0.0;
+  if (s.person >= 0) return body_celsius(s, climate) + (s.material == Material::kSkin ? 0.5 : 5.0) * sun;
+  const double rough = 0.8 * (value_noise(s.pattern / 0.4) - 0.5);
+  const double base = climate.open_air ? (climate.night ? w.night : w.shade) : 0.3 * w.shade;
+  return climate.air_c + base + w.sun * sun + rough;
+}
+
+double fourth(double celsius) { return std::pow(celsius + 273.15, 4); }
+
+}  // namespace
+
+double apparent_celsius(const Sighting& s, const Climate& climate, const Instant& instant) {
+  if (s.sky()) return climate.sky_c(s.direction);
+  const Warmth w = s.person >= 0 ? Warmth{0, 0, 0, 0.98} : warmth(s.material);
+  const Eigen::Vector3d mirrored = s.direction - 2 * s.normal.dot(s.direction) * s.normal;
+  const double around = mirrored.z() > 0 ? climate.sky_c(mirrored) : climate.air_c;
+  const double own = own_celsius(s, climate, instant, w);
+  return std::pow(w.emissivity * fourth(own) + (1 - w.emissivity) * fourth(around), 0.25) - 273.15;
+}
+
+}  // namespace cairn::simulator
