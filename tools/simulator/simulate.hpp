@@ -9,9 +9,22 @@
 
 #include "hal/result.hpp"
 #include "tools/simulator/drive.hpp"
+#include "tools/simulator/flight.hpp"
 #include "tools/simulator/lidar.hpp"
+#include "tools/simulator/sensors/depth_sensor.hpp"
+#include "tools/simulator/sensors/motor_bus.hpp"
+#include "tools/simulator/sensors/stereo.hpp"
+#include "tools/simulator/sensors/thermal_camera.hpp"
 
 namespace cairn::simulator {
+
+/// What a robot carries and what is recorded.
+struct Sensors {
+  bool lidar = true, camera = false, thermal = false, depth = false, drive = false, gpio = false;
+
+  [[nodiscard]] static Sensors all() { return {true, true, true, true, true, true}; }
+  [[nodiscard]] bool camera_alone() const { return camera && !lidar && !thermal && !depth && !drive && !gpio; }
+};
 
 struct SimulationConfig {
   std::string scene = "office";
@@ -19,11 +32,26 @@ struct SimulationConfig {
   double seconds = 60.0;
   std::uint64_t seed = 1;  ///< paths, noise, dropouts, clocks; the world itself does not depend on it
   std::filesystem::path out;
-  int people = 0;        ///< who walk about; with none, nothing else changes
+  int people = 0;                 ///< who walk about; with none, nothing else changes
+  bool night = false;             ///< the sun is down and all lamps are off
+  std::string profile = "husky";  ///< or uav: it flies, and carries the camera alone
+  Sensors sensors;
   unsigned threads = 1;  ///< changes nothing but the time it takes
   DriveLimits drive;
+  FlightLimits flight;
   LidarConfig lidar;
+  StereoConfig stereo;
+  ThermalConfig thermal;
+  DepthConfig depth;
+  WheelConfig wheels;
+
+  [[nodiscard]] bool flies() const { return profile == "uav"; }
+  /// Whether the classes of the LiDAR's returns are written, too: with the camera or with people.
+  [[nodiscard]] bool labelled() const { return people > 0 || sensors.camera; }
 };
+
+/// Turns the robots into quadrotors: the camera alone, below the middle and 30° down.
+void make_uav(SimulationConfig& config);
 
 /// What one robot did.
 struct RobotSummary {
@@ -31,6 +59,7 @@ struct RobotSummary {
   double distance_m = 0;
   std::uint64_t data_packets = 0, position_packets = 0;
   std::uint64_t shots = 0, returns = 0;
+  std::uint64_t camera_frames = 0, thermal_frames = 0, depth_frames = 0, can_frames = 0, line_events = 0;
   double min_clearance_m = 0;  ///< least distance of the robot's outline to an obstacle
 };
 
@@ -41,10 +70,17 @@ inline constexpr double kTruthResolution = 0.1;  ///< m, of world.ot
 inline constexpr int kMaxRobots = 16, kMaxPeople = 50;
 inline constexpr double kMaxSeconds = 3600.0;
 
-/// Writes out/robot_1 … out/robot_N, each a recording: recording.yaml, lidar.pcap, ground_truth.tum (T_world_base at
-/// 100 Hz on the recording's time line), world.ot (see Voxels; without people) and, with people, people.csv. The same
-/// config gives the same bytes, for any number of threads and on every x86-64 with FMA and the same C library (whose
-/// sin and cos may differ in the last bit without FMA).
+/// Writes out/robot_1 … out/robot_N, each a recording with the files of its sensors: recording.yaml, lidar.pcap,
+/// camera/, thermal/ and depth/ (data.csv and data/*.png), drive.log, gpio.csv; and the truth:
+///   ground_truth.tum   T_world_base at 100 Hz on the recording's time line
+///   world.ot           see Voxels; without people
+///   people.csv         with people; see Crowd::to_csv
+///   labels/STAMP.png   trainIds of the left eye's pixels, one picture for each of the camera's
+///   lidar_labels.bin   with camera or people: 384 trainIds for each data packet, in the packet's order, 255 where
+///                      nothing returned or what returned has no class
+/// The bytes of a sensor do not depend on which others there are. The same config gives the same bytes, for any number
+/// of threads and on every x86-64 with FMA and the same C library (whose sin and cos may differ in the last bit without
+/// FMA).
 ///
 /// Errors: kInvalidConfig for a scene, number or duration that cannot be; kIo when `out` exists and is not an empty
 /// folder, or when the disk refuses; then no half-made robot folder is left behind.

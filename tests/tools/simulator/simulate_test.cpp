@@ -5,9 +5,13 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
+#include <algorithm>
 #include <csignal>
 #include <fstream>
 
+#include "drivers/drive/candump_source.hpp"
+#include "drivers/gpio/csv_source.hpp"
+#include "drivers/recording/image_folder.hpp"
 #include "drivers/recording/recording.hpp"
 #include "drivers/recording/trajectory_file.hpp"
 #include "hal/file.hpp"
@@ -106,6 +110,91 @@ TEST_F(Simulate, PeopleAreSeenByTheLidarAndToldInACsv) {
   EXPECT_EQ(bytes("crowded/robot_1/ground_truth.tum"), bytes("empty/robot_1/ground_truth.tum"));
   EXPECT_EQ(bytes("crowded/robot_1/world.ot"), bytes("empty/robot_1/world.ot"));
   EXPECT_FALSE(fs::exists(dir_ / "empty/robot_1/people.csv"));
+}
+
+/// All files below a folder, by their names in it.
+std::vector<std::string> files(const fs::path& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) names.push_back(fs::relative(entry.path(), folder).string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// Everything a Husky carries, with a coarse camera so that the test is fast.
+SimulationConfig with_all_sensors(SimulationConfig c) {
+  c.scene = "street";
+  c.people = 3;
+  c.sensors = Sensors::all();
+  c.stereo.lens = {84, 46, 44, 44, 42, 23};
+  c.depth.lens = {106, 60, 54, 54, 53, 30};
+  return c;
+}
+
+std::uint64_t count(Source& source) {
+  Packet packet;
+  std::uint64_t packets = 0;
+  for (;;) {
+    const auto poll = source.next(packet, Duration::zero());
+    EXPECT_TRUE(poll) << to_string(poll.error());
+    if (!poll || *poll == Poll::kEnd) return packets;
+    packets += *poll == Poll::kPacket ? 1 : 0;
+  }
+}
+
+TEST_F(Simulate, EverySensorsFilesReadBackThroughItsDriver) {
+  const SimulationConfig c = with_all_sensors(config("out"));
+  const auto robots = simulate(c);
+  ASSERT_TRUE(robots) << to_string(robots.error());
+  const RobotSummary& r = robots->front();
+  const fs::path dir = c.out / "robot_1";
+  const std::pair<const char*, std::uint64_t> pictures[] = {
+      {"camera", r.camera_frames}, {"thermal", r.thermal_frames}, {"depth", r.depth_frames}};
+  for (const auto& [name, frames] : pictures) {
+    auto folder = recording::ImageFolderSource::open(dir, std::string(name) + "/data.csv", {});
+    ASSERT_TRUE(folder) << to_string(folder.error());
+    EXPECT_EQ(count(**folder), frames);
+    EXPECT_GT(frames, 5U);
+  }
+  auto drive = drive::CandumpSource::open(dir / "drive.log", {});
+  ASSERT_TRUE(drive);
+  EXPECT_EQ(count(**drive), r.can_frames);
+  EXPECT_GT(r.can_frames, 300U);
+  auto lines = gpio::CsvSource::open(dir / "gpio.csv", SourceId{0});
+  ASSERT_TRUE(lines);
+  EXPECT_EQ(count(**lines), r.line_events);
+  EXPECT_EQ(bytes("out/robot_1/lidar_labels.bin").size(), 384 * r.data_packets);
+  EXPECT_EQ(files(dir / "labels").size(), r.camera_frames);
+}
+
+TEST_F(Simulate, AllSensorsGiveTheSameBytesForAnyNumberOfThreadsAndLeaveTheLidarAlone) {
+  SimulationConfig two_threads = with_all_sensors(config("b")), lidar_alone = with_all_sensors(config("c"));
+  two_threads.threads = 2;
+  lidar_alone.sensors = Sensors{};
+  ASSERT_TRUE(simulate(with_all_sensors(config("a"))));
+  ASSERT_TRUE(simulate(two_threads));
+  ASSERT_TRUE(simulate(lidar_alone));
+  const auto names = files(dir_ / "a");
+  EXPECT_GT(names.size(), 40U);
+  EXPECT_EQ(names, files(dir_ / "b"));
+  for (const std::string& name : names) EXPECT_TRUE(bytes("a/" + name) == bytes("b/" + name)) << name;
+  for (const char* same : {"lidar.pcap", "ground_truth.tum", "world.ot", "people.csv"})
+    EXPECT_TRUE(bytes(std::string("a/robot_1/") + same) == bytes(std::string("c/robot_1/") + same)) << same;
+}
+
+TEST_F(Simulate, AUavCarriesTheCameraAlone) {
+  SimulationConfig c = with_all_sensors(config("uav"));
+  c.profile = "uav";
+  EXPECT_EQ(simulate(c).error().code, Errc::kInvalidConfig);
+  make_uav(c);
+  const auto robots = simulate(c);
+  ASSERT_TRUE(robots) << to_string(robots.error());
+  EXPECT_GT(robots->front().camera_frames, 5U);
+  const auto truth = recording::read_tum(c.out / "robot_1" / "ground_truth.tum");
+  ASSERT_TRUE(truth);
+  for (const recording::StampedPose& p : *truth) EXPECT_GT(p.pose.translation().z(), 1.9);
+  EXPECT_FALSE(fs::exists(c.out / "robot_1" / "lidar.pcap"));
 }
 
 TEST_F(Simulate, TellsItsProgress) {
