@@ -49,7 +49,7 @@ constexpr std::array<Look, kMaterials> kLooks{{
     {0.22F, 0.16F, 0.11F, Pattern::kGrain, 0.08, 0.50, 0},      // bark
     {0.12F, 0.24F, 0.06F, Pattern::kGrain, 0.2, 0.55, 0},       // leaves
     {0.36F, 0.35F, 0.33F, Pattern::kMottled, 0.3, 0.40, 0},     // rock
-    {0.17F, 0.30F, 0.08F, Pattern::kGrain, 0.35, 0.45, 0},      // grass
+    {0.11F, 0.19F, 0.05F, Pattern::kGrain, 0.30, 0.55, 0},      // grass
     {0.44F, 0.42F, 0.40F, Pattern::kSlabs, 0.4, 0.25, 0},       // pavement
     {0.78F, 0.78F, 0.76F, Pattern::kMottled, 0.2, 0.20, 0},     // road paint
     {0.42F, 0.20F, 0.14F, Pattern::kBricks, 0.25, 0.35, 0},     // brick

@@ -77,6 +77,7 @@ TEST(MotorBus, OdometryStaysWithinThreeSigmaOfItsOwnCovariance) {
     }
     spins += bus.spins();
   }
+  RecordProperty("inside_3_sigma_percent", std::to_string(100.0 * inside / all));
   EXPECT_GT(all, 6 * 40 * 80);
   EXPECT_GT(spins, 3);
   EXPECT_GE(inside, 0.95 * all);
