@@ -11,7 +11,7 @@ target_compile_options(cairn_flags INTERFACE -ffp-contract=off
   -Wall -Wextra -Wpedantic -Wconversion -Wshadow $<$<BOOL:${CAIRN_WERROR}>:-Werror>
   # g++ 12 mistakes std::string's own copies for overlaps and overruns, depending on how long the strings happen to be: even
   # on the path of the source folder (GCC bugs 105651, 105329). clang and AddressSanitizer see the real ones.
-  "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow>")
+  "$<$<CXX_COMPILER_ID:GNU>:-Wno-restrict;-Wno-array-bounds;-Wno-stringop-overflow;-Wno-stringop-overread>")
 
 # Hardening: taken where the compiler accepts it (clang 14 rejects the auto-var-init form for zero).
 function(cairn_try_compile_flag flag)
