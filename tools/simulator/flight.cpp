@@ -11,7 +11,7 @@ namespace cairn::simulator {
 namespace {
 
 constexpr double kGravity = 9.81;
-constexpr double kMargin = 0.5;      // m, of free air above and below
+constexpr double kFreeAir = 0.5;      // m, of free air above and below
 constexpr std::size_t kSmooth = 25;  // knots to each side that accelerations are taken over: 0.25 s
 
 /// Acceleration in the world at knot i, from positions kSmooth knots before and after.
@@ -34,7 +34,7 @@ std::vector<Eigen::Vector2d> smoothed(const std::vector<Eigen::Vector2d>& in) {
 }  // namespace
 
 FloorPlan flight_plan(const World& world) {
-  return FloorPlan(world, {world.flight.low - kMargin, world.flight.high + kMargin});
+  return FloorPlan(world, {world.flight.low - kFreeAir, world.flight.high + kFreeAir});
 }
 
 Trajectory fly(const World& world, const FloorPlan& plan, const Path& path, Time start, Duration duration,

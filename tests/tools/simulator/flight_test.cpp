@@ -9,7 +9,7 @@
 namespace cairn::simulator {
 namespace {
 
-constexpr Time kStart = Time(std::chrono::seconds(10));
+constexpr Time kTakeOff = Time(std::chrono::seconds(10));
 
 class FlightOfEveryScene : public ::testing::TestWithParam<std::string> {};
 
@@ -19,7 +19,7 @@ TEST_P(FlightOfEveryScene, StaysInFreeAirAndInItsLimits) {
   const auto paths = RoutePlanner(world, plan, 3).plan(1, 70);
   ASSERT_TRUE(paths) << to_string(paths.error());
   const FlightLimits limits;
-  const Trajectory flight = fly(world, plan, (*paths)[0], kStart, std::chrono::seconds(25), limits, 3);
+  const Trajectory flight = fly(world, plan, (*paths)[0], kTakeOff, std::chrono::seconds(25), limits, 3);
   const auto tracer = Tracer::build(world.mesh);
   double lowest = 1e9, highest = -1e9, tilt = 0;
   for (std::size_t i = 1; i + 1 < flight.knots().size(); ++i) {
@@ -53,8 +53,8 @@ TEST(Flight, LeansForwardToGoFaster) {
   const World world = *make_world("street");
   const FloorPlan plan = flight_plan(world);
   const Path straight = smooth(plan, *find_path(plan, {20, 35.3}, {60, 35.3}));
-  const Trajectory flight = fly(world, plan, straight, kStart, std::chrono::seconds(8), {}, 1);
-  EXPECT_GT(flight.xyz_rpy(kStart + std::chrono::milliseconds(1700))[4], 0.05) << "nose down (REP-103)";
+  const Trajectory flight = fly(world, plan, straight, kTakeOff, std::chrono::seconds(8), {}, 1);
+  EXPECT_GT(flight.xyz_rpy(kTakeOff + std::chrono::milliseconds(1700))[4], 0.05) << "nose down (REP-103)";
 }
 
 }  // namespace

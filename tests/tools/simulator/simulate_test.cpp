@@ -8,11 +8,10 @@
 #include <algorithm>
 #include <csignal>
 #include <fstream>
+#include <map>
 
-#include "drivers/drive/candump_source.hpp"
-#include "drivers/gpio/csv_source.hpp"
-#include "drivers/recording/image_folder.hpp"
 #include "drivers/recording/recording.hpp"
+#include "drivers/recording/recording_reader.hpp"
 #include "drivers/recording/trajectory_file.hpp"
 #include "hal/file.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -132,38 +131,36 @@ SimulationConfig with_all_sensors(SimulationConfig c) {
   return c;
 }
 
-std::uint64_t count(Source& source) {
-  Packet packet;
-  std::uint64_t packets = 0;
-  for (;;) {
-    const auto poll = source.next(packet, Duration::zero());
-    EXPECT_TRUE(poll) << to_string(poll.error());
-    if (!poll || *poll == Poll::kEnd) return packets;
-    packets += *poll == Poll::kPacket ? 1 : 0;
-  }
-}
-
-TEST_F(Simulate, EverySensorsFilesReadBackThroughItsDriver) {
+TEST_F(Simulate, EverySensorsPacketsReadBackInTheOrderOfArrival) {
   const SimulationConfig c = with_all_sensors(config("out"));
   const auto robots = simulate(c);
   ASSERT_TRUE(robots) << to_string(robots.error());
   const RobotSummary& r = robots->front();
   const fs::path dir = c.out / "robot_1";
-  const std::pair<const char*, std::uint64_t> pictures[] = {
-      {"camera", r.camera_frames}, {"thermal", r.thermal_frames}, {"depth", r.depth_frames}};
-  for (const auto& [name, frames] : pictures) {
-    auto folder = recording::ImageFolderSource::open(dir, std::string(name) + "/data.csv", {});
-    ASSERT_TRUE(folder) << to_string(folder.error());
-    EXPECT_EQ(count(**folder), frames);
-    EXPECT_GT(frames, 5U);
+  auto reader = recording::RecordingReader::open(dir);
+  ASSERT_TRUE(reader) << to_string(reader.error());
+  const std::pair<std::string_view, std::uint64_t> expected[] = {{"lidar", r.data_packets + r.position_packets},
+                                                                 {"camera", r.camera_frames},
+                                                                 {"thermal", r.thermal_frames},
+                                                                 {"depth", r.depth_frames},
+                                                                 {"drive", r.can_frames},
+                                                                 {"gpio", r.line_events}};
+  std::map<std::string, std::uint64_t> counted;
+  Packet packet;
+  Time last{};
+  for (;;) {
+    const auto poll = (*reader)->next(packet, Duration::zero());
+    ASSERT_TRUE(poll) << to_string(poll.error());
+    if (*poll == Poll::kEnd) break;
+    if (*poll != Poll::kPacket) continue;
+    EXPECT_GE(packet.arrival, last);
+    last = packet.arrival;
+    ++counted[(*reader)->recording().sources[static_cast<std::size_t>(packet.source)].id];
   }
-  auto drive = drive::CandumpSource::open(dir / "drive.log", {});
-  ASSERT_TRUE(drive);
-  EXPECT_EQ(count(**drive), r.can_frames);
-  EXPECT_GT(r.can_frames, 300U);
-  auto lines = gpio::CsvSource::open(dir / "gpio.csv", SourceId{0});
-  ASSERT_TRUE(lines);
-  EXPECT_EQ(count(**lines), r.line_events);
+  for (const auto& [id, packets] : expected) {
+    EXPECT_EQ(counted[std::string(id)], packets) << id;
+    EXPECT_GT(packets, 5U) << id;
+  }
   EXPECT_EQ(bytes("out/robot_1/lidar_labels.bin").size(), 384 * r.data_packets);
   EXPECT_EQ(files(dir / "labels").size(), r.camera_frames);
 }

@@ -12,14 +12,14 @@
 namespace cairn::simulator {
 namespace {
 
-constexpr Time kStart = Time(std::chrono::seconds(10));
+constexpr Time kFirstStep = Time(std::chrono::seconds(10));
 
 /// A lobby, one robot, six people, half a minute.
 class CrowdInLobby : public ::testing::Test {
  protected:
   CrowdInLobby() : world_(std::move(*make_world("lobby"))), plan_(world_) {
     const auto paths = RoutePlanner(world_, plan_, 5).plan(1, 60);
-    robots_.push_back(drive(world_, plan_, (*paths)[0], kStart, std::chrono::seconds(30), {}, 5));
+    robots_.push_back(drive(world_, plan_, (*paths)[0], kFirstStep, std::chrono::seconds(30), {}, 5));
   }
   [[nodiscard]] Crowd crowd(int count = 6, std::uint64_t seed = 1) const {
     return {world_, plan_, robots_, count, seed};
@@ -34,7 +34,7 @@ TEST_F(CrowdInLobby, WalksFreelyAndGetsSomewhere) {
   const Crowd people = crowd();
   for (std::size_t i = 0; i < people.size(); ++i) {
     double walked = 0;
-    for (Time t = kStart; t < robots_[0].end(); t += Crowd::kStep) {
+    for (Time t = kFirstStep; t < robots_[0].end(); t += Crowd::kStep) {
       const Stride now = people.stride(i, t), then = people.stride(i, t + Crowd::kStep);
       walked += (then.position - now.position).norm();
       EXPECT_GE(plan_.clearance(now.position), 0.2);
@@ -49,7 +49,7 @@ TEST_F(CrowdInLobby, WalksFreelyAndGetsSomewhere) {
 TEST_F(CrowdInLobby, ComesNearTheRobot) {
   const Crowd people = crowd();
   int seconds_near = 0;
-  for (Time t = kStart; t < robots_[0].end(); t += std::chrono::seconds(1)) {
+  for (Time t = kFirstStep; t < robots_[0].end(); t += std::chrono::seconds(1)) {
     bool near = false;
     for (std::size_t i = 0; i < people.size(); ++i) {
       near = near || (people.stride(i, t).position - robots_[0].xyz_rpy(t).head<2>()).norm() < 6;
@@ -87,7 +87,7 @@ TEST_F(CrowdInLobby, CsvSaysWhereEverybodyIs) {
 
 TEST_F(CrowdInLobby, ARayMeetsWhatTheFiguresAre) {
   const Crowd people = crowd();
-  const Time t = kStart + std::chrono::milliseconds(7777);
+  const Time t = kFirstStep + std::chrono::milliseconds(7777);
   const auto figures = people.figures(t);
   const Eigen::Vector3d eye = robots_[0].T_world_base(t) * Eigen::Vector3d(0, 0, 0.9);
   int hits = 0;

@@ -11,15 +11,15 @@ namespace {
 
 using namespace std::chrono_literals;
 
-constexpr Time kStart = Time(10s);
+constexpr Time kSwitchedOn = Time(10s);
 
 TEST(Switches, TheEStopsStateMachineArmsAfterTheReleaseAndNeverStopsAgain) {
-  const auto edges = line_edges(kStart, kStart + 5s, 15, 1ms, 4);
+  const auto edges = line_edges(kSwitchedOn, kSwitchedOn + 5s, 15, 1ms, 4);
   gpio::EStop estop{gpio::Config{}};
   bool closed = false;
   std::size_t next = 0;
   std::optional<Time> armed;
-  for (Time t = kStart; t < kStart + 5s; t += 5ms) {
+  for (Time t = kSwitchedOn; t < kSwitchedOn + 5s; t += 5ms) {
     for (; next < edges.size() && edges[next].stamp <= t; ++next) {
       const LineEdge& e = edges[next];
       if (e.event.line != gpio::Line::kEStop) continue;
@@ -31,8 +31,8 @@ TEST(Switches, TheEStopsStateMachineArmsAfterTheReleaseAndNeverStopsAgain) {
     EXPECT_EQ(estop.stopped(t), !armed) << to_seconds(t);
   }
   ASSERT_TRUE(armed);
-  EXPECT_GE(*armed - kStart, kEStopReleased + 500ms);
-  EXPECT_LE(*armed - kStart, kEStopReleased + 520ms);
+  EXPECT_GE(*armed - kSwitchedOn, kEStopReleased + 500ms);
+  EXPECT_LE(*armed - kSwitchedOn, kEStopReleased + 520ms);
   EXPECT_EQ(estop.counters().edges, 7U);
   EXPECT_EQ(estop.counters().edges_lost, 0U);
 }
@@ -40,12 +40,12 @@ TEST(Switches, TheEStopsStateMachineArmsAfterTheReleaseAndNeverStopsAgain) {
 TEST(Switches, TheTriggerRisesAtEveryExposure) {
   std::uint64_t rises = 0, falls = 0;
   Time last{}, rose{};
-  for (const LineEdge& e : line_edges(kStart, kStart + 2s, 15, 1ms, 4)) {
+  for (const LineEdge& e : line_edges(kSwitchedOn, kSwitchedOn + 2s, 15, 1ms, 4)) {
     EXPECT_GE(e.stamp, last);
     last = e.stamp;
     if (e.event.line != gpio::Line::kTrigger) continue;
     if (e.event.level) {
-      EXPECT_EQ(e.stamp, exposure(kStart, 15, rises++));
+      EXPECT_EQ(e.stamp, exposure(kSwitchedOn, 15, rises++));
       rose = e.stamp;
     } else {
       EXPECT_EQ(e.stamp - rose, Duration(1ms));

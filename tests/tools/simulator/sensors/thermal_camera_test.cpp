@@ -12,14 +12,14 @@
 namespace cairn::simulator {
 namespace {
 
-struct Shot {
+struct ThermalShot {
   ThermalImage image;
   Packet packet;
   std::optional<thermal::LeptonTelemetry> telemetry;
 };
 
-Shot shoot(const ThermalCamera& camera, Time t, std::uint64_t n = 1, unsigned threads = 1) {
-  Shot shot;
+ThermalShot shoot_thermal(const ThermalCamera& camera, Time t, std::uint64_t n = 1, unsigned threads = 1) {
+  ThermalShot shot;
   Workers workers(threads);
   camera.shoot(n, t, workers, shot.packet);
   auto decoder = thermal::Thermal::create({});
@@ -53,7 +53,7 @@ TEST_P(ThermalOfPeople, SkinIsWarmClothesAreCooler) {
   const auto [person, t] = scene.somebody();
   const Trajectory robot = scene.looking_at(person, t);
   const ThermalCamera camera({}, scene.tracer, scene.crowd, scene.climate, robot, 1);
-  const Shot shot = shoot(camera, t);
+  const ThermalShot shot = shoot_thermal(camera, t);
   ASSERT_TRUE(shot.image.radiometric());
   const auto seen = sightings(camera, scene, robot, t);
   double skin = 0, clothes = 0, hottest_skin = -99, coolest_skin = 99;
@@ -89,7 +89,7 @@ TEST(ThermalCamera, TheSunWarmsWallsByDay) {
   const SceneWithPeople scene("street", 0);
   const Trajectory robot = scene.resting({41.0, 22.7}, std::numbers::pi / 2);  // towards the façade that looks south
   const ThermalCamera camera({}, scene.tracer, scene.crowd, scene.climate, robot, 1);
-  const auto image = shoot(camera, kTestStart).image;
+  const auto image = shoot_thermal(camera, kTestStart).image;
   const auto seen = sightings(camera, scene, robot, kTestStart);
   const Instant instant{scene.tracer, {}};
   double sunny = 0, shady = 0;
@@ -142,8 +142,8 @@ TEST(ThermalCamera, SameBytesForAnyNumberOfThreads) {
   const SceneWithPeople scene("street");
   const Trajectory robot = scene.resting(scene.place, 2);
   const ThermalCamera camera({}, scene.tracer, scene.crowd, scene.climate, robot, 1);
-  EXPECT_EQ(shoot(camera, kTestStart, 3, 1).packet.bytes, shoot(camera, kTestStart, 3, 2).packet.bytes);
-  EXPECT_EQ(shoot(camera, kTestStart, 3).telemetry->frame_counter, 3U);
+  EXPECT_EQ(shoot_thermal(camera, kTestStart, 3, 1).packet.bytes, shoot_thermal(camera, kTestStart, 3, 2).packet.bytes);
+  EXPECT_EQ(shoot_thermal(camera, kTestStart, 3).telemetry->frame_counter, 3U);
 }
 
 }  // namespace

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "drivers/recording/append_file.hpp"
+#include "tools/simulator/sensors/view.hpp"
+#include "tools/simulator/stage.hpp"
+
+namespace cairn::simulator {
+
+/// What a simulated recording holds beside the sensors' bytes; simulate() says what the files are.
+class GroundTruth {
+ public:
+  /// `stage` must outlive it; `dir` exists when the first file is opened.
+  GroundTruth(std::filesystem::path dir, const Stage& stage) : dir_(std::move(dir)), stage_(stage) {}
+
+  Result<void> open_lidar_labels();
+  Result<void> add_lidar_labels(std::span<const std::byte> classes);
+  Result<void> open_picture_labels();
+  /// `classes`: one byte for each of the lens's pixels.
+  Result<void> add_picture_labels(Time t, const Lens& lens, const std::vector<std::byte>& classes);
+
+  /// Everything else, and the end of the labels.
+  Result<void> write(const Trajectory& trajectory);
+
+ private:
+  std::filesystem::path dir_;
+  const Stage& stage_;
+  std::optional<recording::AppendFile> lidar_labels_;
+  std::vector<std::byte> encoded_;
+};
+
+}  // namespace cairn::simulator
