@@ -11,7 +11,7 @@ namespace cairn::simulator {
 namespace {
 
 constexpr double kGravity = 9.81;
-constexpr double kFreeAir = 0.5;      // m, of free air above and below
+constexpr double kFreeAir = 0.5;     // m, of free air above and below
 constexpr std::size_t kSmooth = 25;  // knots to each side that accelerations are taken over: 0.25 s
 
 /// Acceleration in the world at knot i, from positions kSmooth knots before and after.

@@ -8,9 +8,11 @@
 #include <utility>
 
 #include "drivers/recording/recording_writer.hpp"
+#include "hal/file.hpp"
 #include "tools/simulator/ground_truth.hpp"
 #include "tools/simulator/random.hpp"
 #include "tools/simulator/sensor_recorder.hpp"
+#include "tools/simulator/simulated_profile.hpp"
 
 namespace cairn::simulator {
 namespace {
@@ -96,6 +98,10 @@ class RobotRecorder {
     }
     if (auto closed = writer->close(); !closed) return closed.error();
     if (auto written = truth_.write(run_.trajectory); !written) return written.error();
+    if (index_.sources.size() > 1 || config_.flies()) {
+      const std::string profile = to_yaml(simulated_profile(config_));
+      if (auto written = write_file_atomic(dir_ / "robot.yaml", profile); !written) return written.error();
+    }
     if (progress_) progress_(1.0);
     return summary_;
   }

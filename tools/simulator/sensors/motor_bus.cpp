@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "drivers/drive/differential.hpp"
-#include "tools/simulator/floor_plan.hpp"
 
 namespace cairn::simulator {
 namespace {
@@ -27,7 +26,7 @@ drive::Velocity velocity(const Trajectory& trajectory, Time from, Time to) {
 drive::Config husky_drive() {
   drive::Config c;
   c.wheel_radius_m = 0.165;
-  c.wheel_separation_m = Body::kTrack;
+  c.wheel_separation_m = 0.67;  // effective: a Husky skids, as config/husky.yaml has it
   c.max_speed_m_s = 2.0;
   c.max_yaw_rate_rad_s = 2.0;
   c.velocity_units_per_rad_s = 1000;

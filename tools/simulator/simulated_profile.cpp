@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/simulator/simulated_profile.hpp"
+
+namespace cairn::simulator {
+namespace {
+
+std::vector<double> numbers(const Vector6& pose) { return {pose.data(), pose.data() + 6}; }
+
+void set_size(camera::CaptureConfig& capture, int width, int height, double rate_hz) {
+  capture.width = width;
+  capture.height = height;
+  capture.rate_hz = rate_hz;
+}
+
+}  // namespace
+
+RobotProfile simulated_profile(const SimulationConfig& config) {
+  RobotProfile profile;
+  profile.name = config.profile;
+  profile.lidar.enabled = config.sensors.lidar;
+  profile.lidar.base_xyz_rpy = numbers(config.lidar.base_sensor_xyz_rpy);
+  const Lens &eye = config.stereo.lens, &thermal = config.thermal.lens, &depth = config.depth.lens;
+  profile.camera.base_xyz_rpy = numbers(config.stereo.base_camera_xyz_rpy);
+  set_size(profile.camera.driver.capture, 2 * eye.width, eye.height, config.stereo.rate_hz);
+  profile.thermal.base_xyz_rpy = numbers(config.thermal.base_camera_xyz_rpy);
+  profile.thermal.driver.model = "lepton3";
+  set_size(profile.thermal.driver.capture, thermal.width, thermal.height + ThermalCamera::kTelemetryRows,
+           config.thermal.rate_hz);
+  profile.depth.base_xyz_rpy = numbers(config.depth.base_camera_xyz_rpy);
+  set_size(profile.depth.driver.capture, depth.width, depth.height, config.depth.rate_hz);
+  profile.depth.driver.fx = depth.fx;
+  profile.depth.driver.fy = depth.fy;
+  profile.depth.driver.cx = depth.cx;
+  profile.depth.driver.cy = depth.cy;
+  profile.depth.driver.max_depth_m = config.depth.max_depth_m;
+  if (config.sensors.drive) profile.drive.driver = husky_drive();
+  if (config.sensors.gpio) profile.gpio.driver.estop_line = "estop";
+  if (config.sensors.gpio) profile.gpio.driver.trigger_line = "trigger";
+  profile.gpio.driver.trigger_rate_hz = config.stereo.rate_hz;
+  return profile;
+}
+
+}  // namespace cairn::simulator
