@@ -25,7 +25,7 @@ constexpr std::uint64_t kLidarStream = 22, kSensorStream = 24;
 std::vector<recording::SourceEntry> sources(const SimulationConfig& config) {
   std::vector<recording::SourceEntry> list;
   const auto add = [&](bool carried, std::string_view kind, const char* file, const char* model,
-                       std::optional<Vector6> base_sensor) {
+                       const std::optional<Vector6>& base_sensor) {
     if (!carried) return;
     const std::string id(kind == recording::kVelodyne ? "lidar" : kind);
     recording::SourceEntry& entry = list.emplace_back();

@@ -2,7 +2,9 @@
 #include "tools/simulator/sensors/warmth.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <initializer_list>
 
 #include "tools/simulator/random.hpp"
 #include "tools/simulator/sensors/look.hpp"
@@ -12,51 +14,26 @@ namespace {
 
 /// Kelvins above the air: `shade` by day, `sun` more where it shines squarely, `night` after sunset.
 struct Warmth {
-  double shade, sun, night, emissivity;
+  double shade = 0, sun = 0, night = 0, emissivity = 1;
 };
 
-Warmth warmth(Material material) {
-  switch (material) {
-    case Material::kAsphalt:
-    case Material::kRoadPaint:
-      return {3.0, 20.0, 4.0, 0.95};
-    case Material::kBrick:
-    case Material::kStoneWall:
-    case Material::kConcrete:
-    case Material::kRoofTile:
-    case Material::kRender:
-    case Material::kPavement:
-    case Material::kKerb:
-    case Material::kRock:
-      return {1.0, 15.0, 3.0, 0.93};
-    case Material::kGrass:
-    case Material::kLeaves:
-    case Material::kBark:
-    case Material::kSoil:
-      return {-1.0, 5.0, -1.5, 0.97};
-    case Material::kWindow:
-    case Material::kGlass:
-    case Material::kVehicleGlass:
-    case Material::kDarkGlass:
-      return {0.5, 4.0, 2.0, 0.85};
-    case Material::kCarPaintLight:
-    case Material::kCarPaintDark:
-    case Material::kBusPaint:
-    case Material::kTruckPaint:
-    case Material::kMotorcycle:
-      return {1.0, 17.0, -3.0, 0.90};
-    case Material::kMetal:
-    case Material::kPole:
-    case Material::kRetroreflector:
-    case Material::kTrafficLight:
-    case Material::kBicycle:
-      return {0.5, 9.0, -2.0, 0.80};
-    case Material::kScreen:
-      return {7.0, 0.0, 7.0, 0.92};
-    default:
-      return {0.0, 8.0, 0.0, 0.94};
-  }
+constexpr std::array<Warmth, kMaterials> warmths() {
+  using enum Material;
+  std::array<Warmth, kMaterials> all{};
+  for (Warmth& w : all) w = {0.0, 8.0, 0.0, 0.94};
+  const auto set = [&](std::initializer_list<Material> materials, const Warmth& warmth) {
+    for (const Material m : materials) all[static_cast<std::size_t>(m)] = warmth;
+  };
+  set({kAsphalt, kRoadPaint}, {3.0, 20.0, 4.0, 0.95});
+  set({kBrick, kStoneWall, kConcrete, kRoofTile, kRender, kPavement, kKerb, kRock}, {1.0, 15.0, 3.0, 0.93});
+  set({kGrass, kLeaves, kBark, kSoil}, {-1.0, 5.0, -1.5, 0.97});
+  set({kWindow, kGlass, kVehicleGlass, kDarkGlass}, {0.5, 4.0, 2.0, 0.85});
+  set({kCarPaintLight, kCarPaintDark, kBusPaint, kTruckPaint, kMotorcycle}, {1.0, 17.0, -3.0, 0.90});
+  set({kMetal, kPole, kRetroreflector, kTrafficLight, kBicycle}, {0.5, 9.0, -2.0, 0.80});
+  set({kScreen}, {7.0, 0.0, 7.0, 0.92});
+  return all;
 }
+constexpr std::array<Warmth, kMaterials> kWarmths = warmths();
 
 /// Skin 34.5 °C, the face warmest; clothes halfway to the air; hair between.
 double body_celsius(const Sighting& s, const Climate& climate) {
@@ -82,7 +59,7 @@ double fourth(double celsius) { return std::pow(celsius + 273.15, 4); }
 
 double apparent_celsius(const Sighting& s, const Climate& climate, const Instant& instant) {
   if (s.sky()) return climate.sky_c(s.direction);
-  const Warmth w = s.person >= 0 ? Warmth{0, 0, 0, 0.98} : warmth(s.material);
+  const Warmth w = s.person >= 0 ? Warmth{0, 0, 0, 0.98} : kWarmths[static_cast<std::size_t>(s.material)];
   const Eigen::Vector3d mirrored = s.direction - 2 * s.normal.dot(s.direction) * s.normal;
   const double around = mirrored.z() > 0 ? climate.sky_c(mirrored) : climate.air_c;
   const double own = own_celsius(s, climate, instant, w);
