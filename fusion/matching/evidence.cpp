@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/matching/evidence.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+namespace cairn::matching {
+namespace {
+
+constexpr float kSameNormal = 0.7F;  // |cos| between normals of one surface
+constexpr float kPairCells = 2.5F;   // gate of a pair
+constexpr double kConflictWeight = 2, kMismatchWeight = 0.25;
+constexpr double kCorrelated = 12;     // residuals that err together
+constexpr double kNormalNoise = 0.1;   // standard deviation of a surfel's normal [rad]
+constexpr double kMinResidual = 0.05;  // of a cell: no grid is believed to be finer
+
+struct Moved {
+  explicit Moved(const SE3& T) : R(T.rotation().cast<float>()), t(T.translation().cast<float>()) {}
+  Eigen::Vector3f operator()(const Eigen::Vector3f& p) const { return R * p + t; }
+  Eigen::Matrix3f R;
+  Eigen::Vector3f t;
+};
+
+int in_free_space(const FreeSpace& free, std::span<const Surfel> structure, const SE3& T_free_structure) {
+  const Moved move(T_free_structure);
+  return static_cast<int>(
+      std::count_if(structure.begin(), structure.end(), [&](const Surfel& s) { return free.contains(move(s.point)); }));
+}
+
+double share(double part, double whole) { return whole > 0 ? part / whole : 0; }
+
+/// The pairs of the book's overlap and inlier test.
+void count_pairs(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T, Evidence& out) {
+  const Moved move(T);
+  const auto cell = static_cast<float>(std::max(target.cell_m, source.cell_m));
+  int pairs = 0, inliers = 0;
+  for (const Surfel& s : source.sample) {
+    const Eigen::Vector3f q = move(s.point);
+    const int i = nearest.nearest(q, kPairCells * cell);
+    if (i == NearestGrid::kNone) continue;
+    ++pairs;
+    const Surfel& r = target.surfels[static_cast<std::size_t>(i)];
+    const float variance = 0.5F * (1 / r.occupancy + 1 / s.occupancy);
+    inliers += (q - r.point).squaredNorm() < cell * cell * variance ? 1 : 0;
+  }
+  const double n_source = static_cast<double>(source.sample.size());
+  const double sampled = share(n_source, static_cast<double>(source.surfels.size()));
+  const double n_target = static_cast<double>(target.surfels.size()) * sampled;
+  out.overlap = std::min(1.0, 0.5 * (share(pairs, n_source) + share(pairs, n_target)));
+  out.inlier_ratio = share(inliers, pairs);
+}
+
+/// What the source's structure meets in the target.
+struct Meetings {
+  int agree = 0, differ = 0, in_free = 0;
+  Eigen::Matrix2d normals = Eigen::Matrix2d::Zero();  // Σ n nᵀ, horizontal part, of those that agree
+};
+
+Meetings meet(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T) {
+  const Moved move(T);
+  const auto cell = static_cast<float>(std::max(target.cell_m, source.cell_m));
+  Meetings m;
+  for (const Surfel& s : source.structure) {
+    const Eigen::Vector3f q = move(s.point);
+    const int i = nearest.nearest(q, kPairCells * cell);
+    if (i == NearestGrid::kNone) {
+      m.in_free += target.free.contains(q) ? 1 : 0;
+      continue;
+    }
+    const Surfel& r = target.surfels[static_cast<std::size_t>(i)];
+    if ((q - r.point).squaredNorm() < cell * cell && std::abs(r.normal.dot(move.R * s.normal)) > kSameNormal) {
+      ++m.agree;
+      const Eigen::Vector2d n = r.normal.head<2>().cast<double>();
+      m.normals += n * n.transpose();
+    } else {
+      ++m.differ;
+    }
+  }
+  return m;
+}
+
+}  // namespace
+
+double score(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T) {
+  const Meetings m = meet(target, nearest, source, T);
+  const auto n = static_cast<double>(source.structure.size());
+  const double reverse =
+      share(in_free_space(source.free, target.structure, T.inverse()), static_cast<double>(target.structure.size()));
+  // The target's conflicts count by their number, as the source's do.
+  const double sizes = share(static_cast<double>(target.surfels.size()), static_cast<double>(source.surfels.size()));
+  return share(m.agree - kMismatchWeight * m.differ - kConflictWeight * m.in_free, n) -
+         kConflictWeight * reverse * sizes;
+}
+
+Evidence weigh(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T) {
+  Evidence out;
+  count_pairs(target, nearest, source, T, out);
+  const Meetings m = meet(target, nearest, source, T);
+  out.structure_pairs = m.agree;
+  out.structure_inliers = share(m.agree, m.agree + m.differ);
+  out.conflict = share(m.in_free, m.agree + m.differ + m.in_free);
+  out.reverse_conflict =
+      share(in_free_space(source.free, target.structure, T.inverse()), static_cast<double>(target.structure.size()));
+  if (m.agree > 0)
+    out.weakest_translation =
+        std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(m.normals / m.agree).eigenvalues()[0]);
+  return out;
+}
+
+namespace {
+
+/// Sums over the surfels that agree, in the source's frame.
+struct Normals {
+  Matrix6 H = Matrix6::Zero();
+  double squares = 0, reach = 0;  // of the residuals, of the distances from the origin
+  int count = 0;
+
+  /// J = A n with A = (I, [x]×)ᵀ. A normal that errs by σ fakes an information of σ² along the surface, which is taken
+  /// off again: what is left of many walls in one direction says nothing about that direction.
+  void add(const Eigen::Vector3d& x, const Eigen::Vector3d& normal, double residual) {
+    constexpr double kNoise = kNormalNoise * kNormalNoise;
+    Eigen::Matrix<double, 6, 3> A;
+    A << Eigen::Matrix3d::Identity(), hat(x);
+    H += A * ((1 + kNoise) * normal * normal.transpose() - kNoise * Eigen::Matrix3d::Identity()) * A.transpose();
+    squares += residual * residual;
+    reach += x.squaredNorm();
+    ++count;
+  }
+
+  /// H without its negative eigenvalues, with radians scaled to metres by the surfels' distance.
+  [[nodiscard]] Matrix6 positive() const {
+    const double metres = std::sqrt(std::max(1.0, share(reach, count)));
+    Vector6 scale = Vector6::Ones();
+    scale.tail<3>().setConstant(1 / metres);
+    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(scale.asDiagonal() * H * scale.asDiagonal());
+    const Matrix6 V = solver.eigenvectors();
+    const Matrix6 clipped = V * solver.eigenvalues().cwiseMax(0).asDiagonal() * V.transpose();
+    return scale.cwiseInverse().asDiagonal() * clipped * scale.cwiseInverse().asDiagonal();
+  }
+};
+
+}  // namespace
+
+Matrix6 covariance(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T,
+                   const Matrix6& prior_covariance) {
+  const Moved move(T);
+  const auto cell = static_cast<float>(std::max(target.cell_m, source.cell_m));
+  Normals sum;
+  for (const Surfel& s : source.sample) {
+    const Eigen::Vector3f q = move(s.point);
+    const int i = nearest.nearest(q, cell);
+    if (i == NearestGrid::kNone) continue;
+    const Surfel& r = target.surfels[static_cast<std::size_t>(i)];
+    if (!(std::abs(r.normal.dot(move.R * s.normal)) > kSameNormal)) continue;
+    sum.add(s.point.cast<double>(), (move.R.transpose() * r.normal).cast<double>(),
+            static_cast<double>(r.normal.dot(q - r.point)));
+  }
+  const double floor = kMinResidual * static_cast<double>(cell);
+  const double variance = kCorrelated * std::max(share(sum.squares, sum.count), floor * floor);
+  const Matrix6 information = sum.positive() / variance + prior_covariance.ldlt().solve(Matrix6::Identity());
+  const Matrix6 inverse = information.ldlt().solve(Matrix6::Identity());
+  return 0.5 * (inverse + inverse.transpose());
+}
+
+double book_threshold(double overlap) {
+  if (overlap < 0.2) return 0.80;
+  return overlap > 0.6 ? 0.60 : 0.9 - overlap / 2;
+}
+
+}  // namespace cairn::matching

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "fusion/matching/map_voxels.hpp"
+#include "fusion/matching/nearest_grid.hpp"
+#include "fusion/matching/surfel_grid.hpp"
+#include "hal/se3.hpp"
+
+namespace cairn::matching {
+
+/// One map as a party to a comparison: surfels, those of them that are structure (a sample), and what it saw free.
+struct Party {
+  std::span<const Surfel> surfels;
+  std::vector<Surfel> sample;     ///< of all surfels
+  std::vector<Surfel> structure;  ///< of those that are structure
+  FreeSpace free;
+  double cell_m;
+};
+
+/// What speaks for and against a pose, counted over samples of both maps.
+struct Evidence {
+  double overlap = 0;              ///< ε = ½ (N_match/N_s + N_match/N_r) (4.21), pairs within 2.5 cells
+  double inlier_ratio = 0;         ///< of these pairs, those with a Mahalanobis distance (3.18, 4.20) below one cell
+  double structure_inliers = 0;    ///< of the structure that has a partner, what agrees in place and normal
+  int structure_pairs = 0;         ///< that agree
+  double conflict = 0;             ///< source structure in space the target saw free, over that plus what has a partner
+  double reverse_conflict = 0;     ///< target structure in space the source saw free, over the target's structure
+  double weakest_translation = 0;  ///< smallest eigenvalue of the mean n nᵀ (x, y) over agreeing structure, 0…½
+  double uniqueness = 1;           ///< 1 − score of the next mode over that of the best
+};
+
+/// Score of a pose for ranking modes: +1 for each structure surfel of the source that agrees in place and normal,
+/// −¼ where it meets another surface, −2 where it stands in the target's free space, and −2 for target structure in
+/// the source's free space; per source surfel.
+[[nodiscard]] double score(const Party& target, const NearestGrid& nearest, const Party& source,
+                           const SE3& T_target_source);
+
+/// Leaves `uniqueness` alone.
+[[nodiscard]] Evidence weigh(const Party& target, const NearestGrid& nearest, const Party& source,
+                             const SE3& T_target_source);
+
+/// The covariance of T (right perturbation, m and rad) that the residuals along the normals of agreeing surfels give:
+/// (Σ Jᵀ J / s² + Σ₀⁻¹)⁻¹ with the prior's covariance Σ₀, so that a direction no surface fixes keeps the prior's
+/// uncertainty. Neighbouring surfels share voxels and the errors of the grid are systematic: s² counts each
+/// residual as one of `kCorrelated` that err together.
+[[nodiscard]] Matrix6 covariance(const Party& target, const NearestGrid& nearest, const Party& source,
+                                 const SE3& T_target_source, const Matrix6& prior_covariance);
+
+/// The book's threshold on the inlier ratio for an overlap (4.21): 0.80 below 0.2, 0.9 − ε/2 up to 0.6, then 0.60.
+[[nodiscard]] double book_threshold(double overlap);
+
+}  // namespace cairn::matching

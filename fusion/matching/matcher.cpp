@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/matching/matcher.hpp"
+
+#include <string>
+
+#include "fusion/matching/default_matcher.hpp"
+
+namespace cairn::matching {
+namespace {
+
+using Make = std::unique_ptr<Matcher> (*)(const MapFeatures& a, const MapFeatures& b);
+
+template <class M>
+std::unique_ptr<Matcher> make(const MapFeatures& a, const MapFeatures& b) {
+  return std::make_unique<M>(a, b);
+}
+
+struct Method {
+  std::string_view name;
+  Make make;
+};
+constexpr Method kMethods[] = {{"default", make<DefaultMatcher>}};
+
+}  // namespace
+
+const std::vector<std::string_view>& method_names() {
+  static const std::vector<std::string_view> names = [] {
+    std::vector<std::string_view> all;
+    for (const Method& method : kMethods) all.push_back(method.name);
+    return all;
+  }();
+  return names;
+}
+
+Result<std::unique_ptr<Matcher>> make_matcher(std::string_view name, const MapFeatures& a, const MapFeatures& b) {
+  for (const Method& method : kMethods)
+    if (method.name == name) return method.make(a, b);
+  return Error{Errc::kNotFound, "no such matching method", std::string(name)};
+}
+
+}  // namespace cairn::matching

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/matching/refine.hpp"
+
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
+#include <algorithm>
+
+namespace cairn::matching {
+namespace {
+
+constexpr float kThin = 0.999F;  // 1 less the variance along a normal over that across it
+constexpr int kMinPairs = 20;
+
+using Matrix36f = Eigen::Matrix<float, 3, 6>;
+using Matrix6f = Eigen::Matrix<float, 6, 6>;
+
+Eigen::Matrix3f skew(const Eigen::Vector3f& v) {
+  Eigen::Matrix3f m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+/// In the source's frame; without a normal (zero) a surfel is as uncertain across as along.
+Eigen::Matrix3f information(const Eigen::Vector3f& n_target, const Eigen::Vector3f& n_source) {
+  const Eigen::Matrix3f sum = 2 * Eigen::Matrix3f::Identity() - kThin * n_target * n_target.transpose() -
+                              kThin * n_source * n_source.transpose();
+  return sum.inverse();
+}
+
+}  // namespace
+
+NormalEquations plane_to_plane(std::span<const Surfel> target, const NearestGrid& nearest,
+                               std::span<const Surfel> source, const SE3& T, float gate_m) {
+  NormalEquations sum;
+  const Eigen::Matrix3f R = T.rotation().cast<float>();
+  const Eigen::Vector3f t = T.translation().cast<float>();
+  for (const Surfel& s : source) {
+    const Eigen::Vector3f q = R * s.point + t;
+    const int i = nearest.nearest(q, gate_m);
+    if (i == NearestGrid::kNone) continue;
+    const Surfel& r = target[static_cast<std::size_t>(i)];
+    const Eigen::Vector3f e = R.transpose() * (q - r.point);
+    const Eigen::Matrix3f W = information(R.transpose() * r.normal, s.normal);
+    Matrix36f J;
+    J << Eigen::Matrix3f::Identity(), -skew(s.point);
+    const Matrix36f WJ = W * J;
+    sum.H += Matrix6f(J.transpose() * WJ).cast<double>();
+    sum.g += Eigen::Matrix<float, 6, 1>(WJ.transpose() * e).cast<double>();
+    sum.cost += static_cast<double>(e.dot(W * e));
+    ++sum.pairs;
+  }
+  return sum;
+}
+
+Refinement refine(std::span<const Surfel> target, const NearestGrid& nearest, std::span<const Surfel> source,
+                  const SE3& initial, const RefineOptions& options, Budget& budget) {
+  Refinement out{initial, 0, 0};
+  float gate = options.gate_m;
+  while (out.iterations < options.max_iterations && budget.one_more()) {
+    const NormalEquations sum = plane_to_plane(target, nearest, source, out.T_target_source, gate);
+    ++out.iterations;
+    out.pairs = sum.pairs;
+    if (sum.pairs < kMinPairs) break;
+    const Vector6 step = (sum.H + 1e-6 * Matrix6::Identity()).ldlt().solve(-sum.g);
+    if (!step.allFinite()) break;
+    out.T_target_source = out.T_target_source * SE3::exp(step);
+    const bool shrunk = gate <= options.last_gate_m;
+    gate = std::max(options.last_gate_m, gate * options.gate_decay);
+    if (shrunk && step.head<3>().norm() < options.stop_m && step.tail<3>().norm() < options.stop_rad) break;
+  }
+  return out;
+}
+
+}  // namespace cairn::matching
