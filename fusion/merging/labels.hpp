@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <span>
+
+namespace cairn::merging {
+
+inline constexpr std::size_t kClasses = 19;  ///< Cityscapes
+/// A probability for each class, 0…1.
+using ClassProbabilities = std::array<double, kClasses>;
+
+/// Labels of several robots for one voxel, by Bayes' rule for each class on its own with the prior 1/19 that all of
+/// them share counted once (7.10, 7.20): logit p = Σ logit pᵢ − (n − 1) logit(1/19). Then normalised over the classes
+/// (7.21 takes the largest). At least one opinion; probabilities are kept inside [10⁻⁶, 1 − 10⁻⁶]. The sums do not
+/// depend on the order (fixed point).
+[[nodiscard]] ClassProbabilities fuse_labels(std::span<const ClassProbabilities> opinions);
+
+/// Entropy of normalised class probabilities over log(19): 0 for one certain class, 1 for none preferred.
+[[nodiscard]] double label_entropy(const ClassProbabilities& p);
+
+}  // namespace cairn::merging

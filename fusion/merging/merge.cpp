@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/merging/merge.hpp"
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "fusion/merging/resampling.hpp"
+
+namespace cairn::merging {
+namespace {
+
+constexpr int kEdge = 1 << SemanticOcTree::kDepth;
+
+/// Builds the fused tree from the root down, and stops dividing where nobody's map divides.
+class Fusion {
+ public:
+  Fusion(const Contributions& contributions, const MergeOptions& options, SemanticOcTree& fused)
+      : options_(options), fused_(fused) {
+    const SensorModel model = fused.sensor_model();
+    limits_ = {model.min, model.max, model.occupied};
+    for (const auto& [robot, contribution] : contributions) {
+      if (options.own == robot) own_ = views_.size();
+      views_.emplace_back(*contribution.map, contribution.T_fused_map, fused.getResolution());
+    }
+    places_.resize(SemanticOcTree::kDepth + 2, {});
+    for (const Resampled& view : views_) places_[0].push_back(view.root());
+  }
+
+  /// False when the map grew beyond its limit.
+  bool run() {
+    bool made = false;
+    SemanticNode* root = fused_.root_or_new(made);
+    const bool known = fuse(Eigen::Vector3i::Zero(), kEdge, 0, root);
+    fused_.settle_count();
+    if (!known) fused_.clear();
+    return nodes_ < kMaxFusedNodes;
+  }
+
+ private:
+  /// Fills in the node of one cube; false when nobody knows anything of it, and the node is to be taken back.
+  // NOLINTNEXTLINE(misc-no-recursion)
+  bool fuse(const Eigen::Vector3i& first, int edge, std::size_t depth, SemanticNode* node) {
+    if (++nodes_ >= kMaxFusedNodes) return false;
+    bool mixed = false;
+    opinions_.clear();
+    own_opinion_.reset();
+    places_[depth + 1] = places_[depth];
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      const Content content = views_[i].look(first, edge, places_[depth + 1][i]);
+      mixed = mixed || content.kind == Content::Kind::kMixed;
+      if (content.kind != Content::Kind::kUniform) continue;
+      opinions_.push_back(content.log_odds);
+      if (own_ == i) own_opinion_ = content.log_odds;
+    }
+    if (mixed) return divide(first, edge, depth, node);
+    if (opinions_.empty()) return false;
+    node->setLogOdds(folded());
+    return true;
+  }
+
+  // NOLINTNEXTLINE(misc-no-recursion)
+  bool divide(const Eigen::Vector3i& first, int edge, std::size_t depth, SemanticNode* node) {
+    NodeWriter& writer = fused_.writer(0);
+    bool any = false, made = false;
+    for (unsigned i = 0; i < SemanticNode::kChildren; ++i) {
+      const auto bit = [&](unsigned axis) { return static_cast<int>(i >> axis & 1U); };
+      SemanticNode* child = writer.child(node, i, made);
+      if (fuse(first + edge / 2 * Eigen::Vector3i(bit(0), bit(1), bit(2)), edge / 2, depth + 1, child)) {
+        any = true;
+        continue;
+      }
+      child->setLogOdds(SemanticNode::kAbsent);
+      writer.count(-1);
+    }
+    if (any)
+      writer.refresh(node);
+    else
+      writer.drop_block(node);
+    return any;
+  }
+
+  [[nodiscard]] float folded() const {
+    const float fused = fold(options_.policy, opinions_, limits_);
+    const bool outranked = own_opinion_ && (*own_opinion_ >= limits_.occupied) != (fused >= limits_.occupied);
+    return outranked ? *own_opinion_ : fused;
+  }
+
+  const MergeOptions& options_;
+  SemanticOcTree& fused_;
+  Limits limits_;
+  std::vector<Resampled> views_;
+  std::optional<std::size_t> own_;
+  std::vector<std::vector<Resampled::Place>> places_;  // by depth
+  std::vector<float> opinions_;                        // about the cube at hand
+  std::optional<float> own_opinion_;
+  std::int64_t nodes_ = 0;
+};
+
+Result<void> check(const Contributions& contributions) {
+  if (contributions.empty()) return Error{Errc::kInvalidConfig, "nothing to merge"};
+  for (const auto& [robot, contribution] : contributions) {
+    const std::string name = "robot " + std::to_string(robot);
+    if (contribution.map == nullptr) return Error{Errc::kInvalidConfig, "a contribution has no map", name};
+    if (!contribution.T_fused_map.matrix().allFinite())
+      return Error{Errc::kInvalidConfig, "the pose of a map is not finite", name};
+  }
+  return {};
+}
+
+}  // namespace
+
+bool offer(Contributions& contributions, std::uint64_t robot, Contribution contribution) {
+  const auto held = contributions.find(robot);
+  if (held != contributions.end() && held->second.version >= contribution.version) return false;
+  contributions.insert_or_assign(robot, std::move(contribution));
+  return true;
+}
+
+Result<std::unique_ptr<SemanticOcTree>> merge(const Contributions& contributions, const MergeOptions& options) {
+  if (const auto fit = check(contributions); !fit) return fit.error();
+  double resolution = contributions.begin()->second.map->getResolution();
+  for (const auto& [robot, contribution] : contributions)
+    resolution = std::min(resolution, contribution.map->getResolution());
+  auto fused = std::make_unique<SemanticOcTree>(resolution);
+  fused->set_sensor_model(contributions.begin()->second.map->sensor_model());
+  if (!Fusion(contributions, options, *fused).run())
+    return Error{Errc::kLimit, "the fused map is too large", {}, {}, "more than 10⁸ nodes"};
+  return fused;
+}
+
+}  // namespace cairn::merging

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/merging/resampling.hpp"
+
+namespace cairn::merging {
+namespace {
+
+constexpr int kEdge = 1 << SemanticOcTree::kDepth;
+constexpr double kSlack = 1e-6;  // voxels; rounding must not let a cube reach out of the one it lies in
+
+bool apart(const Resampled::Box& box, const Resampled::Place& p) {
+  return (box.high.array() < p.first.array()).any() || (box.low.array() >= p.first.array() + p.edge).any();
+}
+
+bool within(const Resampled::Box& box, const Resampled::Place& p) {
+  return (box.low.array() >= p.first.array()).all() && (box.high.array() < p.first.array() + p.edge).all();
+}
+
+Resampled::Place child(const Resampled::Place& p, unsigned i) {
+  const auto bit = [&](unsigned axis) { return static_cast<int>(i >> axis & 1U); };
+  return {p.node->block() + i, p.first + p.edge / 2 * Eigen::Vector3i(bit(0), bit(1), bit(2)), p.edge / 2};
+}
+
+/// Adds what `p` holds of the box to what is known so far; false once it is mixed. No deeper than the tree.
+// NOLINTNEXTLINE(misc-no-recursion)
+bool add(const Resampled::Box& box, const Resampled::Place& p, Content& so_far, bool& first) {
+  if (apart(box, p)) return true;
+  if (p.node != nullptr && p.node->present() && p.node->block() != nullptr) {
+    for (unsigned i = 0; i < SemanticNode::kChildren; ++i)
+      if (!add(box, child(p, i), so_far, first)) return false;
+    return true;
+  }
+  Content here;
+  if (p.node != nullptr && p.node->present()) here = {Content::Kind::kUniform, p.node->getLogOdds()};
+  const bool same = first || here == so_far;
+  so_far = same ? here : Content{Content::Kind::kMixed, 0};
+  first = false;
+  return same;
+}
+
+}  // namespace
+
+Resampled::Resampled(const SemanticOcTree& map, const SE3& T_grid_map, double grid_resolution_m)
+    : root_(map.getRoot()) {
+  const double ratio = grid_resolution_m / map.getResolution();
+  const SE3 T_map_grid = T_grid_map.inverse();
+  scaled_rotation_ = ratio * T_map_grid.rotation();
+  reach_ = scaled_rotation_.cwiseAbs();
+  offset_ = (T_map_grid.translation() / map.getResolution()).array() + kEdge / 2.0;
+}
+
+Resampled::Place Resampled::root() const { return {root_, Eigen::Vector3i::Zero(), kEdge}; }
+
+Resampled::Box Resampled::box_of(const Eigen::Vector3i& first, int edge) const {
+  const Eigen::Vector3d centre = (first.cast<double>().array() + 0.5 * edge) - kEdge / 2.0;
+  const Eigen::Vector3d in_map = scaled_rotation_ * centre + offset_;
+  // Only the centres of voxels are looked up.
+  const Eigen::Vector3d half = reach_ * Eigen::Vector3d::Constant(0.5 * (edge - 1));
+  const Eigen::Vector3d slack = Eigen::Vector3d::Constant(edge > 1 ? kSlack : 0.0);
+  const auto key = [](const Eigen::Vector3d& v) -> Eigen::Vector3i {
+    return v.array().floor().max(-1.0).min(static_cast<double>(kEdge)).cast<int>();
+  };
+  return {key(in_map - half - slack), key(in_map + half + slack)};
+}
+
+Content Resampled::look(const Eigen::Vector3i& first, int edge, Place& place) const {
+  if (place.node == nullptr) return {};
+  const Box box = box_of(first, edge);
+  for (bool smaller = true; smaller && place.node->present() && place.node->block() != nullptr;) {
+    smaller = false;
+    for (unsigned i = 0; i < SemanticNode::kChildren && !smaller; ++i)
+      if (const Place inner = child(place, i); within(box, inner)) {
+        place = inner;
+        smaller = true;
+      }
+  }
+  Content content;
+  bool none_yet = true;
+  // What lies outside of the tree is unknown.
+  if (place.edge == kEdge && !within(box, place)) none_yet = false;
+  (void)add(box, place, content, none_yet);
+  return content;
+}
+
+}  // namespace cairn::merging
