@@ -7,6 +7,8 @@
 #include "tools/cli/import_command.hpp"
 #include "tools/cli/inspect_command.hpp"
 #include "tools/cli/map_command.hpp"
+#include "tools/cli/match_command.hpp"
+#include "tools/cli/merge_command.hpp"
 #include "tools/cli/record_command.hpp"
 #ifdef CAIRN_HAS_SIMULATOR
 #include "tools/cli/simulate_command.hpp"
@@ -22,6 +24,8 @@ void add_tool_commands(Commands& commands) {
   add_import_command(commands);
   add_inspect_command(commands);
   add_map_command(commands);
+  add_match_command(commands);
+  add_merge_command(commands);
   add_evaluate_command(commands);
   add_doctor_command(commands);
   add_faults_command(commands);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -24,6 +23,7 @@
 #include "onboard/app/report/report_json.hpp"
 #include "onboard/app/report/trajectory_error.hpp"
 #include "onboard/mapping/map_file.hpp"
+#include "tools/cli/save_map.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -173,21 +173,10 @@ int render(const Options& options) {
 }
 
 int export_map(const Options& options) {
-  using Save = Result<void> (*)(const SemanticOcTree&, const fs::path&);
-  struct Format {
-    const char* extension;
-    Save save;
-  };
-  const std::array formats{
-      Format{".cairn", [](const SemanticOcTree& t, const fs::path& p) { return save_cairn(t, p); }},
-      Format{".ot", save_ot}, Format{".bt", save_bt}, Format{".ply", save_ply}, Format{".pcd", save_pcd}};
-  const auto format = std::find_if(formats.begin(), formats.end(),
-                                   [&](const Format& f) { return options.out.extension() == f.extension; });
-  if (format == formats.end())
-    return wrong("--out " + options.out.string() + ": the name must end in .cairn, .ot, .bt, .ply or .pcd");
+  if (const auto named = check_map_name(options.out); !named) return fail(named.error());
   const auto map = load_map(options.file);
   if (!map) return fail(at(options.file.string(), map.error()));
-  if (const auto saved = format->save(**map, options.out); !saved) return fail(at(options.out.string(), saved.error()));
+  if (const auto saved = save_map(**map, options.out); !saved) return fail(saved.error());
   std::error_code ignored;
   const auto bytes = fs::file_size(options.out, ignored);
   if (options.json) return print({{"out", options.out.string()}, {"bytes", bytes}});
