@@ -9,13 +9,13 @@ namespace {
 
 constexpr int kMinStructurePairs = 60;
 constexpr double kMinWeakest = 0.02;
-constexpr double kMinProbability = 0.95;
-
-double logistic(double z) { return 1 / (1 + std::exp(-z)); }
+constexpr double kMinProbability = 0.9;
 
 double probability(const Evidence& e) {
-  return logistic(2.0 + 8.0 * (e.structure_inliers - 0.7) - 60.0 * (e.conflict + e.reverse_conflict - 0.03) +
-                  4.0 * (e.uniqueness - 0.3));
+  const double z = -9.412 - 1.367 * e.structure_inliers - 10.482 * std::sqrt(e.conflict + e.reverse_conflict) +
+                   1.000 * std::log(1.0 + e.structure_pairs) + 8.676 * std::sqrt(e.weakest_translation) +
+                   3.035 * e.uniqueness + 1.544 * e.overlap;
+  return 1 / (1 + std::exp(-z));
 }
 
 }  // namespace
@@ -24,11 +24,9 @@ Decision decide(const Evidence& e) {
   const double p = probability(e);
   if (e.structure_pairs < kMinStructurePairs) return {false, std::min(p, 0.5), "too little structure in common"};
   if (e.weakest_translation < kMinWeakest) return {false, std::min(p, 0.5), "no surface holds one direction"};
-  if (p < kMinProbability) {
-    const bool contradicted = e.conflict + e.reverse_conflict > 0.03;
-    return {false, p, contradicted ? "surfaces stand where the other map saw free space" : "too little agreement"};
-  }
-  return {true, p, "structure agrees and free space does not contradict"};
+  if (p >= kMinProbability) return {true, p, "structure agrees, free space does not contradict, no other pose rivals"};
+  if (e.conflict + e.reverse_conflict > 0.05) return {false, p, "surfaces stand where the other map saw free space"};
+  return {false, p, e.uniqueness < 0.2 ? "another pose is nearly as good" : "too little evidence"};
 }
 
 }  // namespace cairn::matching

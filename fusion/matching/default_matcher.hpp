@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "fusion/matching/coarse_search.hpp"
+#include "fusion/matching/judge.hpp"
 #include "fusion/matching/matcher.hpp"
 #include "fusion/matching/nearest_grid.hpp"
 #include "fusion/matching/refine.hpp"
@@ -28,15 +29,12 @@ class DefaultMatcher final : public Matcher {
   [[nodiscard]] std::vector<Candidate> verified_modes(const SE3& initial, const SearchWindow& window, int modes,
                                                       Budget& budget) const;
 
-  Party a_, b_;
+  Judge judge_;
   std::vector<Eigen::Vector3f> structure_a_, structure_b_;  // coarse
   std::span<const Surfel> coarse_a_;
   std::vector<Surfel> coarse_sample_b_;
   float coarse_m_;
-  NearestGrid near_coarse_, near_fine_;
+  NearestGrid near_coarse_;
 };
-
-/// The error match() gives for a guess it cannot use; none if it can.
-[[nodiscard]] std::optional<Error> fault_of(const std::optional<UncertainPose>& initial);
 
 }  // namespace cairn::matching

@@ -4,6 +4,9 @@
 #include <string>
 
 #include "fusion/matching/default_matcher.hpp"
+#include "fusion/matching/em.hpp"
+#include "fusion/matching/oicp.hpp"
+#include "fusion/matching/pmm.hpp"
 
 namespace cairn::matching {
 namespace {
@@ -19,7 +22,11 @@ struct Method {
   std::string_view name;
   Make make;
 };
-constexpr Method kMethods[] = {{"default", make<DefaultMatcher>}};
+constexpr Method kMethods[] = {{"default", make<DefaultMatcher>},
+                               {"oicp", make<Oicp>},
+                               {"pmm", make<Pmm>},
+                               {"pmm_level1", make<PmmLevel1>},
+                               {"em", make<Em>}};
 
 }  // namespace
 

@@ -65,13 +65,12 @@ Resampled::Box Resampled::box_of(const Eigen::Vector3i& first, int edge) const {
 Content Resampled::look(const Eigen::Vector3i& first, int edge, Place& place) const {
   if (place.node == nullptr) return {};
   const Box box = box_of(first, edge);
-  for (bool smaller = true; smaller && place.node->present() && place.node->block() != nullptr;) {
-    smaller = false;
-    for (unsigned i = 0; i < SemanticNode::kChildren && !smaller; ++i)
-      if (const Place inner = child(place, i); within(box, inner)) {
-        place = inner;
-        smaller = true;
-      }
+  while (place.node->present() && place.node->block() != nullptr) {
+    // The lowest and the highest corner lie in the same child, or the box lies in none.
+    const Eigen::Array3i middle = place.first.array() + place.edge / 2;
+    const Eigen::Array<bool, 3, 1> low = box.low.array() >= middle, high = box.high.array() >= middle;
+    if ((low != high).any() || (place.edge == kEdge && !within(box, place))) break;
+    place = child(place, unsigned{low[0]} | unsigned{low[1]} << 1 | unsigned{low[2]} << 2);
   }
   Content content;
   bool none_yet = true;

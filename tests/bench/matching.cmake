@@ -1,4 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
-add_executable(matching_protocol matching_protocol.cpp)
-target_link_libraries(matching_protocol PRIVATE cairn_flags cairn_matching)
-target_compile_definitions(matching_protocol PRIVATE CAIRN_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+foreach(program IN ITEMS matching_protocol matching_evidence)
+  add_executable(${program} ${program}.cpp)
+  target_link_libraries(${program} PRIVATE cairn_flags cairn_matching)
+  target_compile_definitions(${program} PRIVATE CAIRN_SOURCE_DIR="${PROJECT_SOURCE_DIR}")
+endforeach()
+cairn_bench(merging SOURCES merging_bench.cpp LINK cairn_merging)

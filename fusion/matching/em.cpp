@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/matching/em.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace cairn::matching {
+namespace {
+
+constexpr float kDensityCells = 5;
+constexpr int kIterations = 30, kMostCorrespondences = 8;
+constexpr double kFirstSigmaM = 1, kSigmas = 3;
+
+std::vector<int> densities(const PointGrid& grid, float radius) {
+  std::vector<int> all;
+  all.reserve(grid.points().size());
+  for (const Eigen::Vector3f& p : grid.points()) all.push_back(grid.count(p, radius));
+  return all;
+}
+
+double mean(const std::vector<int>& values) {
+  return values.empty() ? 0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+/// The dense map's density enters as its mean: while nothing is known of the pose, no voxel is nearest to another.
+Em::Em(const MapFeatures& a, const MapFeatures& b)
+    : VoxelMatcher(a, b), points_b_(centres_of(voxels_b()), static_cast<float>(4 * resolution())) {
+  const auto radius = kDensityCells * static_cast<float>(resolution());
+  const auto of_a = densities(points_a(), radius), of_b = densities(points_b_, radius);
+  sparse_is_b_ = mean(of_b) <= mean(of_a);
+  const auto& sparse = sparse_is_b_ ? of_b : of_a;
+  const double dense = mean(sparse_is_b_ ? of_a : of_b);
+  const bool alike = std::lround(dense / std::max(1.0, mean(sparse))) <= 1;
+  for (const int d : sparse) {
+    const auto ratio = static_cast<int>(std::lround(dense / std::max(1, d)));
+    correspondences_.push_back(alike ? 1 : std::clamp(ratio, 1, kMostCorrespondences));
+  }
+}
+
+double Em::mean_correspondences() const { return mean(correspondences_); }
+
+std::optional<SE3> Em::step(const SE3& T, const UncertainPose& prior, double sigma) const {
+  const SE3 T_dense_sparse = sparse_is_b_ ? T : T.inverse();
+  const PointGrid& dense = sparse_is_b_ ? points_a() : points_b_;
+  const PointGrid& sparse = sparse_is_b_ ? points_b_ : points_a();
+  const double gate = std::min(static_cast<double>(kGateM), kSigmas * sigma);
+  Matrix6 H = Matrix6::Zero();
+  Vector6 g = Vector6::Zero();
+  int pairs = 0;
+  std::vector<PointGrid::Neighbour> near;
+  for (std::size_t i = 0; i < sparse.points().size(); ++i) {
+    const Eigen::Vector3d x = sparse.points()[i].cast<double>();
+    const auto count = static_cast<std::size_t>(correspondences_[i]);
+    dense.nearest((T_dense_sparse * x).cast<float>(), static_cast<float>(gate), count, near);
+    double total = 0;
+    Eigen::Vector3d target = Eigen::Vector3d::Zero();
+    for (const auto& n : near) {
+      const double w = std::exp(-static_cast<double>(n.squared) / (2 * sigma * sigma));
+      target += w * dense.points()[static_cast<std::size_t>(n.index)].cast<double>();
+      total += w;
+    }
+    if (near.empty() || !(total > 0)) continue;
+    // In b's frame, so that the parameters are a right perturbation of T whichever map is the sparse one.
+    const Eigen::Vector3d in_b = sparse_is_b_ ? x : Eigen::Vector3d(target / total);
+    const Eigen::Vector3d in_a = sparse_is_b_ ? Eigen::Vector3d(target / total) : x;
+    const Eigen::Vector3d e = in_b - T.inverse() * in_a;
+    Eigen::Matrix<double, 3, 6> J;
+    J << Eigen::Matrix3d::Identity(), -hat(in_b);
+    H += J.transpose() * J;
+    g += J.transpose() * e;
+    ++pairs;
+  }
+  if (pairs < kMinPairs) return std::nullopt;
+  const Vector6 away = (prior.mean.inverse() * T).log();
+  const Matrix6 Jr = right_jacobian_inverse(away);
+  const Matrix6 P = prior.covariance.ldlt().solve(Matrix6::Identity());
+  H = H / (sigma * sigma) + Jr.transpose() * P * Jr;
+  g = g / (sigma * sigma) + Jr.transpose() * P * away;
+  return SE3::exp(H.ldlt().solve(-g));
+}
+
+SE3 Em::descend(const UncertainPose& prior, Budget& budget) const {
+  SE3 T = prior.mean;
+  const double shrink = std::pow(resolution() / kFirstSigmaM, 1.0 / (kIterations - 5));
+  double sigma = kFirstSigmaM;
+  for (int i = 0; i < kIterations && budget.one_more(); ++i, sigma = std::max(resolution(), sigma * shrink)) {
+    const auto s = step(T, prior, sigma);
+    if (!s) return T;
+    T = T * *s;
+    if (sigma <= resolution() && negligible(*s)) break;
+  }
+  return T;
+}
+
+}  // namespace cairn::matching

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fusion/matching/voxel_matcher.hpp"
+
+namespace cairn::matching {
+
+/// Expectation–maximisation for maps of different sensors (ch. 5). Each voxel of the sparse map is paired with as many
+/// of the dense one as their local densities say (Alg. 3), softly: ω_ij = exp(−d²/2σ²), normalised (E-step); σ shrinks
+/// from 1 m to a voxel. The M-step is Gauss–Newton on the weighted distances with the prior p(T) = N(T₀, Σ₀)
+/// (5.4, 5.8). Density is the number of occupied neighbours within five voxels; the sparser map gives the voxels.
+class Em final : public VoxelMatcher {
+ public:
+  Em(const MapFeatures& a, const MapFeatures& b);
+
+  /// Mean number of pairs of a voxel of the sparse map: what falls as it fills (book: 3.57 → 2.15).
+  [[nodiscard]] double mean_correspondences() const;
+
+ private:
+  [[nodiscard]] SE3 descend(const UncertainPose& prior, Budget& budget) const override;
+  [[nodiscard]] std::optional<SE3> step(const SE3& T, const UncertainPose& prior, double sigma) const;
+
+  bool sparse_is_b_;
+  PointGrid points_b_;
+  std::vector<int> correspondences_;  // c_i of the sparse map's voxels, at least 1
+};
+
+}  // namespace cairn::matching

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/matching/judge.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "fusion/matching/acceptance.hpp"
+#include "fusion/matching/sample.hpp"
+
+namespace cairn::matching {
+namespace {
+
+constexpr std::size_t kFinePoints = 8000, kVerifyPoints = 1500, kMinStructure = 60;
+constexpr float kReachCells = 4;
+
+Party party_of(const MapFeatures& map) {
+  return {map.fine(), sample(map.fine(), kFinePoints),
+          sample(std::span<const Surfel>(structure_of(map.fine())), kVerifyPoints), FreeSpace(map.map()),
+          static_cast<double>(map.fine_m())};
+}
+
+}  // namespace
+
+std::vector<Surfel> structure_of(std::span<const Surfel> surfels) {
+  std::vector<Surfel> out;
+  std::copy_if(surfels.begin(), surfels.end(), std::back_inserter(out), [](const Surfel& s) { return s.structure(); });
+  return out;
+}
+
+std::optional<Error> fault_of(const std::optional<UncertainPose>& initial) {
+  if (!initial) return std::nullopt;
+  if (!initial->mean.matrix().allFinite() || !initial->covariance.allFinite())
+    return Error{Errc::kInvalidConfig, "the initial pose is not finite", "initial pose"};
+  if (Eigen::SelfAdjointEigenSolver<Matrix6>(initial->covariance).eigenvalues()[0] <= 0)
+    return Error{Errc::kInvalidConfig, "the initial covariance is not positive definite", "initial pose"};
+  return std::nullopt;
+}
+
+Matrix6 default_prior_covariance() {
+  Vector6 sigma;
+  sigma << 0.8, 0.8, 0.3, 0.03, 0.03, 0.105;
+  return sigma.cwiseAbs2().asDiagonal();
+}
+
+UncertainPose anywhere() {
+  UncertainPose pose;
+  Vector6 sigma;
+  sigma << 10.0 / 3, 10.0 / 3, 0.3, 0.03, 0.03, M_PI;
+  pose.covariance = sigma.cwiseAbs2().asDiagonal();
+  return pose;
+}
+
+Judge::Judge(const MapFeatures& a, const MapFeatures& b)
+    : a_(party_of(a)),
+      b_(party_of(b)),
+      cell_m_(std::max(a.fine_m(), b.fine_m())),
+      near_a_(a.fine(), cell_m_, kReachCells * cell_m_) {}
+
+std::optional<std::string> Judge::hopeless() const {
+  if (a_.structure.size() < kMinStructure) return "map a holds too little structure";
+  if (b_.structure.size() < kMinStructure) return "map b holds too little structure";
+  return std::nullopt;
+}
+
+MatchResult Judge::conclude(const SE3& T_a_b, const Matrix6& prior_covariance, double uniqueness,
+                            const Budget& budget) const {
+  MatchResult result;
+  result.T_a_b = {T_a_b, covariance(a_, near_a_, b_, T_a_b, prior_covariance)};
+  result.evidence = weigh(a_, near_a_, b_, T_a_b);
+  result.evidence.uniqueness = uniqueness;
+  result.overlap = result.evidence.overlap;
+  result.inlier_ratio = result.evidence.inlier_ratio;
+  result.threshold = book_threshold(result.overlap);
+  result.book_accepted = result.inlier_ratio > result.threshold;
+  const Decision decision = decide(result.evidence);
+  result.accepted = decision.accepted;
+  result.probability_correct = decision.probability_correct;
+  result.reason = decision.reason;
+  result.iterations = budget.spent();
+  return result;
+}
+
+}  // namespace cairn::matching

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/matching/voxel_matcher.hpp"
+
+#include <algorithm>
+
+#include "fusion/matching/alignment.hpp"
+
+namespace cairn::matching {
+
+std::vector<Eigen::Vector3f> centres_of(const std::vector<Voxel>& voxels) {
+  std::vector<Eigen::Vector3f> centres;
+  centres.reserve(voxels.size());
+  for (const Voxel& v : voxels) centres.push_back(v.centre);
+  return centres;
+}
+
+bool negligible(const SE3& step) { return step.translation().norm() < 1e-4 && rotation_angle(step) < 1e-5; }
+
+VoxelMatcher::VoxelMatcher(const MapFeatures& a, const MapFeatures& b)
+    : judge_(a, b),
+      resolution_(std::max(a.resolution(), b.resolution())),
+      voxels_a_(occupied_voxels(a.map()).value_or(std::vector<Voxel>{})),  // the features were built, so it fits
+      voxels_b_(occupied_voxels(b.map()).value_or(std::vector<Voxel>{})),
+      points_a_(centres_of(voxels_a_), static_cast<float>(4 * resolution_)),
+      entropy_a_(std::max(1e-3, book_map_entropy(voxels_a_))) {}
+
+Result<MatchResult> VoxelMatcher::match(const std::optional<UncertainPose>& initial, Budget& budget) const {
+  if (auto fault = fault_of(initial)) return *std::move(fault);
+  const UncertainPose prior = initial.value_or(anywhere());
+  if (const auto reason = judge_.hopeless()) {
+    MatchResult result;
+    result.T_a_b = prior;
+    result.reason = *reason;
+    return result;
+  }
+  return judge_.conclude(descend(prior, budget), prior.covariance, 0, budget);
+}
+
+int VoxelMatcher::associate(const Eigen::Vector3f& at, float occupancy, float gate_m, double occupancy_weight) const {
+  const auto weight = static_cast<float>(occupancy_weight);
+  return points_a_.nearest(at, gate_m, [&](int i, float squared) {
+    const float d = voxels_a_[static_cast<std::size_t>(i)].occupancy - occupancy;
+    return squared + weight * d * d;
+  });
+}
+
+std::optional<SE3> VoxelMatcher::closed_form_step(const SE3& T, float gate_m, double occupancy_weight, bool weighted,
+                                                  double& mean_squared) const {
+  Alignment pairs;
+  for (const Voxel& v : voxels_b_) {
+    const Eigen::Vector3d at = T * v.centre.cast<double>();
+    const int i = associate(at.cast<float>(), v.occupancy, gate_m, occupancy_weight);
+    if (i == PointGrid::kNone) continue;
+    const Voxel& r = voxels_a_[static_cast<std::size_t>(i)];
+    const double weight =
+        weighted ? 1 / (1 / static_cast<double>(r.occupancy) + 1 / static_cast<double>(v.occupancy)) : 1;
+    pairs.add(at, r.centre.cast<double>(), weight);
+  }
+  mean_squared = pairs.mean_squared();
+  if (pairs.pairs() < kMinPairs) return std::nullopt;
+  return pairs.solve();
+}
+
+}  // namespace cairn::matching
