@@ -27,7 +27,7 @@ struct Mode {
 /// there. The cells grow, if they must, until the field fits into memory, whatever the map claims.
 class LikelihoodField {
  public:
-  static constexpr double kMaxCells = 3e7;
+  static constexpr double kMaxCells = 2e7;
 
   /// With a margin that a shift of the window never leaves.
   LikelihoodField(std::span<const Eigen::Vector3f> points, float cell_m, const SearchWindow& window);

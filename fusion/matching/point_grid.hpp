@@ -31,6 +31,7 @@ class PointGrid {
         starts_.push_back(i);
       }
     starts_.push_back(order_.size());
+    for (const Eigen::Vector3f& p : points_) blocks_.find_or_insert(pack(block_of(p)), 0);
   }
 
   [[nodiscard]] const std::vector<Eigen::Vector3f>& points() const { return points_; }
@@ -88,12 +89,26 @@ class PointGrid {
     return (p / cell_m_).array().floor().cast<int>();
   }
 
+  [[nodiscard]] Eigen::Vector3i block_of(const Eigen::Vector3f& p) const {
+    return (p / (kBlock * cell_m_)).array().floor().cast<int>();
+  }
+  [[nodiscard]] bool far_from_all(const Eigen::Vector3f& q, float gate_m) const {
+    const Eigen::Vector3f gate = Eigen::Vector3f::Constant(gate_m);
+    const Eigen::Vector3i low = block_of(q - gate), high = block_of(q + gate);
+    for (int x = low.x(); x <= high.x(); ++x)
+      for (int y = low.y(); y <= high.y(); ++y)
+        for (int z = low.z(); z <= high.z(); ++z)
+          if (blocks_.find({x, y, z}) != CellIndex::kNone) return false;
+    return true;
+  }
+
   /// Calls use(index, squared distance) for points within the gate, in shells of cells around `q`, until a shell is
   /// farther away than `bound` (squared), which `use` may lower.
   template <class Use>
   void visit(const Eigen::Vector3f& q, float gate_m, const float& bound, const Use& use) const {
     const Eigen::Vector3f scaled = q / cell_m_;
     if (!(scaled.cwiseAbs().maxCoeff() < 5e5F) || scaled.hasNaN()) return;
+    if (far_from_all(q, gate_m)) return;
     const Eigen::Vector3i home = cell_of(q);
     const Eigen::Vector3f in_cell = scaled - home.cast<float>();
     const float wall = std::min(in_cell.minCoeff(), 1 - in_cell.maxCoeff()) * cell_m_;
@@ -121,8 +136,10 @@ class PointGrid {
   }
 
   std::vector<Eigen::Vector3f> points_;
+  static constexpr float kBlock = 5;  // edge of a block in cells
+
   float cell_m_;
-  CellIndex index_;
+  CellIndex index_, blocks_;
   std::vector<int> order_;
   std::vector<std::size_t> starts_;  // of each cell's points in order_, and the end
 };

@@ -35,14 +35,14 @@ class Fusion {
     const bool known = fuse(Eigen::Vector3i::Zero(), kEdge, 0, root);
     fused_.settle_count();
     if (!known) fused_.clear();
-    return nodes_ < kMaxFusedNodes;
+    return nodes_ < options_.max_nodes;
   }
 
  private:
   /// Fills in the node of one cube; false when nobody knows anything of it, and the node is to be taken back.
   // NOLINTNEXTLINE(misc-no-recursion)
   bool fuse(const Eigen::Vector3i& first, int edge, std::size_t depth, SemanticNode* node) {
-    if (++nodes_ >= kMaxFusedNodes) return false;
+    if (++nodes_ >= options_.max_nodes) return false;
     bool mixed = false;
     opinions_.clear();
     own_opinion_.reset();
@@ -126,7 +126,11 @@ Result<std::unique_ptr<SemanticOcTree>> merge(const Contributions& contributions
   auto fused = std::make_unique<SemanticOcTree>(resolution);
   fused->set_sensor_model(contributions.begin()->second.map->sensor_model());
   if (!Fusion(contributions, options, *fused).run())
-    return Error{Errc::kLimit, "the fused map is too large", {}, {}, "more than 10⁸ nodes"};
+    return Error{Errc::kLimit,
+                 "the fused map is too large",
+                 {},
+                 {},
+                 "more than " + std::to_string(options.max_nodes) + " nodes"};
   return fused;
 }
 

@@ -31,6 +31,8 @@ struct MergeOptions {
   /// The robot whose observations outrank the others': where it knows a voxel, the others cannot turn free into
   /// occupied or back.
   std::optional<std::uint64_t> own;
+  /// Cubes looked at before giving up: a turned map of crafted size would have 2⁴⁸ voxels.
+  std::int64_t max_nodes = 100'000'000;
 };
 
 /// The fused map, a pure function of the contributions: each voxel of its grid is folded over the robots that know it,
@@ -39,10 +41,8 @@ struct MergeOptions {
 /// bytes from before it came. The grid has the finest of the resolutions and the sensor model of the first robot;
 /// maps in other frames or resolutions are resampled (nearest neighbour). Labels of the tree are left out.
 ///
-/// Errors: kInvalidConfig without contributions, for a missing map or a pose that is not finite; kLimit above
-/// kMaxFusedNodes.
+/// Errors: kInvalidConfig without contributions, for a missing map or a pose that is not finite; kLimit beyond
+/// max_nodes.
 Result<std::unique_ptr<SemanticOcTree>> merge(const Contributions& contributions, const MergeOptions& options = {});
-
-inline constexpr std::int64_t kMaxFusedNodes = 100'000'000;
 
 }  // namespace cairn::merging

@@ -20,17 +20,20 @@ Resampled::Place child(const Resampled::Place& p, unsigned i) {
   return {p.node->block() + i, p.first + p.edge / 2 * Eigen::Vector3i(bit(0), bit(1), bit(2)), p.edge / 2};
 }
 
+Content content_of(const SemanticNode* leaf) {
+  return leaf->present() ? Content{Content::Kind::kUniform, leaf->getLogOdds()} : Content{};
+}
+
 /// Adds what `p` holds of the box to what is known so far; false once it is mixed. No deeper than the tree.
 // NOLINTNEXTLINE(misc-no-recursion)
 bool add(const Resampled::Box& box, const Resampled::Place& p, Content& so_far, bool& first) {
   if (apart(box, p)) return true;
-  if (p.node != nullptr && p.node->present() && p.node->block() != nullptr) {
+  if (p.node->block() != nullptr) {
     for (unsigned i = 0; i < SemanticNode::kChildren; ++i)
       if (!add(box, child(p, i), so_far, first)) return false;
     return true;
   }
-  Content here;
-  if (p.node != nullptr && p.node->present()) here = {Content::Kind::kUniform, p.node->getLogOdds()};
+  const Content here = content_of(p.node);
   const bool same = first || here == so_far;
   so_far = same ? here : Content{Content::Kind::kMixed, 0};
   first = false;
@@ -64,8 +67,10 @@ Resampled::Box Resampled::box_of(const Eigen::Vector3i& first, int edge) const {
 
 Content Resampled::look(const Eigen::Vector3i& first, int edge, Place& place) const {
   if (place.node == nullptr) return {};
+  // A place below the root holds the whole cube, so what is one leaf there, or nothing, needs no look at the cube.
+  if (place.edge < kEdge && place.node->block() == nullptr) return content_of(place.node);
   const Box box = box_of(first, edge);
-  while (place.node->present() && place.node->block() != nullptr) {
+  while (place.node->block() != nullptr) {
     // The lowest and the highest corner lie in the same child, or the box lies in none.
     const Eigen::Array3i middle = place.first.array() + place.edge / 2;
     const Eigen::Array<bool, 3, 1> low = box.low.array() >= middle, high = box.high.array() >= middle;
