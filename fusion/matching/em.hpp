@@ -8,7 +8,9 @@ namespace cairn::matching {
 /// Expectation–maximisation for maps of different sensors (ch. 5). Each voxel of the sparse map is paired with as many
 /// of the dense one as their local densities say (Alg. 3), softly: ω_ij = exp(−d²/2σ²), normalised (E-step); σ shrinks
 /// from 1 m to a voxel. The M-step is Gauss–Newton on the weighted distances with the prior p(T) = N(T₀, Σ₀)
-/// (5.4, 5.8). Density is the number of occupied neighbours within five voxels; the sparser map gives the voxels.
+/// (5.4, 5.8). Density is the number of occupied neighbours within five voxels,
+/// of the dense map its mean (the book takes the nearest voxel's, which means little while the pose is unknown); the
+/// sparser map gives the voxels.
 class Em final : public VoxelMatcher {
  public:
   Em(const MapFeatures& a, const MapFeatures& b);

@@ -22,7 +22,7 @@ constexpr double kSuccessM = 0.6, kSuccessRad = 6 * kDegree;
 
 struct Figures {
   int starts = 0, successes = 0, accepted = 0, wrongly_accepted = 0, book_accepted = 0, book_wrongly = 0;
-  double error_m = 0, error_deg = 0, worst_m = 0, seconds = 0, slowest = 0, iterations = 0, nees = 0;
+  double error_m = 0, error_deg = 0, worst_m = 0, seconds = 0, slowest = 0, iterations = 0, nees = 0, overlap = 0;
 };
 
 std::vector<SE3> starts(const SE3& truth) {
@@ -45,6 +45,7 @@ void account(Figures& f, const MatchResult& r, const SE3& truth) {
   (success ? f.accepted : f.wrongly_accepted) += r.accepted;
   (success ? f.book_accepted : f.book_wrongly) += r.book_accepted;
   f.iterations += r.iterations;
+  f.overlap += r.overlap;
   if (!success) return;
   f.error_m += m;
   f.error_deg += rad / kDegree;
@@ -55,11 +56,12 @@ void account(Figures& f, const MatchResult& r, const SE3& truth) {
 void print(const support::MapPair& pair, std::string_view method, const Figures& f, double preparation) {
   const double n = f.starts, good = std::max(1, f.successes);
   std::printf(
-      "%-10s %-10s success %3d/%3d err %.4f m %.3f deg worst %.4f | accepted %d wrong %d (book %d wrong %d) NEES/6 "
+      "%-10s %-10s overlap %.2f success %3d/%3d err %.4f m %.3f deg worst %.4f | accepted %d wrong %d (book %d wrong "
+      "%d) NEES/6 "
       "%.2f | cpu %.4f s max %.4f prep %.3f it %.0f\n",
-      pair.name.c_str(), std::string(method).c_str(), f.successes, f.starts, f.error_m / good, f.error_deg / good,
-      f.worst_m, f.accepted, f.wrongly_accepted, f.book_accepted, f.book_wrongly, f.nees / good / 6, f.seconds / n,
-      f.slowest, preparation, f.iterations / n);
+      pair.name.c_str(), std::string(method).c_str(), f.overlap / n, f.successes, f.starts, f.error_m / good,
+      f.error_deg / good, f.worst_m, f.accepted, f.wrongly_accepted, f.book_accepted, f.book_wrongly, f.nees / good / 6,
+      f.seconds / n, f.slowest, preparation, f.iterations / n);
   std::fflush(stdout);
 }
 
@@ -97,19 +99,19 @@ void run(const support::MapPair& pair, std::string_view method, int stride) {
   print(pair, method, f, preparation);
 }
 
-std::vector<support::MapPair> pairs(const std::string& wanted, unsigned seed) {
+std::vector<support::MapPair> pairs(const std::string& wanted, unsigned seed, double share) {
   std::vector<support::MapPair> out;
   for (const std::string name : {"fr_079", "geb079"}) {
     if (wanted != "all" && wanted != name) continue;
     const auto map = load_map(support::recorded_data("octomap") / (name + ".bt"));
     if (map)
-      out.push_back(support::halves(**map, name, 0.4, 130 * kDegree, seed));
+      out.push_back(support::halves(**map, name, share, 130 * kDegree, seed));
     else
       std::printf("%s\n", to_string(map.error()).c_str());
   }
   for (const support::Scene& scene : support::all_scenes())
     if ((wanted == "all" && scene.name != "endless") || wanted == scene.name)
-      out.push_back(support::two_robots(scene, {0, 3.4, 40}, {2.2, 5.6, 40}, seed, 2.0));
+      out.push_back(support::two_robots(scene, {0, 3, 36}, {3 * (1 - share), 3 * (2 - share), 36}, seed, 2.0));
   return out;
 }
 
@@ -121,7 +123,8 @@ int main(int argc, char** argv) {
   const std::string wanted = argc > 1 ? argv[1] : "all", method = argc > 2 ? argv[2] : "default";
   const int stride = argc > 3 ? std::max(1, std::atoi(argv[3])) : 1;
   const auto seed = static_cast<unsigned>(argc > 4 ? std::atoi(argv[4]) : 1);
-  for (const auto& pair : pairs(wanted, seed))
+  const double share = argc > 5 ? std::atof(argv[5]) : 0.4;
+  for (const auto& pair : pairs(wanted, seed, share))
     for (const std::string_view name : method_names())
       if (method == "all" || method == name) run(pair, name, stride);
 }
