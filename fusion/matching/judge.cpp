@@ -12,7 +12,7 @@ namespace cairn::matching {
 namespace {
 
 constexpr std::size_t kFinePoints = 8000, kVerifyPoints = 1500, kMinStructure = 60;
-constexpr float kReachCells = 4;
+constexpr float kNearCells = 4;
 
 Party party_of(const MapFeatures& map) {
   return {map.fine(), sample(map.fine(), kFinePoints),
@@ -55,7 +55,7 @@ Judge::Judge(const MapFeatures& a, const MapFeatures& b)
     : a_(party_of(a)),
       b_(party_of(b)),
       cell_m_(std::max(a.fine_m(), b.fine_m())),
-      near_a_(a.fine(), cell_m_, kReachCells * cell_m_) {}
+      near_a_(a.fine(), cell_m_, kNearCells * cell_m_) {}
 
 std::optional<std::string> Judge::hopeless() const {
   if (a_.structure.size() < kMinStructure) return "map a holds too little structure";

@@ -8,8 +8,6 @@
 namespace cairn::matching {
 namespace {
 
-constexpr int kKeyOrigin = 1 << (SemanticOcTree::kDepth - 1);
-
 float probability(float log_odds) { return 1.0F - 1.0F / (1.0F + std::exp(log_odds)); }
 
 /// A node, its lowest voxel key and the edge of its cube in voxels.

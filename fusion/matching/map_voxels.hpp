@@ -12,6 +12,8 @@
 
 namespace cairn::matching {
 
+inline constexpr int kKeyOrigin = 1 << (SemanticOcTree::kDepth - 1);  ///< tree key of the voxel from the origin on
+
 /// One occupied voxel, the unit of the book's maps (2.1).
 struct Voxel {
   Eigen::Vector3f centre;  ///< m, map frame

@@ -8,7 +8,6 @@ namespace cairn::matching {
 namespace {
 
 constexpr int kTileVoxels = 1 << TileKey::kVoxelBits;
-constexpr int kKeyOrigin = 1 << 15;
 constexpr int kMinVoxels = 5;             // in 27 cells, for a normal
 constexpr float kPlaneVariation = 0.05F;  // below, the point is moved onto the plane
 

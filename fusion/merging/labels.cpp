@@ -8,7 +8,7 @@
 namespace cairn::merging {
 namespace {
 
-constexpr double kFixedPoint = 4294967296.0, kLeast = 1e-6;
+constexpr double kLogitSteps = 4294967296.0, kLeast = 1e-6;
 
 double logit(double p) {
   p = std::clamp(p, kLeast, 1 - kLeast);
@@ -23,8 +23,8 @@ ClassProbabilities fuse_labels(std::span<const ClassProbabilities> opinions) {
   double total = 0;
   for (std::size_t k = 0; k < kClasses; ++k) {
     std::int64_t sum = 0;
-    for (const ClassProbabilities& p : opinions) sum += std::llround(logit(p[k]) * kFixedPoint);
-    fused[k] = 1 / (1 + std::exp(prior - static_cast<double>(sum) / kFixedPoint));
+    for (const ClassProbabilities& p : opinions) sum += std::llround(logit(p[k]) * kLogitSteps);
+    fused[k] = 1 / (1 + std::exp(prior - static_cast<double>(sum) / kLogitSteps));
     total += fused[k];
   }
   for (double& p : fused) p /= total;

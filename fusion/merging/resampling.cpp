@@ -4,7 +4,7 @@
 namespace cairn::merging {
 namespace {
 
-constexpr int kEdge = 1 << SemanticOcTree::kDepth;
+constexpr int kTreeEdge = 1 << SemanticOcTree::kDepth;
 constexpr double kSlack = 1e-6;  // voxels; rounding must not let a cube reach out of the one it lies in
 
 bool apart(const Resampled::Box& box, const Resampled::Place& p) {
@@ -48,19 +48,19 @@ Resampled::Resampled(const SemanticOcTree& map, const SE3& T_grid_map, double gr
   const SE3 T_map_grid = T_grid_map.inverse();
   scaled_rotation_ = ratio * T_map_grid.rotation();
   reach_ = scaled_rotation_.cwiseAbs();
-  offset_ = (T_map_grid.translation() / map.getResolution()).array() + kEdge / 2.0;
+  offset_ = (T_map_grid.translation() / map.getResolution()).array() + kTreeEdge / 2.0;
 }
 
-Resampled::Place Resampled::root() const { return {root_, Eigen::Vector3i::Zero(), kEdge}; }
+Resampled::Place Resampled::root() const { return {root_, Eigen::Vector3i::Zero(), kTreeEdge}; }
 
 Resampled::Box Resampled::box_of(const Eigen::Vector3i& first, int edge) const {
-  const Eigen::Vector3d centre = (first.cast<double>().array() + 0.5 * edge) - kEdge / 2.0;
+  const Eigen::Vector3d centre = (first.cast<double>().array() + 0.5 * edge) - kTreeEdge / 2.0;
   const Eigen::Vector3d in_map = scaled_rotation_ * centre + offset_;
   // Only the centres of voxels are looked up.
   const Eigen::Vector3d half = reach_ * Eigen::Vector3d::Constant(0.5 * (edge - 1));
   const Eigen::Vector3d slack = Eigen::Vector3d::Constant(edge > 1 ? kSlack : 0.0);
   const auto key = [](const Eigen::Vector3d& v) -> Eigen::Vector3i {
-    return v.array().floor().max(-1.0).min(static_cast<double>(kEdge)).cast<int>();
+    return v.array().floor().max(-1.0).min(static_cast<double>(kTreeEdge)).cast<int>();
   };
   return {key(in_map - half - slack), key(in_map + half + slack)};
 }
@@ -68,19 +68,19 @@ Resampled::Box Resampled::box_of(const Eigen::Vector3i& first, int edge) const {
 Content Resampled::look(const Eigen::Vector3i& first, int edge, Place& place) const {
   if (place.node == nullptr) return {};
   // A place below the root holds the whole cube, so what is one leaf there, or nothing, needs no look at the cube.
-  if (place.edge < kEdge && place.node->block() == nullptr) return content_of(place.node);
+  if (place.edge < kTreeEdge && place.node->block() == nullptr) return content_of(place.node);
   const Box box = box_of(first, edge);
   while (place.node->block() != nullptr) {
     // The lowest and the highest corner lie in the same child, or the box lies in none.
     const Eigen::Array3i middle = place.first.array() + place.edge / 2;
     const Eigen::Array<bool, 3, 1> low = box.low.array() >= middle, high = box.high.array() >= middle;
-    if ((low != high).any() || (place.edge == kEdge && !within(box, place))) break;
+    if ((low != high).any() || (place.edge == kTreeEdge && !within(box, place))) break;
     place = child(place, unsigned{low[0]} | unsigned{low[1]} << 1 | unsigned{low[2]} << 2);
   }
   Content content;
   bool none_yet = true;
   // What lies outside of the tree is unknown.
-  if (place.edge == kEdge && !within(box, place)) none_yet = false;
+  if (place.edge == kTreeEdge && !within(box, place)) none_yet = false;
   (void)add(box, place, content, none_yet);
   return content;
 }
