@@ -5,7 +5,7 @@
 #   tests/vm/kernel.sh FLAVOUR CACHE [--update]      FLAVOUR: amd64 or rt-amd64
 # What CACHE holds is used as it is; --update asks apt for the newest version. gpio-sim is not in Debian's kernels: it is
 # built from the kernel's own source package, which stays in CACHE.
-# Exit code 77: apt does not offer such a kernel.
+# Exit code 77: such a kernel cannot be had from here.
 set -euo pipefail
 here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 
@@ -49,8 +49,8 @@ fetch() {  # fetch NAME…: downloads those packages that are not there
   ((${#absent[@]} > 0)) || return 0
   say "downloading ${absent[*]}"
   (cd "$cache/download" && apt-get -qq download "${absent[@]}" >&2) && return
-  say "remedy: --update, if the kernel's version is no longer offered"
-  return 1
+  say "cannot download; remedy: --update, if the kernel's version is no longer offered"
+  exit 77
 }
 
 # gpio_sim_source: prints the folder with the two files of gpio-sim, from the source package's archive. It is unpacked once,

@@ -39,7 +39,7 @@ command -v apt-get >/dev/null || skip "the kernel comes from Debian 12's package
 tools/packages.sh vm || skip "QEMU and what else the virtual machine needs cannot be installed (see above)"
 command -v qemu-system-x86_64 >/dev/null || skip "there is no qemu-system-x86_64"
 kernel=$(tests/vm/kernel.sh "$flavour" "${CAIRN_VM_CACHE:-build/vm-cache}" "$update") || {
-  (($? != 77)) || skip "apt offers no linux-image-6.12-$flavour"
+  (($? != 77)) || skip "apt does not give us linux-image-6.12-$flavour (see above)"
   echo "vm: no kernel: FAILED"
   exit 1
 }

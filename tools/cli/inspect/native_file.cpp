@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/inspect/native_file.hpp"
 
-#include <algorithm>
+#include <array>
 #include <fstream>
 #include <string>
 
@@ -22,10 +22,10 @@ bool begins_as(const std::string& line, std::string_view header) {
 std::string first_line(const fs::path& path) {
   constexpr int kLooked = 64;
   std::ifstream file(path);
-  std::string line(drive::kMaxCandumpLine, '\0');
+  std::array<char, drive::kMaxCandumpLine> line{};
   for (int i = 0; i < kLooked && file; ++i) {
     file.getline(line.data(), static_cast<std::streamsize>(line.size()));
-    const std::string text(line.c_str());
+    const std::string text(line.data());
     const bool comment = text.starts_with('#') && !begins_as(text, recording::kImageIndexHeader);
     if (!comment && text.find_first_not_of(" \t\r") != std::string::npos) return text;
   }
