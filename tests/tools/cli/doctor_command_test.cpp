@@ -80,7 +80,7 @@ TEST(DoctorCommand, DevicesOfAProfileAreOpenedAndListenedTo) {
   EXPECT_EQ(json["findings"][0]["level"], "ok");
   EXPECT_THAT(json["findings"][1]["what"].get<std::string>(), HasSubstr("camera: /dev/nothing"));
   EXPECT_THAT(json["findings"][2]["what"].get<std::string>(), HasSubstr("drive: "));
-  for (int i = 1; i < 3; ++i) EXPECT_NE(json["findings"][i]["remedy"], "");
+  for (const std::size_t i : {1U, 2U}) EXPECT_NE(json["findings"][i]["remedy"], "");
 }
 
 TEST(DoctorCommand, AFaultyProfileIsAProblemWithItsLine) {
