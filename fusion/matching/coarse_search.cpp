@@ -58,7 +58,7 @@ void add_heading(const LikelihoodField& field, std::span<const Eigen::Vector3f> 
   const Eigen::Vector3i low(v.xy, v.xy, -v.z), high = field.size() - low;
   for (const Eigen::Vector3f& p : points) {
     const Eigen::Vector3f q = R * p + t;
-    if (!((q / field.cell_m()).cwiseAbs().maxCoeff() < 1e8F)) continue;
+    if (q.hasNaN() || !((q / field.cell_m()).cwiseAbs().maxCoeff() < 1e8F)) continue;
     const Eigen::Vector3i cell = field.cell(q);
     if ((cell.array() < low.array()).any() || (cell.array() >= high.array()).any()) continue;
     add_rows(field, cell, v, sums);

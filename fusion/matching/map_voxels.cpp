@@ -106,7 +106,9 @@ FreeSpace::FreeSpace(const SemanticOcTree& map)
 
 bool FreeSpace::contains(const Eigen::Vector3f& point) const {
   const Eigen::Vector3f scaled = point * inverse_resolution_;
-  if (root_ == nullptr || !(scaled.cwiseAbs().maxCoeff() < static_cast<float>(kKeyOrigin - 1))) return false;
+  // maxCoeff() may pass a NaN by.
+  if (root_ == nullptr || !(scaled.cwiseAbs().maxCoeff() < static_cast<float>(kKeyOrigin - 1)) || scaled.hasNaN())
+    return false;
   const Eigen::Vector3i key = scaled.array().floor().cast<int>() + kKeyOrigin;
   const SemanticNode* node = root_;
   for (unsigned depth = 0; node->block() != nullptr; ++depth) {
