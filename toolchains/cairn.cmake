@@ -98,7 +98,7 @@ function(cairn_test name)
   target_compile_options(test_${name} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>
     $<$<BOOL:${CAIRN_FUZZ}>:-fno-sanitize=fuzzer-no-link>)
   cairn_precompile(test test_${name} <gmock/gmock.h> <gtest/gtest.h>)
-  gtest_discover_tests(test_${name} TEST_PREFIX "${name}/" NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 300)
+  gtest_discover_tests(test_${name} TEST_PREFIX "${name}/" NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 900)
 endfunction()
 
 # cairn_fuzz(NAME SOURCE [LINK lib …]): a libFuzzer target fuzz_NAME. Without CAIRN_FUZZ the same entry point runs over
