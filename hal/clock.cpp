@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "hal/clock.hpp"
 
+#include <cerrno>
 #include <ctime>
 
 namespace cairn {
@@ -22,6 +23,14 @@ Duration LiveClock::realtime_offset() {
   const Duration realtime = read(CLOCK_REALTIME);
   const Duration after = read(CLOCK_MONOTONIC);
   return realtime - (before + (after - before) / 2);
+}
+
+void LiveClock::wait_until(Time t) {
+  const Duration d = t.time_since_epoch();
+  const timespec until{static_cast<std::time_t>(d.count() / 1'000'000'000),
+                       static_cast<long>(d.count() % 1'000'000'000)};
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+  }
 }
 
 Duration thread_cpu_time() { return read(CLOCK_THREAD_CPUTIME_ID); }

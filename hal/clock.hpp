@@ -23,6 +23,8 @@ class LiveClock final : public Clock {
   [[nodiscard]] Time now() const override;
   /// CLOCK_REALTIME − CLOCK_MONOTONIC: turns a Time into UTC. Metadata only, never control.
   [[nodiscard]] static Duration realtime_offset();
+  /// Waits until `t` (absolute, so that a late caller does not drift); a signal does not end it.
+  static void wait_until(Time t);
 };
 
 /// Time as the recording tells it. It advances when told to, and never backwards.

@@ -31,20 +31,20 @@ void Histogram::record(Duration d) {
   const auto ns = static_cast<std::uint64_t>(std::max<std::int64_t>(0, d.count()));
   ++counts_[std::min(index_of(ns), kBuckets - 1)];
   ++count_;
-  sum_ += from_ns(ns);
-  max_ = std::max(max_, from_ns(ns));
+  sum_ns_ += ns;
+  if (ns > max_ns_) max_ns_ = ns;
 }
 
-Duration Histogram::mean() const { return count_ == 0 ? Duration{} : sum_ / static_cast<std::int64_t>(count_); }
+Duration Histogram::mean() const { return count_ == 0 ? Duration{} : from_ns(sum_ns_ / count_); }
 
 Duration Histogram::percentile(double share) const {
-  const auto wanted = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(count_)));
+  const auto wanted = static_cast<std::uint64_t>(std::ceil(share * static_cast<double>(count_.get())));
   std::uint64_t seen = 0;
   for (std::size_t i = 0; i < kBuckets && count_ != 0; ++i) {
     seen += counts_[i];
-    if (seen >= std::max<std::uint64_t>(1, wanted)) return std::min(max_, bucket(i).upper - Duration{1});
+    if (seen >= std::max<std::uint64_t>(1, wanted)) return std::min(max(), bucket(i).upper - Duration{1});
   }
-  return max_;
+  return max();
 }
 
 Histogram::Bucket Histogram::bucket(std::size_t index) const {

@@ -5,18 +5,19 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "hal/relaxed_counter.hpp"
 #include "hal/time.hpp"
 
 namespace cairn {
 
 /// Durations in fixed log-linear buckets: 128 per power of two, so a percentile is off by 0.8 % at most. Never
-/// allocates.
+/// allocates. One thread records; any thread may read meanwhile, and sees counts that are a moment apart at most.
 class Histogram {
  public:
   void record(Duration d);
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
-  [[nodiscard]] Duration max() const { return max_; }
+  [[nodiscard]] Duration max() const { return Duration{static_cast<std::int64_t>(max_ns_.get())}; }
   [[nodiscard]] Duration mean() const;
   /// The smallest value that at least `share` (0…1) of the records do not exceed; zero when there are none.
   [[nodiscard]] Duration percentile(double share) const;
@@ -30,9 +31,8 @@ class Histogram {
   [[nodiscard]] Bucket bucket(std::size_t index) const;
 
  private:
-  std::array<std::uint64_t, kBuckets> counts_{};
-  std::uint64_t count_ = 0;
-  Duration sum_{}, max_{};
+  std::array<RelaxedCounter, kBuckets> counts_{};
+  RelaxedCounter count_, sum_ns_, max_ns_;
 };
 
 }  // namespace cairn

@@ -6,6 +6,7 @@
 namespace cairn {
 
 StageStats& Monitor::stage(std::string_view name, Duration budget) {
+  const std::lock_guard lock(mutex_);
   for (StageStats& s : stages_)
     if (s.name == name) return s;
   StageStats& s = stages_.emplace_back();
@@ -15,6 +16,7 @@ StageStats& Monitor::stage(std::string_view name, Duration budget) {
 }
 
 void Monitor::event(Time when, std::string_view stage, std::string_view what) {
+  const std::lock_guard lock(mutex_);
   const auto same = [&](const Event& e) { return e.stage == stage && e.what == what; };
   if (const auto known = std::find_if(events_.begin(), events_.end(), same); known != events_.end()) {
     known->last = when;
@@ -24,6 +26,16 @@ void Monitor::event(Time when, std::string_view stage, std::string_view what) {
   } else {
     ++dropped_events_;
   }
+}
+
+std::vector<StageStats> Monitor::stages_now() const {
+  const std::lock_guard lock(mutex_);
+  return {stages_.begin(), stages_.end()};
+}
+
+std::vector<Event> Monitor::events_now() const {
+  const std::lock_guard lock(mutex_);
+  return events_;
 }
 
 StageTimer::~StageTimer() {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <deque>
+#include <mutex>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -24,27 +25,34 @@ struct Event {
 /// What one stage cost.
 struct StageStats {
   std::string name;
-  Duration budget{};           ///< zero: none declared
-  std::uint64_t overruns = 0;  ///< wall time above the budget
-  Histogram wall;              ///< elapsed time
-  Histogram cpu;               ///< CPU time of the calling thread
+  Duration budget{};        ///< zero: none declared
+  RelaxedCounter overruns;  ///< wall time above the budget
+  Histogram wall;           ///< elapsed time
+  Histogram cpu;            ///< CPU time of the calling thread
 };
 
-/// Keeps the figures and events of a run. Callees report here; policy is decided by whoever owns the monitor.
+/// Keeps the figures and events of a run. Callees report here; policy is decided by whoever owns the monitor. Any
+/// thread may call stage() and event(), which lock and allocate: real-time threads hold on to their stages and say
+/// nothing else.
 class Monitor {
  public:
-  /// The stage's figures, made on first use; the reference stays valid as long as the monitor.
+  /// The stage's figures, made on first use; the reference stays valid as long as the monitor. One thread records.
   StageStats& stage(std::string_view name, Duration budget = {});
   /// At most kMaxEvents kinds are kept; further kinds are counted in dropped_events().
   void event(Time when, std::string_view stage, std::string_view what);
 
+  /// Of a run that has ended: nobody may report meanwhile.
   [[nodiscard]] const std::deque<StageStats>& stages() const { return stages_; }
   [[nodiscard]] const std::vector<Event>& events() const { return events_; }
   [[nodiscard]] std::uint64_t dropped_events() const { return dropped_events_; }
+  /// Copies, while others report.
+  [[nodiscard]] std::vector<StageStats> stages_now() const;
+  [[nodiscard]] std::vector<Event> events_now() const;
 
   static constexpr std::size_t kMaxEvents = 256;
 
  private:
+  mutable std::mutex mutex_;  // of the two lists, not of a stage's figures
   std::deque<StageStats> stages_;
   std::vector<Event> events_;
   std::uint64_t dropped_events_ = 0;
