@@ -80,9 +80,10 @@ deny "only hal/clock.cpp reads the machine's clock" "take a Clock or a Time as a
   '^hal/clock\.cpp$' "${all[@]}"
 deny "nobody sleeps" "wait for data with a time-out (poll), or advance the VirtualClock" \
   'sleep_(for|until)|\b(u|nano)?sleep\(|clock_nanosleep' '^hal/clock\.cpp$' "${all[@]}"
-deny "only hal/workers starts threads" "use Workers::for_each; its result is the same for any number of threads" \
+deny "only hal/workers and onboard/scheduler/threads start threads" \
+  "compute with Workers::for_each, whose result is the same for any number of threads; make a fixed-rate job a scheduler::Task" \
   'std::(jthread|async|packaged_task|execution::)|std::thread\b($|[^:])|pthread_create|# *pragma +omp|tbb::|include *<tbb/' \
-  '^hal/workers\.[ch]pp$' "${all[@]}"
+  '^hal/workers\.[ch]pp$|^onboard/scheduler/(threads\.[ch]pp|executive_threads\.cpp)$' "${all[@]}"
 deny "sockets belong to drivers" "put it into drivers/*/udp_* or socketcan_*, behind a Source" \
   "$(inc '(sys/socket|sys/un|netinet/|netdb|net/if|netpacket/|linux/(can|if_|net))')" \
   '^(drivers|tests/drivers)/[a-z_]+/(udp|socketcan)_[a-z_]*\.|^tests/vm/uvc_camera\.cpp$' "${all[@]}"

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+
+#include "hal/ports.hpp"
+#include "onboard/scheduler/tick.hpp"
+
+namespace cairn::scheduler {
+
+/// The packets of one source, handed to one task. What a tick gets is
+/// - live: what has arrived, and how many is logged;
+/// - logged: as many as then;
+/// - virtual: what arrived up to the tick's release.
+class Feed {
+ public:
+  /// Sees every packet before it is used; for recording.
+  using Tap = std::function<void(const Packet&)>;
+  /// Hears what the source has to complain of; on the task's thread.
+  using Complain = std::function<void(Time, const Error&)>;
+  /// A flood cannot hold a live task for longer.
+  static constexpr int kMaxPackets = 2000;
+
+  /// `source` must outlive the feed. `slot` is a place in the records of the task.
+  Feed(Source& source, std::size_t slot, Complain complain, Tap tap = {})
+      : source_(source), slot_(slot), complain_(std::move(complain)), tap_(std::move(tap)) {}
+
+  /// The next packet of this tick, or null; it stays valid until the next call.
+  const Packet* take(Tick& tick);
+
+  /// Nothing will ever follow.
+  [[nodiscard]] bool ended() const { return ended_ && !ahead_; }
+  /// Of the next packet, read ahead: when a recording begins. Time::max() when there is none.
+  [[nodiscard]] Time first_arrival();
+  /// A logged tick found fewer packets than it had then: the recording is not that of the log.
+  [[nodiscard]] std::uint64_t missing() const { return missing_; }
+
+ private:
+  bool read(Time now, int limit);
+  const Packet* take_ahead();
+
+  Source& source_;
+  std::size_t slot_;
+  Complain complain_;
+  Tap tap_;
+  Packet packet_, next_;
+  bool ahead_ = false;  // next_ is read and not taken
+  bool ended_ = false;
+  std::uint64_t taking_ = ~std::uint64_t{0};
+  std::int32_t taken_ = 0;
+  std::uint64_t missing_ = 0;
+};
+
+}  // namespace cairn::scheduler

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cassert>
+#include <cstddef>
+#include <cstdint>
+
+#include "hal/budget.hpp"
+#include "hal/clock.hpp"
+#include "hal/time.hpp"
+
+namespace cairn::scheduler {
+
+/// Who answers what may differ from run to run: how many packets there are, how many steps there was time for.
+enum class Regime : std::uint8_t {
+  kLive,     ///< the machine; the answers are logged
+  kVirtual,  ///< virtual time, in which every tick happens at its release and takes none
+  kLogged,   ///< the log of a live run
+  kDrain,    ///< after the last tick: whatever is left is used, without bounds of time
+};
+
+/// What one tick was given and decided, in numbered places whose meaning is the task's own. Zero is what an idle tick
+/// leaves everywhere.
+struct TickRecord {
+  static constexpr std::size_t kSlots = 12;
+  std::uint64_t index = 0;    ///< of the release
+  std::uint32_t skipped = 0;  ///< releases passed since the tick before
+  std::array<std::int32_t, kSlots> slots{};
+
+  [[nodiscard]] bool idle() const { return skipped == 0 && slots == std::array<std::int32_t, kSlots>{}; }
+  friend bool operator==(const TickRecord&, const TickRecord&) = default;
+};
+
+/// Lets the threads of a replay wait for one another. Live threads and single-threaded runs have none and never wait.
+class Gate {
+ public:
+  void open() {
+    turn_.fetch_add(1, std::memory_order_release);
+    turn_.notify_all();
+  }
+  /// Returns when `met()`, which is asked again after every open().
+  template <class Condition>
+  void wait_until(Condition met) {
+    for (;;) {
+      const std::uint32_t turn = turn_.load(std::memory_order_acquire);
+      if (met()) return;
+      turn_.wait(turn, std::memory_order_acquire);
+    }
+  }
+
+ private:
+  std::atomic<std::uint32_t> turn_{0};
+};
+
+/// One release of one task, and the only thing it may ask about the world: all answers come from the machine, from
+/// virtual time or from a log, and the task cannot tell which.
+class Tick {
+ public:
+  Tick(Regime regime, Time release, TickRecord& record, Gate* gate = nullptr, const Clock* clock = nullptr)
+      : regime_(regime), release_(release), record_(record), gate_(gate), clock_(clock) {}
+
+  [[nodiscard]] Regime regime() const { return regime_; }
+  [[nodiscard]] std::uint64_t index() const { return record_.index; }
+  /// What the time is for everything the task decides.
+  [[nodiscard]] Time release() const { return release_; }
+  /// For figures alone; release() where the tick takes no time.
+  [[nodiscard]] Time figure_now() const { return clock_ != nullptr ? clock_->now() : release_; }
+
+  /// A number that live is `live()`, logged what it was then, and otherwise `otherwise`.
+  template <class Live>
+  std::int32_t decide(std::size_t slot, Live live, std::int32_t otherwise) {
+    if (regime_ == Regime::kLogged) return record_.slots[slot];
+    return record_.slots[slot] = regime_ == Regime::kLive ? live() : otherwise;
+  }
+  /// The steps of an anytime stage: live until `deadline`, logged as many as then, otherwise `limit`. To be settle()d.
+  [[nodiscard]] Budget budget(std::size_t slot, Time deadline, int limit) const {
+    if (regime_ == Regime::kLogged) return Budget::steps(record_.slots[slot]);
+    return regime_ == Regime::kLive && clock_ != nullptr ? Budget::until(deadline, *clock_, limit)
+                                                         : Budget::steps(limit);
+  }
+  /// Notes the steps that were taken. At least one stage of a tick's budget() uses a slot.
+  void settle(std::size_t slot, const Budget& budget) {
+    if (regime_ != Regime::kLogged) record_.slots[slot] = budget.spent();
+  }
+
+  /// For inputs and outputs: the slot as this regime writes or reads it.
+  [[nodiscard]] std::int32_t& slot(std::size_t i) { return record_.slots[i]; }
+  [[nodiscard]] Gate* gate() const { return gate_; }
+
+  /// An input says that nothing will ever follow; the run ends soon after the last one has.
+  void end_of_input() { ended_ = true; }
+  [[nodiscard]] bool ended() const { return ended_; }
+
+ private:
+  Regime regime_;
+  Time release_;
+  TickRecord& record_;
+  Gate* gate_;
+  const Clock* clock_;
+  bool ended_ = false;
+};
+
+/// What runs at a fixed rate. One thread calls it.
+class Task {
+ public:
+  virtual ~Task() = default;
+  /// One release. Whatever is not the task's own state is asked of `tick`, its inputs and outputs.
+  virtual void tick(Tick& tick) = 0;
+  /// After the last tick: hands on what is still held back.
+  virtual void finish(Tick& /*tick*/) {}
+
+ protected:
+  Task() = default;
+  Task(const Task&) = default;
+  Task& operator=(const Task&) = default;
+};
+
+}  // namespace cairn::scheduler
