@@ -3,8 +3,12 @@
 
 namespace cairn {
 
-Workers::Workers(unsigned threads) {
-  for (unsigned i = 1; i < threads; ++i) pool_.emplace_back([this] { loop(); });
+Workers::Workers(unsigned threads, const std::function<void(unsigned)>& prepare) {
+  for (unsigned i = 1; i < threads; ++i)
+    pool_.emplace_back([this, prepare, i] {
+      if (prepare) prepare(i);
+      loop();
+    });
 }
 
 Workers::~Workers() {
@@ -27,12 +31,14 @@ void Workers::run(std::size_t chunks, Call call, void* work) {
     work_ = work;
     chunks_ = chunks;
     next_.store(0, std::memory_order_relaxed);
-    busy_ = pool_.size();
+    open_ = true;
     ++generation_;
   }
   wake_.notify_all();
   work_off();
   std::unique_lock lock(mutex_);
+  // A thread that the machine has not woken by now is not waited for: under load that could take longer than the job.
+  open_ = false;
   done_.wait(lock, [this] { return busy_ == 0; });
 }
 
@@ -47,6 +53,8 @@ void Workers::loop() {
     wake_.wait(lock, [&] { return quit_ || generation_ != seen; });
     if (quit_) return;
     seen = generation_;
+    if (!open_) continue;
+    ++busy_;
     lock.unlock();
     work_off();
     lock.lock();

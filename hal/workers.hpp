@@ -4,6 +4,7 @@
 #include <atomic>
 #include <condition_variable>
 #include <cstddef>
+#include <functional>
 #include <mutex>
 #include <thread>
 #include <type_traits>
@@ -16,8 +17,9 @@ namespace cairn {
 /// place and the caller reducing in chunk order, the result is the same for any number of threads.
 class Workers {
  public:
-  /// `threads` includes the calling one: 1 starts none.
-  explicit Workers(unsigned threads);
+  /// `threads` includes the calling one: 1 starts none. `prepare` is called first on every thread that is started, with
+  /// its number from 1: to give it a name or a priority.
+  explicit Workers(unsigned threads, const std::function<void(unsigned)>& prepare = {});
   ~Workers();
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
@@ -45,8 +47,9 @@ class Workers {
   void* work_ = nullptr;
   std::size_t chunks_ = 0;
   std::atomic<std::size_t> next_{0};
-  std::size_t busy_ = 0;        // threads that still hold the current job
+  std::size_t busy_ = 0;        // threads that have begun with the current job and not yet ended
   std::size_t generation_ = 0;  // counts jobs, so that a thread takes each one once
+  bool open_ = false;           // whether a thread that wakes up may still begin with the current job
   bool quit_ = false;
   std::vector<std::thread> pool_;
 };

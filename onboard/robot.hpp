@@ -30,27 +30,42 @@ struct TrackPoint {
   bool lost = false;
 };
 
-/// One robot: scans in, trajectory and map out. Deterministic for any number of threads.
+/// A scan on its way into the map, on its own: whoever holds it needs neither the odometry nor the scan.
+struct LocatedScan {
+  Time stamp{};
+  UncertainPose T_odom_base;
+  std::vector<Eigen::Vector3f> points_base;  ///< deskewed, in base_link at `stamp`, in metres
+  bool lost = false;                         ///< the pose is only a prediction
+};
+
+/// How much of a scan goes into the map; less under overload.
+struct MapShare {
+  int every_point = 1;  ///< 1: all points, 2: every second one, …
+};
+
+/// One robot: scans in, trajectory and map out. Deterministic for any number of threads. locate() and extend_map() may
+/// run at the same time on two threads.
 class Robot {
  public:
-  /// `workers` and `monitor` are borrowed and must outlive the robot.
-  Robot(const RobotConfig& config, Workers& workers, Monitor& monitor);
+  /// The workers (one set for each of the two stages) and `monitor` are borrowed and must outlive the robot.
+  Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapping_workers, Monitor& monitor);
 
-  /// Estimates the motion since the last scan and, when it is trusted, adds the scan to the map.
-  /// On an error the scan is dropped, and track and map are as before.
-  Result<TrackPoint> step(const Scan& scan, Budget& budget);
+  /// Estimates the motion since the last scan; fills `located`, reusing its memory. On an error the scan is dropped,
+  /// and the track is as before.
+  Result<TrackPoint> locate(const Scan& scan, Budget& budget, LocatedScan& located);
+  /// Adds a scan to the map, where its pose is trusted. On an error (kLimit: the map's memory) the map is as before.
+  Result<void> extend_map(const LocatedScan& scan, const MapShare& share = {});
 
   [[nodiscard]] const std::vector<TrackPoint>& track() const { return track_; }
   [[nodiscard]] const SemanticOcTree& map() const { return mapper_.tree(); }
 
  private:
-  Result<OdometryUpdate> locate(const Scan& scan, Budget& budget);
-  void extend_map(const OdometryUpdate& motion);
-
   SE3 T_base_lidar_;
   LidarOdometry odometry_;
   Mapper mapper_;
   Monitor& monitor_;
+  StageStats& odometry_stage_;
+  StageStats& mapping_stage_;
   std::vector<TrackPoint> track_;
   std::vector<Eigen::Vector3f> points_odom_;  // reused
 };

@@ -1,17 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/door.hpp"
 
-#include "drivers/recording/paced_source.hpp"
 #include "drivers/recording/recording_reader.hpp"
 #include "drivers/recording/scan_file.hpp"
 #include "drivers/velodyne/lidar.hpp"
-#include "drivers/velodyne/udp_source.hpp"
 
 namespace cairn {
 namespace {
 
 using recording::Recording;
-using recording::RecordingReader;
 using recording::SourceEntry;
 
 Result<std::unique_ptr<ScanDecoder>> velodyne_decoder(const velodyne::Config& config, SourceId id, Duration utc_offset,
@@ -32,34 +29,46 @@ void take_over(const SourceEntry& entry, LidarProfile& lidar) {
   lidar.base_xyz_rpy.assign(v.begin(), v.end());
 }
 
-Result<std::unique_ptr<ScanDecoder>> decoder_for(const SourceEntry& entry, SourceId id, const Recording& recorded,
-                                                 const RobotProfile& profile, Monitor& monitor) {
-  if (entry.kind == recording::kVelodyne)
-    return velodyne_decoder(profile.lidar.driver, id, Duration{recorded.realtime_offset_ns}, monitor);
+/// Null for a source that holds no scans.
+Result<std::unique_ptr<ScanDecoder>> decoder_for(const SourceEntry& entry, SourceId id, Duration utc_offset,
+                                                 RobotProfile& profile, Monitor& monitor) {
+  if (entry.kind == recording::kVelodyne) {
+    take_over(entry, profile.lidar);
+    return velodyne_decoder(profile.lidar.driver, id, utc_offset, monitor);
+  }
+  if (entry.kind != recording::kScans) return std::unique_ptr<ScanDecoder>();
+  take_over(entry, profile.lidar);
   return std::unique_ptr<ScanDecoder>(std::make_unique<recording::ScanFileDecoder>(entry.deskewed));
 }
 
-/// A recording's reader behind a pacer that follows the machine's clock.
-class RealTimeReader final : public Source {
+/// A recorded source whose file cannot be opened: the others go on without it.
+class UnreadableSource final : public Source {
  public:
-  explicit RealTimeReader(std::unique_ptr<Source> reader)
-      : reader_(std::move(reader)), paced_(*reader_, clock_, recording::live_waiter()) {}
-  Result<Poll> next(Packet& packet, Duration timeout) override { return paced_.next(packet, timeout); }
+  explicit UnreadableSource(Error error) : error_(std::move(error)) {}
+  Result<Poll> next(Packet& /*packet*/, Duration /*timeout*/) override {
+    if (std::exchange(said_, true)) return Poll::kEnd;
+    return error_;
+  }
 
  private:
-  std::unique_ptr<Source> reader_;
-  LiveClock clock_;
-  recording::PacedSource paced_;
+  Error error_;
+  bool said_ = false;
 };
+
+bool is_used(const SourceEntry& entry) { return !recording::is_picture_kind(entry.kind); }
+
+Result<Input> open_live(const RobotProfile& profile, const SourceEntry& entry, SourceId id, const Clock& clock) {
+  auto device = open_device(profile, entry, id, clock);
+  if (!device) return at(entry.id, device.error());
+  Input input{entry, std::move(device->source), {}, nullptr, nullptr, std::move(device->losses)};
+  input.can = dynamic_cast<drive::CanLink*>(input.source.get());
+  input.lines = dynamic_cast<gpio::GpioLines*>(input.source.get());
+  return input;
+}
 
 }  // namespace
 
-ScanDecoder* Door::decoder(SourceId id) const {
-  const auto index = static_cast<std::size_t>(id);
-  return index < decoders.size() ? decoders[index].get() : nullptr;
-}
-
-Result<Door> open_devices(const RobotProfile& profile, Monitor& monitor) {
+Result<Door> open_devices(const RobotProfile& profile, Devices which, const Clock& clock, Monitor& monitor) {
   if (!profile.lidar.enabled)
     return Error{Errc::kInvalidConfig,
                  "this robot has no LiDAR, and odometry needs one",
@@ -67,38 +76,46 @@ Result<Door> open_devices(const RobotProfile& profile, Monitor& monitor) {
                  {},
                  "its other sensors can be recorded: cairn record"};
   Door door;
-  door.owned_clock = std::make_unique<LiveClock>();
-  auto decoder = velodyne_decoder(profile.lidar.driver, SourceId{0}, LiveClock::realtime_offset(), monitor);
-  if (!decoder) return decoder.error();
-  door.decoders.push_back(std::move(*decoder));
-  auto source = velodyne::UdpSource::open(profile.lidar.driver, SourceId{0}, door.clock());
-  if (!source) return source.error();
-  door.source = std::move(*source);
+  const Duration utc_offset = LiveClock::realtime_offset();
+  door.recording.robot = profile.name;
+  door.recording.realtime_offset_ns = utc_offset.count();
+  for (const SourceEntry& entry : devices_of(profile)) {
+    if (which == Devices::kUsed && !is_used(entry)) continue;
+    const auto id = static_cast<SourceId>(door.inputs.size());
+    auto input = open_live(profile, entry, id, clock);
+    if (!input) return input.error();
+    RobotProfile unchanged = profile;
+    auto decoder = decoder_for(entry, id, utc_offset, unchanged, monitor);
+    if (!decoder) return decoder.error();
+    input->scans = std::move(*decoder);
+    door.inputs.push_back(std::move(*input));
+    door.recording.sources.push_back(entry);
+  }
   return door;
 }
 
-Result<Door> open_recording(const std::filesystem::path& folder, Pace pace, RobotProfile& profile, Monitor& monitor) {
-  auto reader = RecordingReader::open(folder);
-  if (!reader) return reader.error();
-  const Recording recorded = (*reader)->recording();
-  profile.name = recorded.robot;
+Result<Door> open_recording(const std::filesystem::path& folder, RobotProfile& profile, Monitor& monitor) {
+  auto recorded = recording::load_recording(folder);
+  if (!recorded) return recorded.error();
+  profile.name = recorded->robot;
   Door door;
-  auto clock = std::make_unique<VirtualClock>();
-  door.virtual_clock = clock.get();
-  door.owned_clock = std::move(clock);
-  for (const SourceEntry& entry : recorded.sources) {
-    if (entry.kind != recording::kVelodyne && entry.kind != recording::kScans) {
-      door.decoders.push_back(nullptr);
-      continue;
-    }
-    take_over(entry, profile.lidar);
-    const SourceId id{static_cast<std::uint16_t>(door.decoders.size())};
-    auto decoder = decoder_for(entry, id, recorded, profile, monitor);
+  const Duration utc_offset{recorded->realtime_offset_ns};
+  for (std::size_t i = 0; i < recorded->sources.size(); ++i) {
+    const SourceEntry& entry = recorded->sources[i];
+    auto decoder = decoder_for(entry, static_cast<SourceId>(i), utc_offset, profile, monitor);
     if (!decoder) return decoder.error();
-    door.decoders.push_back(std::move(*decoder));
+    auto source = recording::open_recorded_source(folder, *recorded, i);
+    if (!source) source = std::make_unique<UnreadableSource>(source.error());
+    door.inputs.push_back({entry, std::move(*source), std::move(*decoder), nullptr, nullptr, {}});
   }
-  door.source = std::move(*reader);
-  if (pace == Pace::kRecorded) door.source = std::make_unique<RealTimeReader>(std::move(door.source));
+  door.recording = std::move(*recorded);
+  if (const auto log = folder / "schedule.log"; std::filesystem::exists(log)) {
+    auto schedule = scheduler::load_schedule_log(log);
+    if (!schedule)
+      monitor.event({}, "schedule", to_string(schedule.error()));
+    else
+      door.schedule = std::move(*schedule);
+  }
   return door;
 }
 

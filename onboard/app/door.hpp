@@ -3,13 +3,19 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <vector>
 
+#include "drivers/drive/can_link.hpp"
+#include "drivers/gpio/gpio_lines.hpp"
+#include "drivers/recording/recording.hpp"
 #include "hal/clock.hpp"
 #include "hal/monitor.hpp"
 #include "hal/ports.hpp"
 #include "hal/result.hpp"
+#include "onboard/app/devices.hpp"
 #include "onboard/app/robot_profile.hpp"
+#include "onboard/scheduler/schedule_log.hpp"
 
 namespace cairn {
 
@@ -20,24 +26,30 @@ enum class Pace {
   kMaximum,   ///< a recording, as fast as the machine can
 };
 
-/// The one door through which everything from outside enters, and the decoders behind it.
-struct Door {
-  std::unique_ptr<Clock> owned_clock;
-  VirtualClock* virtual_clock = nullptr;  ///< null when live; otherwise to be advanced with every packet
+/// One way in: a device or its recording, and what its bytes mean.
+struct Input {
+  recording::SourceEntry entry;
   std::unique_ptr<Source> source;
-  std::vector<std::unique_ptr<ScanDecoder>> decoders;  ///< by SourceId; null where a source holds no scans
-
-  [[nodiscard]] const Clock& clock() const { return *owned_clock; }
-  [[nodiscard]] ScanDecoder* decoder(SourceId id) const;
-  /// Moves virtual time on to `arrival`; live time needs no help.
-  void advance_to(Time arrival) {
-    if (virtual_clock != nullptr) virtual_clock->advance_to(arrival);
-  }
+  std::unique_ptr<ScanDecoder> scans;  ///< null where it holds no scans
+  drive::CanLink* can = nullptr;       ///< the same source, live: it can be spoken to, too
+  gpio::GpioLines* lines = nullptr;    ///< likewise
+  std::function<Losses()> losses;      ///< live: what the device lost; may be empty
 };
 
-/// The profile's devices, listening. Decoders report events to `monitor`, which must outlive the door.
-Result<Door> open_devices(const RobotProfile& profile, Monitor& monitor);
-/// A recording. What it says of its robot and sensors (name, model, ports, mount) replaces what the profile says.
-Result<Door> open_recording(const std::filesystem::path& folder, Pace pace, RobotProfile& profile, Monitor& monitor);
+/// The one door through which everything from outside enters. The index of an input is its SourceId.
+struct Door {
+  std::vector<Input> inputs;
+  recording::Recording recording;                  ///< what it is, or will be, as a recording
+  std::optional<scheduler::ScheduleLog> schedule;  ///< of the live run that made the recording
+};
+
+/// Which devices a live run opens: those it uses, or all of the profile's, because it records them.
+enum class Devices : bool { kUsed, kAll };
+
+/// The profile's devices, listening. Decoders report events to `monitor`, which must outlive the door, as must `clock`.
+Result<Door> open_devices(const RobotProfile& profile, Devices which, const Clock& clock, Monitor& monitor);
+/// A recording. What it says of its robot and sensors (name, model, ports, mount) replaces what the profile says. A
+/// source whose file cannot be opened says so as its first and only packet.
+Result<Door> open_recording(const std::filesystem::path& folder, RobotProfile& profile, Monitor& monitor);
 
 }  // namespace cairn

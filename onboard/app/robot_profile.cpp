@@ -22,6 +22,7 @@ void declare(config::Section& s, RobotProfile& p) {
   s.number("odometry_deadline_s", p.odometry_deadline_s, {0.001, 10}, "s",
            "live: no further refinement of a pose this long after its last packet");
   s.group("mapping", p.mapping, "the OctoMap");
+  s.group("schedule", p.schedule, "the fixed-rate tasks and what they may cost");
 }
 
 Result<RobotProfile> load_profile(const std::filesystem::path& path) {

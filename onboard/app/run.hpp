@@ -16,10 +16,12 @@ struct RunOptions {
   std::filesystem::path config;     ///< empty: the defaults
   std::filesystem::path recording;  ///< empty: live hardware
   std::filesystem::path out;
+  std::filesystem::path record;    ///< live: where to keep the packets and the schedule; empty: nowhere
+  std::filesystem::path schedule;  ///< of another live run, instead of the recording's own schedule.log
   Pace pace = Pace::kRecorded;
   std::optional<int> threads;                             ///< instead of the profile's
   std::optional<double> seconds;                          ///< ends the run when so much of the robot's time has passed
-  std::function<void(Time, std::size_t scans)> progress;  ///< called after every scan; may be empty
+  std::function<void(Time, std::size_t scans)> progress;  ///< after every scan, on odometry's thread; may be empty
 };
 
 /// What a run leaves behind, beside its files.
@@ -29,7 +31,7 @@ struct RunResult {
 };
 
 /// One robot, from its first packet to the last: live until a stop signal, or to the end of a recording. Writes
-/// trajectory.tum, map.cairn, map.ot, report.json, report.html and config.yaml into `out`.
+/// trajectory.tum, map.cairn, map.ot, report.json, report.html and config.yaml into `out`; live also schedule.log.
 Result<std::unique_ptr<RunResult>> run(const RunOptions& options);
 
 }  // namespace cairn

@@ -6,10 +6,10 @@
 #include "drivers/recording/recording.hpp"
 #include "drivers/recording/trajectory_file.hpp"
 #include "hal/file.hpp"
-#include "onboard/app/allocations.hpp"
 #include "onboard/app/report/sha256.hpp"
 #include "onboard/app/report/write_report.hpp"
 #include "onboard/app/run.hpp"
+#include "onboard/app/tasks/robot_tasks.hpp"
 #include "onboard/mapping/map_file.hpp"
 
 namespace cairn {
@@ -41,29 +41,36 @@ double length_m(const std::vector<TrackPoint>& track) {
   return length;
 }
 
+/// The control thread is the one that releases first and most often.
+void add_tasks(const scheduler::Executive& executive, RunReport& report) {
+  for (const scheduler::Line& line : executive.lines()) report.tasks.push_back({line.spec, line.stats});
+  const scheduler::Line& control = executive.lines().front();
+  report.ticks = {control.stats.ticks, control.stats.misses + control.stats.slips, control.stats.wake.max()};
+  report.control_thread_allocations = control.stats.allocations;
+}
+
 /// Every stage of the odometry and the map, as far as the run got.
 RunReport make_report(const RunFacts& facts) {
-  const auto& track = facts.robot.track();
+  const auto& track = facts.tasks.robot().track();
   RunReport report;
   report.robot = facts.profile.name;
   report.profile = facts.options.config.string();
   report.source = facts.options.recording.empty() ? "live" : facts.options.recording.string();
   report.version = CAIRN_VERSION;
   report.distance_m = length_m(track);
-  report.scans = facts.figures.scans;
-  report.lost_packets = facts.figures.lost_packets;
-  report.ticks.count = facts.figures.scans;
+  report.scans = facts.tasks.figures().scans;
+  report.lost_packets = facts.tasks.figures().lost_packets;
   report.odometry = odometry_stats(track);
   report.peak_rss_mb = peak_rss_mb();
-  report.control_thread_allocations = facts.figures.allocations;
+  add_tasks(facts.tasks.executive(), report);
   report.monitor = &facts.monitor;
-  if (facts.figures.start) {
-    report.start = *facts.figures.start;
-    report.duration_s = to_seconds(facts.figures.end - *facts.figures.start);
+  if (facts.tasks.figures().start) {
+    report.start = *facts.tasks.figures().start;
+    report.duration_s = to_seconds(facts.tasks.figures().end - *facts.tasks.figures().start);
   }
   for (const TrackPoint& p : track) report.trajectory.push_back({p.stamp, p.T_odom_base});
-  report.map = summarise(facts.robot.map());
-  if (auto picture = look_at(facts.robot.map(), {})) report.picture = std::move(*picture);
+  report.map = summarise(facts.tasks.robot().map());
+  if (auto picture = look_at(facts.tasks.robot().map(), {})) report.picture = std::move(*picture);
   report.effective_config = to_yaml(facts.profile);
   return report;
 }
@@ -92,9 +99,9 @@ Result<RunReport> write_output(const RunFacts& facts) {
   add_ground_truth(facts, report);
   const std::array<fs::path, 2> hashed{out / "trajectory.tum", out / "map.cairn"};
   if (const auto r = write_file_atomic(out / "config.yaml", report.effective_config); !r) return r.error();
-  if (const auto r = write_trajectory(hashed[0], facts.robot.track()); !r) return r.error();
-  if (const auto r = save_cairn(facts.robot.map(), hashed[1]); !r) return r.error();
-  if (const auto r = save_ot(facts.robot.map(), out / "map.ot"); !r) return r.error();
+  if (const auto r = write_trajectory(hashed[0], facts.tasks.robot().track()); !r) return r.error();
+  if (const auto r = save_cairn(facts.tasks.robot().map(), hashed[1]); !r) return r.error();
+  if (const auto r = save_ot(facts.tasks.robot().map(), out / "map.ot"); !r) return r.error();
   const auto hash = sha256_of_files(hashed);
   if (!hash) return hash.error();
   report.output_sha256 = *hash;

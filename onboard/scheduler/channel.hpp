@@ -33,12 +33,15 @@ class Channel final : public ChannelBase {
  public:
   struct Ends {
     std::size_t capacity = 8;
+    /// Places beyond the capacity, for the replay of a log: on one thread, a tick that ran late in the live run comes
+    /// in the order of its release, perhaps before the one that made room for it.
+    std::size_t reserve = 0;
     std::size_t producer_slot = 0, consumer_slot = 0;  ///< in the records of the two tasks
     Duration lag{};  ///< more than zero where the consumer comes before the producer in the order of tasks
   };
   /// Both progresses must outlive the channel.
   Channel(const Ends& ends, const Progress& producer, const Progress& consumer)
-      : ends_(ends), producer_(producer), consumer_(consumer), queue_(ends.capacity) {}
+      : ends_(ends), producer_(producer), consumer_(consumer), queue_(ends.capacity + ends.reserve) {}
 
   /// Producer: the value to be filled, or null where it is dropped. Nothing is visible before push().
   [[nodiscard]] T* back(Tick& tick) {
@@ -99,14 +102,14 @@ class Channel final : public ChannelBase {
 
   /// Whether the next value finds no place.
   bool refuses(Tick& tick) {
-    if (tick.regime() == Regime::kLogged) {
-      const std::int32_t limit = tick.slot(ends_.producer_slot);
-      if (limit > 0 && pushed_ >= limit - 1) return true;
-    }
+    const bool logged = tick.regime() == Regime::kLogged;
+    const std::int32_t limit = logged ? tick.slot(ends_.producer_slot) : 0;
+    if (limit > 0 && pushed_ >= limit - 1) return true;
+    const std::size_t room = logged ? queue_.capacity() : ends_.capacity;
     // A replay waits until the consumer has had its chance, which is what a single thread would have given it.
-    if (tick.gate() != nullptr && queue_.back() == nullptr)
-      tick.gate()->wait_until([&] { return queue_.back() != nullptr || had_its_chance(tick); });
-    return queue_.back() == nullptr;
+    if (tick.gate() != nullptr && queue_.size() >= room)
+      tick.gate()->wait_until([&] { return queue_.size() < room || had_its_chance(tick); });
+    return queue_.size() >= room;
   }
   bool had_its_chance(const Tick& tick) const {
     if (tick.regime() == Regime::kLogged) return consumer_.reached(Time::max());

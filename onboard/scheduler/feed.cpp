@@ -31,6 +31,7 @@ Time Feed::first_arrival() { return read(Time{}, kMaxComplaints) ? next_.arrival
 
 const Packet* Feed::take_ahead() {
   std::swap(packet_, next_);
+  packet_.source = id_;
   ahead_ = false;
   ++taken_;
   if (tap_) tap_(packet_);

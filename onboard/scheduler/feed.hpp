@@ -21,9 +21,9 @@ class Feed {
   /// A flood cannot hold a live task for longer.
   static constexpr int kMaxPackets = 2000;
 
-  /// `source` must outlive the feed. `slot` is a place in the records of the task.
-  Feed(Source& source, std::size_t slot, Complain complain, Tap tap = {})
-      : source_(source), slot_(slot), complain_(std::move(complain)), tap_(std::move(tap)) {}
+  /// `source` must outlive the feed. Packets get `id`. `slot` is a place in the records of the task.
+  Feed(Source& source, SourceId id, std::size_t slot, Complain complain, Tap tap = {})
+      : source_(source), id_(id), slot_(slot), complain_(std::move(complain)), tap_(std::move(tap)) {}
 
   /// The next packet of this tick, or null; it stays valid until the next call.
   const Packet* take(Tick& tick);
@@ -40,6 +40,7 @@ class Feed {
   const Packet* take_ahead();
 
   Source& source_;
+  SourceId id_;
   std::size_t slot_;
   Complain complain_;
   Tap tap_;

@@ -59,10 +59,14 @@ bool may_lock_memory() {
 
 std::thread start_thread(const ThreadPlan& plan, std::function<void()> work) {
   return std::thread([plan, work = std::move(work)] {
-    apply(plan);
-    prefault_stack();
+    become(plan);
     work();
   });
+}
+
+void become(const ThreadPlan& plan) {
+  apply(plan);
+  prefault_stack();
 }
 
 std::vector<std::string> probe_privileges(int highest_priority) {

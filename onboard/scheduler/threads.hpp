@@ -18,6 +18,9 @@ struct ThreadPlan {
 /// The only place where the onboard program starts threads of its own (beside hal/workers, which compute).
 [[nodiscard]] std::thread start_thread(const ThreadPlan& plan, std::function<void()> work);
 
+/// Gives the calling thread name, priority and core, and touches its stack.
+void become(const ThreadPlan& plan);
+
 /// What real-time operation needs and this process has not got, each with its remedy; empty: all is there.
 [[nodiscard]] std::vector<std::string> probe_privileges(int highest_priority);
 

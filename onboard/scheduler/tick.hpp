@@ -65,6 +65,8 @@ class Tick {
   [[nodiscard]] std::uint64_t index() const { return record_.index; }
   /// What the time is for everything the task decides.
   [[nodiscard]] Time release() const { return release_; }
+  /// Whether this tick happens in real time; otherwise latencies would be fiction.
+  [[nodiscard]] bool takes_time() const { return clock_ != nullptr && regime_ != Regime::kDrain; }
   /// For figures alone; release() where the tick takes no time.
   [[nodiscard]] Time figure_now() const { return clock_ != nullptr ? clock_->now() : release_; }
 

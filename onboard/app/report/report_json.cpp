@@ -32,7 +32,7 @@ Json stage_json(const StageStats& stats) {
   Json stage{{"count", stats.wall.count()}};
   add_percentiles(stage, "", stats.wall);
   stage["budget_ms"] = stats.budget > Duration{} ? Json(to_milliseconds(stats.budget)) : Json(nullptr);
-  stage["overruns"] = stats.overruns;
+  stage["overruns"] = stats.overruns.get();
   add_percentiles(stage, "cpu_", stats.cpu);
   return stage;
 }
@@ -42,6 +42,34 @@ Json stages_json(const Monitor* monitor) {
   if (monitor != nullptr)
     for (const StageStats& s : monitor->stages()) stages[s.name] = stage_json(s);
   return stages;
+}
+
+Json task_json(const TaskFigures& task) {
+  const scheduler::TaskStats& s = task.stats;
+  Json json{{"count", s.ticks.get()},
+            {"rate_hz", task.spec.rate_hz},
+            {"deadline_ms", to_milliseconds(task.spec.deadline())},
+            {"budget_ms", task.spec.soft_ms},
+            {"slips", s.slips.get()},
+            {"missed", s.misses.get()},
+            {"soft_overruns", s.soft_overruns.get()},
+            {"hard_overruns", s.hard_overruns.get()},
+            {"demotions", s.demotions.get()},
+            {"allocations", s.allocations.get()},
+            {"major_faults", s.major_faults.get()},
+            {"minor_faults", s.minor_faults.get()},
+            {"involuntary_switches", s.involuntary_switches.get()}};
+  add_percentiles(json, "response_", s.response);
+  add_percentiles(json, "wake_", s.wake);
+  add_percentiles(json, "execution_", s.execution);
+  add_percentiles(json, "cpu_", s.cpu);
+  return json;
+}
+
+Json tasks_json(const RunReport& report) {
+  Json tasks = Json::object();
+  for (const TaskFigures& task : report.tasks) tasks[task.spec.name] = task_json(task);
+  return tasks;
 }
 
 Json events_json(const RunReport& report) {
@@ -178,6 +206,7 @@ Json to_json(const RunReport& report) {
            {{"count", report.ticks.count},
             {"missed", report.ticks.missed},
             {"max_lateness_us", 1e-3 * static_cast<double>(report.ticks.max_lateness.count())}}},
+          {"tasks", tasks_json(report)},
           {"odometry",
            {{"degenerate_scans", report.odometry.degenerate_scans},
             {"lost_scans", report.odometry.lost_scans},

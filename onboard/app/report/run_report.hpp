@@ -13,6 +13,8 @@
 #include "onboard/app/report/map_measures.hpp"
 #include "onboard/app/report/map_picture.hpp"
 #include "onboard/app/report/trajectory_error.hpp"
+#include "onboard/scheduler/task_spec.hpp"
+#include "onboard/scheduler/task_stats.hpp"
 
 namespace cairn {
 
@@ -26,6 +28,12 @@ struct PoseEstimate {
 struct TickStats {
   std::uint64_t count = 0, missed = 0;
   Duration max_lateness{};
+};
+
+/// One fixed-rate task of the run.
+struct TaskFigures {
+  scheduler::TaskSpec spec;
+  scheduler::TaskStats stats;
 };
 
 struct OdometryStats {
@@ -53,7 +61,8 @@ struct RunReport {
   double distance_m = 0;  ///< length of the estimated trajectory
   double duration_s = 0;  ///< on the robot's time line
   std::uint64_t scans = 0, lost_packets = 0;
-  TickStats ticks;
+  TickStats ticks;  ///< of the control task
+  std::vector<TaskFigures> tasks;
   OdometryStats odometry;
   double peak_rss_mb = 0;
   std::uint64_t control_thread_allocations = 0;

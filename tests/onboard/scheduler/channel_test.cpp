@@ -36,7 +36,7 @@ struct ChannelTest : ::testing::Test {
   }
 
   Progress producer, consumer;
-  Channel<int> channel{{3, 1, 0, 5ms}, producer, consumer};
+  Channel<int> channel{{3, 0, 1, 0, 5ms}, producer, consumer};
   TickRecord pushed, taken;
   std::uint64_t index = 0;
   int made = 0;

@@ -21,7 +21,7 @@ Value mix(Value a, Value b) { return (a ^ (b + 0x9E3779B97F4A7C15ULL)) * 0xBF584
 
 class Reader final : public Task {
  public:
-  Reader(Source& source, Channel<Value>& out) : feed_(source, 0, [](Time, const Error&) {}), out_(out) {}
+  Reader(Source& source, Channel<Value>& out) : feed_(source, SourceId{0}, 0, [](Time, const Error&) {}), out_(out) {}
   void tick(Tick& tick) override {
     while (const Packet* packet = feed_.take(tick)) {
       state_ = mix(state_, packet->sequence);
@@ -89,12 +89,12 @@ TaskSpec spec(const char* name, double rate_hz) {
 }
 
 struct Pipeline {
-  explicit Pipeline(Source& source)
+  explicit Pipeline(Source& source, std::size_t reserve = 0)
       : sink_line(executive.add(spec("sink", 500))),
         reader_line(executive.add(spec("reader", 200))),
         worker_line(executive.add(spec("worker", 100))),
-        first({4, 1, 0, {}}, reader_line.progress, worker_line.progress),
-        second({16, 1, 0, 5ms}, worker_line.progress, sink_line.progress),
+        first({4, reserve, 1, 0, {}}, reader_line.progress, worker_line.progress),
+        second({16, reserve, 1, 0, 5ms}, worker_line.progress, sink_line.progress),
         reader(source, first),
         worker(first, second),
         sink(second) {
@@ -124,7 +124,7 @@ std::vector<Time> arrivals(Time start) {
 
 Value replay(const std::vector<Time>& list, const ScheduleLog* log, bool threads) {
   ListSource source(list);
-  Pipeline p(source);
+  Pipeline p(source, 64);
   const LiveClock clock;
   Executive::ReplayOptions options;
   options.start = p.reader.feed_.first_arrival();

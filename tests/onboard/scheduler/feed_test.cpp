@@ -24,7 +24,7 @@ struct FeedTest : ::testing::Test {
   }
 
   ListSource source{{Time{1ms}, Time{2ms}, Time{2ms}, Time{9ms}}};
-  Feed feed{source, 2, [this](Time, const Error&) { ++complaints; }, [this](const Packet&) { ++tapped; }};
+  Feed feed{source, SourceId{3}, 2, [this](Time, const Error&) { ++complaints; }, [this](const Packet&) { ++tapped; }};
   TickRecord record;
   std::uint64_t index = 0;
   int complaints = 0, tapped = 0;

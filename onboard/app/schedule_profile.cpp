@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/schedule_profile.hpp"
+
+namespace cairn {
+
+void declare(config::Section& s, ScheduleProfile& p) {
+  s.group("safety", p.safety, "e-stop, time-outs and mode");
+  s.group("drive", p.drive, "CAN frames in and out, after safety");
+  s.group("receive", p.receive, "packets of all other sensors, and their decoders");
+  s.group("odometry", p.odometry, "one scan at a time; it looks for one at rate_hz, and finds one at busy_hz");
+  s.group("mapping", p.mapping, "likewise");
+  s.group("housekeeping", p.housekeeping, "recording, saving, telling: everything that may wait");
+}
+
+}  // namespace cairn

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hal/config.hpp"
+#include "onboard/scheduler/task_spec.hpp"
+
+namespace cairn {
+
+/// The tasks of a robot, in the order in which they run when they are released together. Defaults are for a Husky's NUC
+/// with a VLP-16 at 10 Hz. Odometry and mapping look for work a hundred times a second, so that a scan does not wait,
+/// and find it ten times.
+struct ScheduleProfile {
+  scheduler::TaskSpec safety{"safety", 500, 0, 0, 0.2, 1, 0, 80, -1};
+  scheduler::TaskSpec drive{"drive", 500, 0.2, 0, 0.2, 1, 0, 75, -1};
+  scheduler::TaskSpec receive{"receive", 100, 0, 20, 1, 10, 0, 60, -1};
+  scheduler::TaskSpec odometry{"odometry", 100, 1, 100, 40, 80, 10, 50, -1};
+  scheduler::TaskSpec mapping{"mapping", 100, 2, 100, 30, 90, 10, 0, -1};
+  scheduler::TaskSpec housekeeping{"housekeeping", 20, 5, 1000, 1, 0, 0, 0, -1};
+
+  [[nodiscard]] std::vector<scheduler::TaskSpec> tasks() const {
+    return {safety, drive, receive, odometry, mapping, housekeeping};
+  }
+};
+
+void declare(config::Section& section, ScheduleProfile& profile);
+
+}  // namespace cairn

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/tasks/housekeeping_task.hpp"
+
+namespace cairn {
+
+void HousekeepingTask::tick(scheduler::Tick& tick) {
+  write_log();
+  if (recorder_ != nullptr) recorder_->write_waiting(tick.release());
+  for (const Chore& chore : chores_) chore(tick.release());
+}
+
+void HousekeepingTask::write_log() {
+  std::size_t number = 0;
+  for (scheduler::Line& line : executive_.lines()) {
+    if (line.live_only) continue;
+    if (!begun_) log_.task(number, line.spec.name, line.releases);
+    ++number;
+  }
+  begun_ = true;
+  number = 0;
+  for (scheduler::Line& line : executive_.lines()) {
+    if (line.live_only) continue;
+    for (; line.log.front() != nullptr; line.log.pop()) log_.tick(number, *line.log.front());
+    ++number;
+  }
+  log_.flush();
+}
+
+Result<void> HousekeepingTask::close(Time now) {
+  write_log();
+  std::size_t number = 0;
+  for (const scheduler::Line& line : executive_.lines()) {
+    if (line.live_only) continue;
+    log_.end(number++, line.next);
+  }
+  if (recorder_ != nullptr) recorder_->close(now);
+  return log_.close();
+}
+
+}  // namespace cairn

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/tasks/receive_task.hpp"
+
+#include <algorithm>
+
+namespace cairn {
+
+using scheduler::Tick;
+
+ReceiveTask::ReceiveTask(ScanChannel& scans, Monitor& monitor, std::optional<double> seconds)
+    : scans_(scans), monitor_(monitor), decode_stage_(monitor.stage("decode")), seconds_(seconds) {}
+
+bool ReceiveTask::add(Input& input, SourceId id, scheduler::Feed::Tap tap) {
+  if (ways_.size() == kMaxInputs) return false;
+  const auto complain = [this](Time now, const Error& error) { monitor_.event(now, "input", to_string(error)); };
+  ways_.push_back({{*input.source, id, ways_.size(), complain, std::move(tap)}, input.scans.get()});
+  return true;
+}
+
+void ReceiveTask::tick(Tick& tick) {
+  bool ended = true;
+  for (Way& way : ways_) {
+    while (!time_is_up(tick.release())) {
+      const Packet* packet = way.feed.take(tick);
+      if (packet == nullptr) break;
+      receive(*packet, way, tick);
+    }
+    if (way.decoder != nullptr && tick.regime() != scheduler::Regime::kDrain)
+      hand_on(way.decoder->expire(tick.release()), tick, false);
+    ended = ended && way.feed.ended();
+  }
+  if (ended || time_is_up(tick.release())) tick.end_of_input();
+}
+
+void ReceiveTask::finish(Tick& tick) {
+  for (Way& way : ways_)
+    if (way.decoder != nullptr) hand_on(way.decoder->flush(), tick, true);
+}
+
+void ReceiveTask::receive(const Packet& packet, Way& way, Tick& tick) {
+  if (!figures_.start) figures_.start = packet.arrival;
+  figures_.end = std::max(figures_.end, packet.arrival);
+  if (way.decoder == nullptr) return;
+  const auto scan = [&] {
+    const StageTimer timing(decode_stage_);
+    return way.decoder->decode(packet);
+  }();
+  if (!scan)
+    monitor_.event(packet.arrival, "decode", scan.error().cause);
+  else
+    hand_on(*scan, tick, false);
+}
+
+void ReceiveTask::hand_on(const Scan* scan, Tick& tick, bool at_the_end) {
+  if (scan == nullptr) return;
+  ++figures_.scans;
+  figures_.lost_packets += scan->lost_packets;
+  // The first and the last revolution are cut by where the data begins and ends: nothing is wrong with the sensor.
+  if (scan->incomplete && figures_.scans > 1 && !at_the_end)
+    monitor_.event(scan->valid.end, "lidar", "incomplete scan: packets were lost or late, or the motor stood");
+  // A map that begins with a part of a turn leaves directions open, and every later pose would refer to it.
+  if (scan->incomplete && figures_.scans == 1 && !at_the_end) return;
+  ArrivedScan* out = scans_.back(tick);
+  if (out == nullptr) {
+    monitor_.event(scan->valid.end, "receive", "a scan was dropped: odometry is behind");
+    return;
+  }
+  out->scan = *scan;
+  out->arrival = figures_.end;
+  scans_.push(tick);
+}
+
+bool ReceiveTask::time_is_up(Time now) const {
+  return seconds_ && figures_.start && now - *figures_.start > from_seconds(*seconds_);
+}
+
+Time ReceiveTask::first_arrival() {
+  Time first = Time::max();
+  for (Way& way : ways_) first = std::min(first, way.feed.first_arrival());
+  return first;
+}
+
+std::uint64_t ReceiveTask::missing_packets() const {
+  std::uint64_t missing = 0;
+  for (const Way& way : ways_) missing += way.feed.missing();
+  return missing;
+}
+
+}  // namespace cairn

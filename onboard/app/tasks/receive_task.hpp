@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+#include "hal/monitor.hpp"
+#include "onboard/app/door.hpp"
+#include "onboard/app/tasks/messages.hpp"
+#include "onboard/scheduler/feed.hpp"
+#include "onboard/scheduler/tick.hpp"
+
+namespace cairn {
+
+/// Reads what the sensors sent, and hands on every scan that became whole. Slots: 0 … kMaxInputs − 1 packets of its
+/// inputs in their order, then scans accepted.
+class ReceiveTask final : public scheduler::Task {
+ public:
+  static constexpr std::size_t kMaxInputs = 8, kScansSlot = 8;
+
+  /// What came in; of the task's thread, or of a run that has ended.
+  struct Figures {
+    std::optional<Time> start;  ///< arrival of the first packet
+    Time end{};                 ///< arrival of the last
+    std::uint64_t scans = 0, lost_packets = 0;
+  };
+
+  /// `scans` and `monitor` must outlive the task. `seconds`: the input ends when so much of the robot's time has
+  /// passed.
+  ReceiveTask(ScanChannel& scans, Monitor& monitor, std::optional<double> seconds);
+  /// `input` must outlive the task. False: there are kMaxInputs already.
+  bool add(Input& input, SourceId id, scheduler::Feed::Tap tap);
+
+  void tick(scheduler::Tick& tick) override;
+  void finish(scheduler::Tick& tick) override;
+
+  [[nodiscard]] const Figures& figures() const { return figures_; }
+  [[nodiscard]] Time first_arrival();
+  [[nodiscard]] std::uint64_t missing_packets() const;
+
+ private:
+  struct Way {
+    scheduler::Feed feed;
+    ScanDecoder* decoder;  // null: only counted and recorded
+  };
+  void receive(const Packet& packet, Way& way, scheduler::Tick& tick);
+  void hand_on(const Scan* scan, scheduler::Tick& tick, bool at_the_end);
+  [[nodiscard]] bool time_is_up(Time now) const;
+
+  ScanChannel& scans_;
+  Monitor& monitor_;
+  StageStats& decode_stage_;
+  std::optional<double> seconds_;
+  std::deque<Way> ways_;
+  Figures figures_;
+};
+
+}  // namespace cairn

@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <deque>
+#include <filesystem>
+
+#include "drivers/recording/recording_writer.hpp"
+#include "hal/monitor.hpp"
+#include "hal/spsc_queue.hpp"
+#include "onboard/scheduler/feed.hpp"
+
+namespace cairn {
+
+/// Writes what a live run receives, without making anyone wait: tasks put copies of their packets into queues, and
+/// housekeeping empties them onto the disk. What finds its queue full is lost to the recording, counted and said.
+class Recorder {
+ public:
+  /// `monitor` must outlive the recorder.
+  Recorder(recording::RecordingWriter writer, Monitor& monitor) : writer_(std::move(writer)), monitor_(monitor) {}
+
+  /// For one task: its packets go into a queue of their own. The recorder must outlive the tap.
+  [[nodiscard]] scheduler::Feed::Tap tap(std::size_t packets);
+
+  /// On the housekeeping thread. An error of the disk ends the recording and nothing else.
+  void write_waiting(Time now);
+  /// After the last tick.
+  void close(Time now);
+  [[nodiscard]] std::uint64_t lost() const;
+
+ private:
+  struct Queue {
+    explicit Queue(std::size_t capacity) : packets(capacity) {}
+    SpscQueue<Packet> packets;
+    RelaxedCounter lost;
+  };
+  void fail(Time now, const Error& error);
+
+  recording::RecordingWriter writer_;
+  Monitor& monitor_;
+  std::deque<Queue> queues_;
+  bool failed_ = false;
+};
+
+}  // namespace cairn

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "hal/workers.hpp"
+#include "onboard/app/door.hpp"
+#include "onboard/app/run.hpp"
+#include "onboard/app/tasks/housekeeping_task.hpp"
+#include "onboard/app/tasks/odometry_task.hpp"
+#include "onboard/app/tasks/receive_task.hpp"
+#include "onboard/app/tasks/recorder.hpp"
+#include "onboard/scheduler/executive.hpp"
+
+namespace cairn {
+
+/// A robot's tasks, joined by their channels, ready to be run by their executive.
+class RobotTasks {
+ public:
+  /// All must outlive the tasks.
+  RobotTasks(Door& door, const RobotProfile& profile, const RunOptions& options, Monitor& monitor);
+  RobotTasks(const RobotTasks&) = delete;
+  RobotTasks& operator=(const RobotTasks&) = delete;
+  ~RobotTasks() = default;
+
+  /// Live, until `stop`; leaves schedule.log and, where it is asked for, a recording. Error: they could not be made.
+  Result<void> run_live(const Clock& clock);
+  /// The recording behind the door, at its pace.
+  Result<void> replay();
+
+  [[nodiscard]] const Robot& robot() const { return robot_; }
+  [[nodiscard]] const ReceiveTask::Figures& figures() const { return receive_.figures(); }
+  [[nodiscard]] const scheduler::Executive& executive() const { return executive_; }
+
+ private:
+  void connect(Recorder* recorder);
+
+  Door& door_;
+  const RobotProfile& profile_;
+  const RunOptions& options_;
+  Monitor& monitor_;
+
+  scheduler::Executive executive_;
+  scheduler::Line &receive_line_, &odometry_line_, &mapping_line_;
+  ScanChannel scans_;
+  MotionChannel motions_;
+  Workers odometry_workers_, mapping_workers_;
+  Robot robot_;
+  ReceiveTask receive_;
+  OdometryTask odometry_;
+  MappingTask mapping_;
+};
+
+}  // namespace cairn
