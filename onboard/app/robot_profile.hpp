@@ -9,6 +9,8 @@
 #include "onboard/app/schedule_profile.hpp"
 #include "onboard/app/sensor_profiles.hpp"
 #include "onboard/robot.hpp"
+#include "onboard/scheduler/failsafe_config.hpp"
+#include "onboard/scheduler/overload.hpp"
 
 namespace cairn {
 
@@ -23,6 +25,8 @@ struct RobotProfile {
   GpioProfile gpio;
   OdometryConfig odometry;
   MappingConfig mapping;
+  FailsafeConfig failsafe;
+  OverloadConfig overload;
   double odometry_deadline_s = 0.08;  ///< live: no further refinement of a pose this long after its last packet
   int threads = 1;
   ScheduleProfile schedule;
