@@ -23,45 +23,59 @@ Error io_error(std::string_view cause, const fs::path& path, int error) {
 /// Owns a file descriptor.
 class Fd {
  public:
-  explicit Fd(int fd) : fd_(fd) {}
+  Fd(FileCalls& calls, int fd) : calls_(calls), fd_(fd) {}
   Fd(const Fd&) = delete;
   Fd& operator=(const Fd&) = delete;
   ~Fd() {
-    if (fd_ >= 0) ::close(fd_);
+    if (fd_ >= 0) calls_.close(fd_);
   }
   [[nodiscard]] int get() const { return fd_; }
 
  private:
+  FileCalls& calls_;
   int fd_;
 };
 
-int write_all(int fd, std::span<const std::byte> bytes) {
+int write_all(FileCalls& calls, int fd, std::span<const std::byte> bytes) {
   while (!bytes.empty()) {
-    const ssize_t n = ::write(fd, bytes.data(), bytes.size());
+    const ssize_t n = calls.write(fd, bytes.data(), bytes.size());
     if (n < 0 && errno == EINTR) continue;
     if (n < 0) return errno;
+    if (n == 0) return EIO;
     bytes = bytes.subspan(static_cast<std::size_t>(n));
   }
   return 0;
 }
 
-int write_and_sync(const fs::path& path, std::span<const std::byte> bytes) {
-  const Fd fd(::open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
+int write_and_sync(FileCalls& calls, const fs::path& path, std::span<const std::byte> bytes) {
+  const Fd fd(calls, calls.open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
   if (fd.get() < 0) return errno;
-  if (const int error = write_all(fd.get(), bytes); error != 0) return error;
-  return ::fsync(fd.get()) == 0 ? 0 : errno;
+  if (const int error = write_all(calls, fd.get(), bytes); error != 0) return error;
+  return calls.fsync(fd.get()) == 0 ? 0 : errno;
 }
 
-int sync_folder(const fs::path& folder) {
-  const Fd fd(::open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
+int sync_folder(FileCalls& calls, const fs::path& folder) {
+  const Fd fd(calls, calls.open(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC, 0));
   if (fd.get() < 0) return errno;
-  return ::fsync(fd.get()) == 0 ? 0 : errno;
+  return calls.fsync(fd.get()) == 0 ? 0 : errno;
 }
 
 }  // namespace
 
+int FileCalls::open(const char* path, int flags, ::mode_t mode) { return ::open(path, flags, mode); }
+::ssize_t FileCalls::write(int fd, const void* bytes, std::size_t size) { return ::write(fd, bytes, size); }
+int FileCalls::fsync(int fd) { return ::fsync(fd); }
+int FileCalls::close(int fd) { return ::close(fd); }
+int FileCalls::rename(const char* from, const char* to) { return ::rename(from, to); }
+int FileCalls::unlink(const char* path) { return ::unlink(path); }
+
+FileCalls& FileCalls::machine() {
+  static FileCalls calls;
+  return calls;
+}
+
 Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t max_bytes) {
-  const Fd fd(::open(path.c_str(), O_RDONLY | O_CLOEXEC));
+  const Fd fd(FileCalls::machine(), ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
   if (fd.get() < 0) return io_error("cannot open the file", path, errno);
   struct stat info {};
   if (::fstat(fd.get(), &info) != 0) return io_error("cannot look at the file", path, errno);
@@ -84,19 +98,19 @@ Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t max
   return bytes;
 }
 
-Result<void> write_file_atomic(const fs::path& path, std::span<const std::byte> bytes) {
+Result<void> write_file_atomic(const fs::path& path, std::span<const std::byte> bytes, FileCalls& calls) {
   fs::path temporary = path;
   temporary += ".tmp";
-  if (const int error = write_and_sync(temporary, bytes); error != 0) {
-    ::unlink(temporary.c_str());
+  if (const int error = write_and_sync(calls, temporary, bytes); error != 0) {
+    calls.unlink(temporary.c_str());
     return io_error("cannot write the file", path, error);
   }
-  if (::rename(temporary.c_str(), path.c_str()) != 0) {
+  if (calls.rename(temporary.c_str(), path.c_str()) != 0) {
     const int error = errno;
-    ::unlink(temporary.c_str());
+    calls.unlink(temporary.c_str());
     return io_error("cannot replace the file", path, error);
   }
-  if (const int error = sync_folder(path.parent_path()); error != 0)
+  if (const int error = sync_folder(calls, path.parent_path()); error != 0)
     return io_error("cannot sync the folder of the file", path, error);
   return {};
 }

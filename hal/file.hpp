@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hal/file_calls.hpp"
 #include "hal/result.hpp"
 
 namespace cairn {
@@ -17,7 +18,8 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std:
 
 /// Old content or new content, never neither and never half: writes a temporary file beside `path`, syncs it, renames
 /// it over `path` and syncs the folder. On an error the old file is untouched and the temporary one is gone.
-Result<void> write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> bytes);
+Result<void> write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> bytes,
+                               FileCalls& calls = FileCalls::machine());
 Result<void> write_file_atomic(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace cairn
