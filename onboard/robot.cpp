@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/robot.hpp"
 
+#include "onboard/mapping/point_file.hpp"
+
 namespace cairn {
 
 Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapping_workers, Monitor& monitor)
@@ -10,6 +12,21 @@ Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapp
       monitor_(monitor),
       odometry_stage_(monitor.stage("odometry")),
       mapping_stage_(monitor.stage("mapping")) {}
+
+Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapping_workers, Monitor& monitor,
+             const Resume& saved)
+    : T_base_lidar_(config.T_base_lidar),
+      odometry_(config.odometry, config.T_base_lidar, odometry_workers),
+      mapper_(config.mapping, mapping_workers, saved.map),
+      monitor_(monitor),
+      odometry_stage_(monitor.stage("odometry")),
+      mapping_stage_(monitor.stage("mapping")) {
+  const auto points = occupied_voxel_centres(saved.map);
+  if (points)
+    odometry_.resume(saved.T_odom_base, saved.stamp, *points);
+  else
+    monitor.event(saved.stamp, "odometry", to_string(points.error()));
+}
 
 Result<TrackPoint> Robot::locate(const Scan& scan, Budget& budget, LocatedScan& located) {
   const StageTimer timing(odometry_stage_);

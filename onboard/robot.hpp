@@ -43,12 +43,23 @@ struct MapShare {
   int every_point = 1;  ///< 1: all points, 2: every second one, …
 };
 
+/// Where a robot goes on that was here before.
+struct Resume {
+  const SemanticOcTree& map;  ///< of the config's resolution; copied
+  UncertainPose T_odom_base;
+  Time stamp{};
+};
+
 /// One robot: scans in, trajectory and map out. Deterministic for any number of threads. locate() and extend_map() may
 /// run at the same time on two threads.
 class Robot {
  public:
   /// The workers (one set for each of the two stages) and `monitor` are borrowed and must outlive the robot.
   Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapping_workers, Monitor& monitor);
+
+  /// The same, going on where one ended.
+  Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapping_workers, Monitor& monitor,
+        const Resume& saved);
 
   /// Estimates the motion since the last scan; fills `located`, reusing its memory. On an error the scan is dropped,
   /// and the track is as before.

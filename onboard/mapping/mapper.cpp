@@ -2,6 +2,7 @@
 #include "onboard/mapping/mapper.hpp"
 
 #include <algorithm>
+#include <cstdlib>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -22,11 +23,25 @@ Mapper::Mapper(const MappingConfig& config, Workers& workers)
       tree_(config.resolution_m),
       rays_(config.resolution_m, config.max_range_m),
       footprints_(workers.threads(), Footprint(megabytes(config.max_scan_mb) / sizeof(BrickBits) / 2)) {
-  tree_.setProbHit(config.prob_hit);
-  tree_.setProbMiss(config.prob_miss);
-  tree_.setClampingThresMin(config.clamping_min);
-  tree_.setClampingThresMax(config.clamping_max);
-  tree_.reserve_bytes(megabytes(config.reserve_mb));
+  set_up();
+}
+
+Mapper::Mapper(const MappingConfig& config, Workers& workers, const SemanticOcTree& saved)
+    : config_(config),
+      workers_(workers),
+      tree_(saved),
+      rays_(config.resolution_m, config.max_range_m),
+      footprints_(workers.threads(), Footprint(megabytes(config.max_scan_mb) / sizeof(BrickBits) / 2)) {
+  if (saved.getResolution() != config.resolution_m) std::abort();
+  set_up();
+}
+
+void Mapper::set_up() {
+  tree_.setProbHit(config_.prob_hit);
+  tree_.setProbMiss(config_.prob_miss);
+  tree_.setClampingThresMin(config_.clamping_min);
+  tree_.setClampingThresMax(config_.clamping_max);
+  tree_.reserve_bytes(megabytes(config_.reserve_mb));
   for (std::vector<TileKey>* tiles : {&changed_, &changed_now_, &merged_}) tiles->reserve(kTiles);
 }
 

@@ -35,6 +35,8 @@ class Mapper {
  public:
   /// `workers` must outlive the mapper.
   Mapper(const MappingConfig& config, Workers& workers);
+  /// Goes on with a copy of `saved`, which must have the config's resolution.
+  Mapper(const MappingConfig& config, Workers& workers, const SemanticOcTree& saved);
   Mapper(const Mapper&) = delete;
   Mapper& operator=(const Mapper&) = delete;
   ~Mapper() = default;
@@ -52,6 +54,7 @@ class Mapper {
   [[nodiscard]] std::vector<TileKey> take_changed_tiles();
 
  private:
+  void set_up();
   [[nodiscard]] bool march();
   void note_changed();
 

@@ -253,6 +253,11 @@ void LidarOdometry::insert() {
   map_points_.reserve(dense_points_.size());
   for (const std::uint32_t i : dense_points_)
     map_points_.push_back(R * points_base_[i].cast<double>() + T.translation());
+  insert_points();
+}
+
+void LidarOdometry::insert_points() {
+  const SE3& T = filter_.state().T_odom_base;
   if ((T.translation() - T_odom_pruned_.translation()).norm() > 0.1 * config_.window_m) {
     map_.keep_within(T.translation(), config_.window_m);
     T_odom_pruned_ = T;

@@ -59,6 +59,11 @@ class LidarOdometry {
   /// points.
   Result<OdometryUpdate> update(const Scan& scan, Budget& budget);
 
+  /// Goes on from where a run ended: `points_odom` is what its map says is occupied, `T_odom_base` where the base was
+  /// at `stamp`. The base may have moved since, by some metres; the first scan looks for it there. Points that are not
+  /// finite or farther than the window are left out. To be called before the first scan.
+  void resume(const UncertainPose& T_odom_base, Time stamp, std::span<const Eigen::Vector3f> points_odom);
+
   /// Blocks the map holds, for figures and tests.
   [[nodiscard]] std::size_t map_blocks() const { return map_.blocks(); }
 
@@ -89,6 +94,7 @@ class LidarOdometry {
   void lose_track(OdometryUpdate& update);
   void begin_map();
   void insert();
+  void insert_points();
   void deskew_all(const Vector6& twist);
   [[nodiscard]] Matrix6 odom_covariance() const;
   void fill(OdometryUpdate& update) const;
