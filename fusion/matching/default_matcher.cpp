@@ -89,14 +89,8 @@ std::vector<DefaultMatcher::Candidate> DefaultMatcher::verified_modes(const SE3&
 }
 
 Result<MatchResult> DefaultMatcher::match(const std::optional<UncertainPose>& initial, Budget& budget) const {
-  if (auto fault = fault_of(initial)) return *std::move(fault);
+  if (auto answer = judge_.without_search(initial)) return *std::move(answer);
   const UncertainPose prior = initial.value_or(anywhere());
-  if (const auto reason = judge_.hopeless()) {
-    MatchResult result;
-    result.T_a_b = prior;
-    result.reason = *reason;
-    return result;
-  }
   const SearchWindow window = window_of(prior);
   const auto modes = verified_modes(prior.mean, window, window.yaw_rad > kWideYaw ? kWideModes : kModes, budget);
   const SE3 best = modes.empty() ? prior.mean : modes.front().T_a_b;  // none when the budget came spent

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <numeric>
 
+#include "fusion/matching/sample.hpp"
+
 namespace cairn::matching {
 namespace {
 
@@ -13,10 +15,10 @@ constexpr float kDensityCells = 5;
 constexpr int kIterations = 30, kMostCorrespondences = 8;
 constexpr double kFirstSigmaM = 1, kSigmas = 3;
 
-std::vector<int> densities(const PointGrid& grid, float radius) {
+std::vector<int> densities(const PointGrid& grid, const std::vector<Eigen::Vector3f>& at, float radius) {
   std::vector<int> all;
-  all.reserve(grid.points().size());
-  for (const Eigen::Vector3f& p : grid.points()) all.push_back(grid.count(p, radius));
+  all.reserve(at.size());
+  for (const Eigen::Vector3f& p : at) all.push_back(grid.count(p, radius));
   return all;
 }
 
@@ -30,8 +32,11 @@ double mean(const std::vector<int>& values) {
 Em::Em(const MapFeatures& a, const MapFeatures& b)
     : VoxelMatcher(a, b), points_b_(centres_of(voxels_b()), static_cast<float>(4 * resolution())) {
   const auto radius = kDensityCells * static_cast<float>(resolution());
-  const auto of_a = densities(points_a(), radius), of_b = densities(points_b_, radius);
+  auto some_a = sample(std::span<const Eigen::Vector3f>(points_a().points()), kMostSources);
+  auto some_b = sample(std::span<const Eigen::Vector3f>(points_b_.points()), kMostSources);
+  const auto of_a = densities(points_a(), some_a, radius), of_b = densities(points_b_, some_b, radius);
   sparse_is_b_ = mean(of_b) <= mean(of_a);
+  sparse_ = std::move(sparse_is_b_ ? some_b : some_a);
   const auto& sparse = sparse_is_b_ ? of_b : of_a;
   const double dense = mean(sparse_is_b_ ? of_a : of_b);
   const bool alike = std::lround(dense / std::max(1.0, mean(sparse))) <= 1;
@@ -46,14 +51,13 @@ double Em::mean_correspondences() const { return mean(correspondences_); }
 std::optional<SE3> Em::step(const SE3& T, const UncertainPose& prior, double sigma) const {
   const SE3 T_dense_sparse = sparse_is_b_ ? T : T.inverse();
   const PointGrid& dense = sparse_is_b_ ? points_a() : points_b_;
-  const PointGrid& sparse = sparse_is_b_ ? points_b_ : points_a();
   const double gate = std::min(static_cast<double>(kGateM), kSigmas * sigma);
   Matrix6 H = Matrix6::Zero();
   Vector6 g = Vector6::Zero();
   int pairs = 0;
   std::vector<PointGrid::Neighbour> near;
-  for (std::size_t i = 0; i < sparse.points().size(); ++i) {
-    const Eigen::Vector3d x = sparse.points()[i].cast<double>();
+  for (std::size_t i = 0; i < sparse_.size(); ++i) {
+    const Eigen::Vector3d x = sparse_[i].cast<double>();
     const auto count = static_cast<std::size_t>(correspondences_[i]);
     dense.nearest((T_dense_sparse * x).cast<float>(), static_cast<float>(gate), count, near);
     double total = 0;

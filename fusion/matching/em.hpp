@@ -24,7 +24,8 @@ class Em final : public VoxelMatcher {
 
   bool sparse_is_b_;
   PointGrid points_b_;
-  std::vector<int> correspondences_;  // c_i of the sparse map's voxels, at least 1
+  std::vector<Eigen::Vector3f> sparse_;  // those of the sparse map's voxels that look for partners
+  std::vector<int> correspondences_;     // c_i of each, at least 1
 };
 
 }  // namespace cairn::matching

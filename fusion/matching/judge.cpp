@@ -20,14 +20,7 @@ Party party_of(const MapFeatures& map) {
           static_cast<double>(map.fine_m())};
 }
 
-}  // namespace
-
-std::vector<Surfel> structure_of(std::span<const Surfel> surfels) {
-  std::vector<Surfel> out;
-  std::copy_if(surfels.begin(), surfels.end(), std::back_inserter(out), [](const Surfel& s) { return s.structure(); });
-  return out;
-}
-
+/// The error for a guess that cannot be used; none if it can.
 std::optional<Error> fault_of(const std::optional<UncertainPose>& initial) {
   if (!initial) return std::nullopt;
   if (!initial->mean.matrix().allFinite() || !initial->covariance.allFinite())
@@ -35,6 +28,14 @@ std::optional<Error> fault_of(const std::optional<UncertainPose>& initial) {
   if (Eigen::SelfAdjointEigenSolver<Matrix6>(initial->covariance).eigenvalues()[0] <= 0)
     return Error{Errc::kInvalidConfig, "the initial covariance is not positive definite", "initial pose"};
   return std::nullopt;
+}
+
+}  // namespace
+
+std::vector<Surfel> structure_of(std::span<const Surfel> surfels) {
+  std::vector<Surfel> out;
+  std::copy_if(surfels.begin(), surfels.end(), std::back_inserter(out), [](const Surfel& s) { return s.structure(); });
+  return out;
 }
 
 Matrix6 default_prior_covariance() {
@@ -57,9 +58,18 @@ Judge::Judge(const MapFeatures& a, const MapFeatures& b)
       cell_m_(std::max(a.fine_m(), b.fine_m())),
       near_a_(a.fine(), cell_m_, kNearCells * cell_m_) {}
 
-std::optional<std::string> Judge::hopeless() const {
-  if (a_.structure.size() < kMinStructure) return "map a holds too little structure";
-  if (b_.structure.size() < kMinStructure) return "map b holds too little structure";
+MatchResult refused(const UncertainPose& prior, std::string reason) {
+  MatchResult result;
+  result.T_a_b = prior;
+  result.reason = std::move(reason);
+  return result;
+}
+
+std::optional<Result<MatchResult>> Judge::without_search(const std::optional<UncertainPose>& initial) const {
+  if (auto fault = fault_of(initial)) return *std::move(fault);
+  const UncertainPose prior = initial.value_or(anywhere());
+  if (a_.structure.size() < kMinStructure) return refused(prior, "map a holds too little structure");
+  if (b_.structure.size() < kMinStructure) return refused(prior, "map b holds too little structure");
   return std::nullopt;
 }
 

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <optional>
+#include <span>
+#include <string>
+#include <vector>
 
 #include "fusion/matching/evidence.hpp"
 #include "fusion/matching/matcher.hpp"
@@ -19,8 +22,9 @@ class Judge {
   [[nodiscard]] const Party& b() const { return b_; }
   [[nodiscard]] const NearestGrid& near_a() const { return near_a_; }
   [[nodiscard]] float cell_m() const { return cell_m_; }
-  /// Why these maps cannot be matched at all; none if they can.
-  [[nodiscard]] std::optional<std::string> hopeless() const;
+  /// The answer to a guess that cannot be used (an error) and to maps that cannot be matched at all (refused, with the
+  /// reason); none if there is something to search.
+  [[nodiscard]] std::optional<Result<MatchResult>> without_search(const std::optional<UncertainPose>& initial) const;
 
   /// For ranking; see score().
   [[nodiscard]] double score(const SE3& T_a_b) const { return matching::score(a_, near_a_, b_, T_a_b); }
@@ -36,8 +40,8 @@ class Judge {
 
 /// Those of the surfels that are structure.
 [[nodiscard]] std::vector<Surfel> structure_of(std::span<const Surfel> surfels);
-/// The error match() gives for a guess it cannot use; none if it can.
-[[nodiscard]] std::optional<Error> fault_of(const std::optional<UncertainPose>& initial);
+/// A result without evidence: the prior, and why nothing better is known.
+[[nodiscard]] MatchResult refused(const UncertainPose& prior, std::string reason);
 /// What a match without a guess starts from: ±10 m, all headings.
 [[nodiscard]] UncertainPose anywhere();
 

@@ -22,11 +22,15 @@ std::size_t NearestGrid::slot(const Eigen::Vector3i& cell) {
   return static_cast<std::size_t>(((cell.z() & kMask) << kBits | (cell.y() & kMask)) << kBits | (cell.x() & kMask));
 }
 
-int& NearestGrid::entry(const Eigen::Vector3i& cell) {
-  const auto next = static_cast<int>(bricks_.size());
-  const int i = index_.find_or_insert(pack(brick_of(cell, kBits)), next);
-  if (i == next) bricks_.emplace_back().fill(kNone);
-  return bricks_[static_cast<std::size_t>(i)][slot(cell)];
+int* NearestGrid::entry(const Eigen::Vector3i& cell) {
+  const std::uint64_t brick = pack(brick_of(cell, kBits));
+  int i = index_.find(brick);
+  if (i == CellIndex::kNone) {
+    if (bricks_.size() == kMostBricks) return nullptr;
+    i = index_.find_or_insert(brick, static_cast<int>(bricks_.size()));
+    bricks_.emplace_back().fill(kNone);
+  }
+  return &bricks_[static_cast<std::size_t>(i)][slot(cell)];
 }
 
 float NearestGrid::squared_distance(const Eigen::Vector3i& cell, int surfel) const {
@@ -38,9 +42,9 @@ void NearestGrid::offer(const Eigen::Vector3i& cell, int surfel, float squared_r
                         std::vector<Eigen::Vector3i>& changed) {
   const float distance = squared_distance(cell, surfel);
   if (!(distance < squared_reach)) return;
-  int& held = entry(cell);
-  if (held != kNone && squared_distance(cell, held) <= distance) return;
-  held = surfel;
+  int* held = entry(cell);
+  if (held == nullptr || (*held != kNone && squared_distance(cell, *held) <= distance)) return;
+  *held = surfel;
   changed.push_back(cell);
 }
 
@@ -52,7 +56,7 @@ void NearestGrid::spread(float reach_m) {
   }
   for (; !front.empty(); std::swap(front, next), next.clear())
     for (const Eigen::Vector3i& cell : front) {
-      const int surfel = entry(cell);
+      const int surfel = *entry(cell);
       for (int axis = 0; axis < 3; ++axis)
         for (const int step : {-1, 1}) {
           Eigen::Vector3i neighbour = cell;

@@ -23,7 +23,7 @@ std::optional<SE3> Oicp::plane_step(const SE3& T) const {
   Vector6 g = Vector6::Zero();
   int pairs = 0;
   const Eigen::Matrix3d Rt = T.rotation().transpose();
-  for (const Voxel& v : voxels_b()) {
+  for (const Voxel& v : sources_b()) {
     const Eigen::Vector3d x = v.centre.cast<double>(), at = T * x;
     const int i = points_a().nearest(at.cast<float>(), kGateM);
     if (i == PointGrid::kNone) continue;

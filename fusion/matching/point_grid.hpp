@@ -12,13 +12,18 @@
 namespace cairn::matching {
 
 /// Exact nearest neighbours among points, by any cost that is at least the squared distance: the association of the
-/// book's methods in four and seven dimensions (3.9, 4.12, 4.13), whose weights change with every iteration.
+/// book's methods in four and seven dimensions (3.9, 4.12, 4.13), whose weights change with every iteration. A query
+/// looks at no more than kMostLooks cells and points, from the middle outwards: where a map is so dense that this does
+/// not reach the gate, the answer is the best of those.
 class PointGrid {
  public:
   static constexpr int kNone = -1;
+  static constexpr int kMostLooks = 8192;
+  static constexpr float kMinCellM = 0.3F;  ///< a map of tiny voxels must not make millions of cells of a gate
 
   /// Keeps a copy of the points, m.
-  PointGrid(std::vector<Eigen::Vector3f> points, float cell_m) : points_(std::move(points)), cell_m_(cell_m) {
+  PointGrid(std::vector<Eigen::Vector3f> points, float cell_m)
+      : points_(std::move(points)), cell_m_(std::max(cell_m, kMinCellM)) {
     std::vector<std::uint64_t> keys(points_.size());
     std::transform(points_.begin(), points_.end(), keys.begin(),
                    [&](const Eigen::Vector3f& p) { return pack(cell_of(p)); });
@@ -73,7 +78,7 @@ class PointGrid {
       if (out.size() == k) farthest = out.back().squared;
     });
   }
-  /// How many points lie within `radius_m`.
+  /// How many points lie within `radius_m`, as far as kMostLooks lets it see.
   [[nodiscard]] int count(const Eigen::Vector3f& q, float radius_m) const {
     int n = 0;
     const float all = std::numeric_limits<float>::infinity();
@@ -113,23 +118,25 @@ class PointGrid {
     const Eigen::Vector3f in_cell = scaled - home.cast<float>();
     const float wall = std::min(in_cell.minCoeff(), 1 - in_cell.maxCoeff()) * cell_m_;
     const int shells = static_cast<int>(std::ceil(gate_m / cell_m_));
-    for (int r = 0; r <= shells; ++r) {
+    int looks = kMostLooks;
+    for (int r = 0; r <= shells && looks > 0; ++r) {
       const float away = r == 0 ? 0 : wall + static_cast<float>(r - 1) * cell_m_;
       if (away > gate_m || away * away > bound) return;
       for (int x = -r; x <= r; ++x)
         for (int y = -r; y <= r; ++y) {
           const bool edge = std::abs(x) == r || std::abs(y) == r;
           for (int z = -r; z <= r; z += edge || r == 0 ? 1 : 2 * r)
-            use_cell(home + Eigen::Vector3i(x, y, z), q, gate_m * gate_m, use);
+            use_cell(home + Eigen::Vector3i(x, y, z), q, gate_m * gate_m, use, looks);
         }
     }
   }
   template <class Use>
-  void use_cell(const Eigen::Vector3i& cell, const Eigen::Vector3f& q, float squared_gate, const Use& use) const {
-    const int slot = index_.find(cell);
+  void use_cell(const Eigen::Vector3i& cell, const Eigen::Vector3f& q, float squared_gate, const Use& use,
+                int& looks) const {
+    const int slot = --looks < 0 ? CellIndex::kNone : index_.find(cell);
     if (slot == CellIndex::kNone) return;
     const auto s = static_cast<std::size_t>(slot);
-    for (std::size_t k = starts_[s]; k < starts_[s + 1]; ++k) {
+    for (std::size_t k = starts_[s]; k < starts_[s + 1] && --looks >= 0; ++k) {
       const float squared = (points_[static_cast<std::size_t>(order_[k])] - q).squaredNorm();
       if (squared < squared_gate) use(order_[k], squared);
     }

@@ -4,17 +4,20 @@
 #include <Eigen/Eigenvalues>
 #include <Eigen/Geometry>
 #include <Eigen/LU>
+#include <array>
 #include <cmath>
+#include <cstdint>
 
 #include "fusion/matching/cell_index.hpp"
 #include "fusion/matching/point_grid.hpp"
+#include "fusion/matching/sample.hpp"
 
 namespace cairn::matching {
 namespace {
 
 constexpr std::size_t kMinNeighbours = 5;
 constexpr float kDegree = 0.0174532925F;
-constexpr int kMaxWalk = 64;  // voxels
+constexpr int kMaxWalk = 16;  // voxels; the book's d_T is 5 of them
 
 /// Voxels by their keys.
 class Surface {
@@ -25,43 +28,71 @@ class Surface {
     for (int x = -r; x <= r; ++x)
       for (int y = -r; y <= r; ++y)
         for (int z = -r; z <= r; ++z)
-          if (x * x + y * y + z * z <= radius_cells * radius_cells) ball_.emplace_back(x, y, z);
+          if (x * x + y * y + z * z <= radius_cells * radius_cells) ball_.push_back(step_of({x, y, z}));
   }
   template <class Use>
   void around(const Voxel& v, const Use& use) const {
-    for (const Eigen::Vector3i& step : ball_)
-      if (const int i = index_.find(v.key + step); i != CellIndex::kNone) use(static_cast<std::size_t>(i));
+    const std::uint64_t home = pack(v.key);
+    for (const std::uint64_t step : ball_)
+      if (const int i = index_.find(home + step); i != CellIndex::kNone) use(static_cast<std::size_t>(i));
+  }
+  /// What to add to pack() of a key to come to that of its neighbour; no sum overflows, keys have fewer bits than
+  /// pack().
+  [[nodiscard]] static std::uint64_t step_of(const Eigen::Vector3i& step) {
+    return pack(step) - pack(Eigen::Vector3i::Zero());
+  }
+  [[nodiscard]] std::span<const Voxel> voxels() const { return voxels_; }
+  [[nodiscard]] int find(std::uint64_t packed_key) const { return index_.find(packed_key); }
+
+ private:
+  std::span<const Voxel> voxels_;
+  CellIndex index_;
+  std::vector<std::uint64_t> ball_;
+};
+
+/// The voxels that touch each voxel, looked up once for the thousands of steps that follow.
+class Paths {
+ public:
+  explicit Paths(const Surface& surface) : voxels_(surface.voxels()) {
+    std::array<std::uint64_t, 27> steps{};
+    for (int k = 0; k < 27; ++k)
+      steps[static_cast<std::size_t>(k)] = Surface::step_of({k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1});
+    for (const Voxel& v : voxels_) {
+      starts_.push_back(touching_.size());
+      for (const std::uint64_t step : steps)
+        if (const int i = surface.find(pack(v.key) + step); step != 0 && i != CellIndex::kNone) touching_.push_back(i);
+    }
+    starts_.push_back(touching_.size());
   }
   /// Walks from a voxel over touching ones, always to that which leads farthest along `direction`.
-  [[nodiscard]] Eigen::Vector3f walk(const Voxel& from, const Eigen::Vector3f& direction, float length, float d) const {
-    const Voxel* at = &from;
-    for (int step = 0; step < kMaxWalk && (at->centre - from.centre).norm() < length; ++step) {
-      const Voxel* next = step_along(*at, direction, 0.2F * d);
-      if (next == nullptr) break;
+  [[nodiscard]] Eigen::Vector3f walk(std::size_t from, const Eigen::Vector3f& direction, float length, float d) const {
+    const Eigen::Vector3f& start = voxels_[from].centre;
+    std::size_t at = from;
+    for (int step = 0; step < kMaxWalk && (voxels_[at].centre - start).norm() < length; ++step) {
+      const std::size_t next = step_along(at, direction, 0.2F * d);
+      if (next == at) break;
       at = next;
     }
-    return at->centre - from.centre;
+    return voxels_[at].centre - start;
   }
 
  private:
-  [[nodiscard]] const Voxel* step_along(const Voxel& at, const Eigen::Vector3f& direction, float least) const {
-    const Voxel* next = nullptr;
-    for (int k = 0; k < 27; ++k) {
-      const int i = index_.find(at.key + Eigen::Vector3i(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1));
-      if (i == CellIndex::kNone) continue;
-      const Voxel& v = voxels_[static_cast<std::size_t>(i)];
-      const float gain = direction.dot(v.centre - at.centre);
+  [[nodiscard]] std::size_t step_along(std::size_t at, const Eigen::Vector3f& direction, float least) const {
+    std::size_t next = at;
+    for (std::size_t k = starts_[at]; k < starts_[at + 1]; ++k) {
+      const auto i = static_cast<std::size_t>(touching_[k]);
+      const float gain = direction.dot(voxels_[i].centre - voxels_[at].centre);
       if (gain > least) {
         least = gain;
-        next = &v;
+        next = i;
       }
     }
     return next;
   }
 
   std::span<const Voxel> voxels_;
-  CellIndex index_;
-  std::vector<Eigen::Vector3i> ball_;
+  std::vector<std::size_t> starts_;
+  std::vector<int> touching_;
 };
 
 std::vector<Eigen::Vector3f> normals_of(const Surface& surface, std::span<const Voxel> voxels) {
@@ -85,15 +116,31 @@ std::vector<Eigen::Vector3f> normals_of(const Surface& surface, std::span<const 
   return normals;
 }
 
-bool turns_a_corner(const Surface& surface, const Voxel& v, const Eigen::Vector3f& n, double d,
-                    const EdgeOptions& options) {
+/// Those voxels whose normals differ from their neighbours' by more than κ on average (4.4).
+std::vector<std::size_t> candidates(const Surface& surface, std::span<const Voxel> voxels,
+                                    std::span<const Eigen::Vector3f> normals, double min_angle_cost) {
+  std::vector<std::size_t> found;
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    if (normals[i].isZero()) continue;
+    float cost = 0, n = 0;
+    surface.around(voxels[i], [&](std::size_t j) {
+      if (j == i || normals[j].isZero()) return;
+      cost += normals[j].cross(normals[i]).norm();
+      n += 1;
+    });
+    if (static_cast<double>(cost) > min_angle_cost * static_cast<double>(n)) found.push_back(i);
+  }
+  return sample(std::span<const std::size_t>(found), kMostCandidates);
+}
+
+bool turns_a_corner(const Paths& paths, std::size_t v, const Eigen::Vector3f& n, double d, const EdgeOptions& options) {
   const Eigen::Vector3f u = n.unitOrthogonal(), w = n.cross(u);
   const auto length = static_cast<float>(options.trace_m);
   for (int degrees = 0; degrees < 180; degrees += options.step_deg) {
     const float theta = kDegree * static_cast<float>(degrees);
     const Eigen::Vector3f direction = std::cos(theta) * u + std::sin(theta) * w;
-    const Eigen::Vector3f a = surface.walk(v, direction, length, static_cast<float>(d));
-    const Eigen::Vector3f b = surface.walk(v, -direction, length, static_cast<float>(d));
+    const Eigen::Vector3f a = paths.walk(v, direction, length, static_cast<float>(d));
+    const Eigen::Vector3f b = paths.walk(v, -direction, length, static_cast<float>(d));
     const float norms = a.norm() * b.norm();
     if (a.norm() < 0.5F * length || b.norm() < 0.5F * length) continue;
     if (std::abs(a.dot(b)) <= std::cos(80 * kDegree) * norms) return true;
@@ -165,18 +212,10 @@ std::vector<Eigen::Vector3f> voxel_normals(std::span<const Voxel> voxels, double
 StructuralEdges structural_edges(std::span<const Voxel> voxels, double resolution_m, const EdgeOptions& options) {
   const Surface surface(voxels, options.normal_radius_cells);
   const auto normals = normals_of(surface, voxels);
+  const Paths paths(surface);
   std::vector<Voxel> corners;
-  for (std::size_t i = 0; i < voxels.size(); ++i) {
-    if (normals[i].isZero()) continue;
-    float cost = 0, n = 0;
-    surface.around(voxels[i], [&](std::size_t j) {
-      if (j == i || normals[j].isZero()) return;
-      cost += normals[j].cross(normals[i]).norm();
-      n += 1;
-    });
-    if (static_cast<double>(cost) <= options.min_angle_cost * static_cast<double>(n)) continue;
-    if (turns_a_corner(surface, voxels[i], normals[i], resolution_m, options)) corners.push_back(voxels[i]);
-  }
+  for (const std::size_t i : candidates(surface, voxels, normals, options.min_angle_cost))
+    if (turns_a_corner(paths, i, normals[i], resolution_m, options)) corners.push_back(voxels[i]);
   StructuralEdges edges;
   edges.voxels = without_outliers(corners, resolution_m, options.outlier_neighbours);
   describe(edges, resolution_m);

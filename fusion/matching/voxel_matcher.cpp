@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "fusion/matching/alignment.hpp"
+#include "fusion/matching/sample.hpp"
 
 namespace cairn::matching {
 
@@ -17,22 +18,21 @@ std::vector<Eigen::Vector3f> centres_of(const std::vector<Voxel>& voxels) {
 bool negligible(const SE3& step) { return step.translation().norm() < 1e-4 && rotation_angle(step) < 1e-5; }
 
 VoxelMatcher::VoxelMatcher(const MapFeatures& a, const MapFeatures& b)
-    : judge_(a, b),
-      resolution_(std::max(a.resolution(), b.resolution())),
-      voxels_a_(occupied_voxels(a.map()).value_or(std::vector<Voxel>{})),  // the features were built, so it fits
-      voxels_b_(occupied_voxels(b.map()).value_or(std::vector<Voxel>{})),
-      points_a_(centres_of(voxels_a_), static_cast<float>(4 * resolution_)),
-      entropy_a_(std::max(1e-3, book_map_entropy(voxels_a_))) {}
+    : judge_(a, b), resolution_(std::max(a.resolution(), b.resolution())), points_a_({}, 0), entropy_a_(0) {
+  auto of_a = occupied_voxels(a.map(), kMostVoxels), of_b = occupied_voxels(b.map(), kMostVoxels);
+  too_large_ = !of_a || !of_b;
+  if (too_large_) return;
+  voxels_a_ = *std::move(of_a);
+  voxels_b_ = *std::move(of_b);
+  sources_b_ = sample(std::span<const Voxel>(voxels_b_), kMostSources);
+  points_a_ = PointGrid(centres_of(voxels_a_), static_cast<float>(4 * resolution_));
+  entropy_a_ = std::max(1e-3, book_map_entropy(voxels_a_));
+}
 
 Result<MatchResult> VoxelMatcher::match(const std::optional<UncertainPose>& initial, Budget& budget) const {
-  if (auto fault = fault_of(initial)) return *std::move(fault);
+  if (auto answer = judge_.without_search(initial)) return *std::move(answer);
   const UncertainPose prior = initial.value_or(anywhere());
-  if (const auto reason = judge_.hopeless()) {
-    MatchResult result;
-    result.T_a_b = prior;
-    result.reason = *reason;
-    return result;
-  }
+  if (too_large_) return refused(prior, "a map holds more voxels than this method takes");
   return judge_.conclude(descend(prior, budget), prior.covariance, 0, budget);
 }
 
@@ -47,7 +47,7 @@ int VoxelMatcher::associate(const Eigen::Vector3f& at, float occupancy, float ga
 std::optional<SE3> VoxelMatcher::closed_form_step(const SE3& T, float gate_m, double occupancy_weight, bool weighted,
                                                   double& mean_squared) const {
   Alignment pairs;
-  for (const Voxel& v : voxels_b_) {
+  for (const Voxel& v : sources_b_) {
     const Eigen::Vector3d at = T * v.centre.cast<double>();
     const int i = associate(at.cast<float>(), v.occupancy, gate_m, occupancy_weight);
     if (i == PointGrid::kNone) continue;

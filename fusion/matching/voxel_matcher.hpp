@@ -11,13 +11,16 @@
 namespace cairn::matching {
 
 /// What the book's methods share: they work on the voxels themselves, start at one pose and descend. Their result
-/// carries the book's own test of acceptance (3.22, 4.20–4.21) as well as ours.
+/// carries the book's own test of acceptance (3.22, 4.20–4.21) as well as ours. So that a step of the budget has a
+/// bounded cost, at most kMostSources voxels of the source (a fixed choice) look for partners among all of the
+/// target's, and maps of more than kMostVoxels are refused: the book's largest has 76 thousand.
 class VoxelMatcher : public Matcher {
  public:
   [[nodiscard]] Result<MatchResult> match(const std::optional<UncertainPose>& initial, Budget& budget) const final;
 
   static constexpr float kGateM = 2;  ///< of the first level's pairs, the protocol's search gate
   static constexpr int kMinPairs = 20;
+  static constexpr std::size_t kMostSources = 20'000, kMostVoxels = 500'000;
 
  protected:
   VoxelMatcher(const MapFeatures& a, const MapFeatures& b);
@@ -34,6 +37,8 @@ class VoxelMatcher : public Matcher {
 
   [[nodiscard]] const std::vector<Voxel>& voxels_a() const { return voxels_a_; }
   [[nodiscard]] const std::vector<Voxel>& voxels_b() const { return voxels_b_; }
+  /// Those of b that look for partners.
+  [[nodiscard]] const std::vector<Voxel>& sources_b() const { return sources_b_; }
   [[nodiscard]] const PointGrid& points_a() const { return points_a_; }
   [[nodiscard]] double resolution() const { return resolution_; }
   /// H(m) of the target (3.11), bits, kept above zero.
@@ -42,7 +47,8 @@ class VoxelMatcher : public Matcher {
  private:
   Judge judge_;
   double resolution_;
-  std::vector<Voxel> voxels_a_, voxels_b_;
+  bool too_large_;
+  std::vector<Voxel> voxels_a_, voxels_b_, sources_b_;  // none of maps that are too large
   PointGrid points_a_;
   double entropy_a_;
 };

@@ -65,6 +65,20 @@ TEST_F(OfRandomPoints, TheKNearestAndTheCountAreThoseOfTryingAll) {
   }
 }
 
+TEST(PointGrid, AQueryIsBoundedHoweverDenseTheMapAndSmallItsVoxels) {
+  const PointGrid heap(std::vector<Eigen::Vector3f>(100'000, Eigen::Vector3f(0.1F, 0.1F, 0.1F)), 0.4F);
+  int seen = 0;
+  const auto cost = [&](int, float squared) {
+    ++seen;
+    return squared;
+  };
+  EXPECT_NE(heap.nearest({0, 0, 0}, 2, cost), PointGrid::kNone);
+  EXPECT_LE(seen, PointGrid::kMostLooks);
+  EXPECT_LE(heap.count({0, 0, 0}, 2), PointGrid::kMostLooks);
+  const PointGrid tiny({{0, 0, 0}}, 1e-5F);
+  EXPECT_EQ(tiny.nearest({1, 1, 1}, 2), 0);  // in this lifetime
+}
+
 TEST(PointGrid, AnyFloatIsSafeAndNoPointsHaveNoNeighbours) {
   const PointGrid none({}, 0.4F), one({{0, 0, 0}}, 0.4F);
   EXPECT_EQ(none.nearest({0, 0, 0}, 2), PointGrid::kNone);

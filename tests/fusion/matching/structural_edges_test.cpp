@@ -45,6 +45,17 @@ TEST(StructuralEdges, FlatAndBluntSurfacesHaveNone) {
   EXPECT_TRUE(structural_edges({}, 0.1).voxels.empty());
 }
 
+TEST(StructuralEdges, AreBoundedInAMapThatIsNothingButCorners) {
+  std::vector<Voxel> lattice;  // bars along z, 0.3 m apart
+  for (int i = 0; i < 40 * 40 * 10; ++i) {
+    const Eigen::Vector3i key(3 * (i % 40) + i / 1600 % 2, 3 * (i / 40 % 40), i / 1600);
+    lattice.push_back({(key.cast<float>().array() + 0.5F) * 0.1F, key, 0.9F, 0});
+  }
+  EdgeOptions options;
+  options.min_angle_cost = -1;
+  EXPECT_LE(structural_edges(lattice, 0.1, options).voxels.size(), kMostCandidates);
+}
+
 TEST(StructuralEdges, CovariancesAreBelowBothTheirParts) {
   EdgeOptions options;
   options.min_angle_cost = 0.25;
