@@ -2,6 +2,7 @@
 #include "fusion/merging/merge.hpp"
 
 #include <algorithm>
+#include <array>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,12 +19,17 @@ class Fusion {
  public:
   Fusion(const Contributions& contributions, const MergeOptions& options, SemanticOcTree& fused)
       : options_(options), fused_(fused) {
+    std::int64_t came_in = 0;
+    for (const auto& [robot, contribution] : contributions)
+      came_in += static_cast<std::int64_t>(contribution.map->size());
+    max_nodes_ = std::min(options.max_nodes, kSpareNodes + kNodesPerNode * came_in);
     const SensorModel model = fused.sensor_model();
     limits_ = {model.min, model.max, model.occupied};
     for (const auto& [robot, contribution] : contributions) {
       if (options.own == robot) own_ = views_.size();
       views_.emplace_back(*contribution.map, contribution.T_fused_map, fused.getResolution());
     }
+    octets_.resize(views_.size());
     places_.resize(SemanticOcTree::kDepth + 2, {});
     for (const Resampled& view : views_) places_[0].push_back(view.root());
   }
@@ -35,29 +41,53 @@ class Fusion {
     const bool known = fuse(Eigen::Vector3i::Zero(), kEdge, 0, root);
     fused_.settle_count();
     if (!known) fused_.clear();
-    return nodes_ < options_.max_nodes;
+    return nodes_ < max_nodes_;
   }
 
  private:
   /// Fills in the node of one cube; false when nobody knows anything of it, and the node is to be taken back.
   // NOLINTNEXTLINE(misc-no-recursion)
   bool fuse(const Eigen::Vector3i& first, int edge, std::size_t depth, SemanticNode* node) {
-    if (++nodes_ >= options_.max_nodes) return false;
+    if (edge == 2) return fuse_octet(first, depth, node);
+    if (++nodes_ >= max_nodes_) return false;
     bool mixed = false;
-    opinions_.clear();
-    own_opinion_.reset();
+    forget_opinions();
     places_[depth + 1] = places_[depth];
     for (std::size_t i = 0; i < views_.size(); ++i) {
       const Content content = views_[i].look(first, edge, places_[depth + 1][i]);
       mixed = mixed || content.kind == Content::Kind::kMixed;
-      if (content.kind != Content::Kind::kUniform) continue;
-      opinions_.push_back(content.log_odds);
-      if (own_ == i) own_opinion_ = content.log_odds;
+      if (content.kind == Content::Kind::kUniform) add_opinion(i, content.log_odds);
     }
     if (mixed) return divide(first, edge, depth, node);
     if (opinions_.empty()) return false;
     node->setLogOdds(folded());
     return true;
+  }
+
+  /// The last two levels at once.
+  bool fuse_octet(const Eigen::Vector3i& first, std::size_t depth, SemanticNode* node) {
+    nodes_ += 1 + SemanticNode::kChildren;
+    if (nodes_ >= max_nodes_) return false;
+    for (std::size_t i = 0; i < views_.size(); ++i) octets_[i] = views_[i].octet(first, places_[depth][i]);
+    NodeWriter& writer = fused_.writer(0);
+    bool made = false;
+    for (unsigned k = 0; k < SemanticNode::kChildren; ++k) {
+      forget_opinions();
+      for (std::size_t i = 0; i < views_.size(); ++i)
+        if (octets_[i][k] != SemanticNode::kAbsent) add_opinion(i, octets_[i][k]);
+      if (!opinions_.empty()) writer.child(node, k, made)->setLogOdds(folded());
+    }
+    if (made) writer.refresh(node);
+    return made;
+  }
+
+  void forget_opinions() {
+    opinions_.clear();
+    own_opinion_.reset();
+  }
+  void add_opinion(std::size_t view, float log_odds) {
+    opinions_.push_back(log_odds);
+    if (own_ == view) own_opinion_ = log_odds;
   }
 
   // NOLINTNEXTLINE(misc-no-recursion)
@@ -93,9 +123,10 @@ class Fusion {
   std::vector<Resampled> views_;
   std::optional<std::size_t> own_;
   std::vector<std::vector<Resampled::Place>> places_;  // by depth
+  std::vector<std::array<float, 8>> octets_;           // by view
   std::vector<float> opinions_;                        // about the cube at hand
   std::optional<float> own_opinion_;
-  std::int64_t nodes_ = 0;
+  std::int64_t nodes_ = 0, max_nodes_ = 0;
 };
 
 Result<void> check(const Contributions& contributions) {
@@ -126,11 +157,7 @@ Result<std::unique_ptr<SemanticOcTree>> merge(const Contributions& contributions
   auto fused = std::make_unique<SemanticOcTree>(resolution);
   fused->set_sensor_model(contributions.begin()->second.map->sensor_model());
   if (!Fusion(contributions, options, *fused).run())
-    return Error{Errc::kLimit,
-                 "the fused map is too large",
-                 {},
-                 {},
-                 "more than " + std::to_string(options.max_nodes) + " nodes"};
+    return Error{Errc::kLimit, "the fused map would be too large for what came in"};
   return fused;
 }
 

@@ -31,9 +31,13 @@ struct MergeOptions {
   /// The robot whose observations outrank the others': where it knows a voxel, the others cannot turn free into
   /// occupied or back.
   std::optional<std::uint64_t> own;
-  /// Cubes looked at before giving up: a turned map of crafted size would have 2⁴⁸ voxels.
+  /// Cubes looked at before giving up, whatever the size of the maps; see kNodesPerNode.
   std::int64_t max_nodes = 100'000'000;
 };
+
+/// A map that is turned against the grid needs more nodes than it has: large free cubes become many. Merging gives up
+/// at this many for each node that came in, and kSpareNodes: one cube of a crafted map could stand for 2⁴⁸ voxels.
+inline constexpr std::int64_t kNodesPerNode = 64, kSpareNodes = 100'000;
 
 /// The fused map, a pure function of the contributions: each voxel of its grid is folded over the robots that know it,
 /// in ascending order of their ids (algorithms F; 5.10 and 7.11 made independent of the order of arrival). So merging
@@ -42,7 +46,7 @@ struct MergeOptions {
 /// maps in other frames or resolutions are resampled (nearest neighbour). Labels of the tree are left out.
 ///
 /// Errors: kInvalidConfig without contributions, for a missing map or a pose that is not finite; kLimit beyond
-/// max_nodes.
+/// max_nodes or what the maps' own sizes justify.
 Result<std::unique_ptr<SemanticOcTree>> merge(const Contributions& contributions, const MergeOptions& options = {});
 
 }  // namespace cairn::merging

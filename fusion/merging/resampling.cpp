@@ -65,6 +65,37 @@ Resampled::Box Resampled::box_of(const Eigen::Vector3i& first, int edge) const {
   return {key(in_map - half - slack), key(in_map + half + slack)};
 }
 
+float Resampled::voxel(const Eigen::Vector3d& in_map, const Place& place) const {
+  if (!(in_map.minCoeff() >= 0) || !(in_map.maxCoeff() < kTreeEdge)) return SemanticNode::kAbsent;
+  const Eigen::Vector3i key = in_map.cast<int>();  // rounds down what is not negative
+  const Eigen::Vector3i in_place = key - place.first;
+  const bool inside = in_place.minCoeff() >= 0 && in_place.maxCoeff() < place.edge;
+  const SemanticNode* node = inside ? place.node : root_;
+  for (int half = (inside ? place.edge : kTreeEdge) / 2; node->block() != nullptr; half /= 2)
+    node = node->block() +
+           (((key.x() & half) != 0 ? 1 : 0) | ((key.y() & half) != 0 ? 2 : 0) | ((key.z() & half) != 0 ? 4 : 0));
+  return node->getLogOdds();
+}
+
+std::array<float, 8> Resampled::octet(const Eigen::Vector3i& first, const Place& place) const {
+  std::array<float, 8> values{};
+  values.fill(SemanticNode::kAbsent);
+  if (place.node == nullptr) return values;
+  if (place.edge < kTreeEdge && place.node->block() == nullptr) {
+    values.fill(place.node->getLogOdds());
+    return values;
+  }
+  const Eigen::Vector3d centre = first.cast<double>().array() + 0.5 - kTreeEdge / 2.0;
+  const Eigen::Vector3d corner = scaled_rotation_ * centre + offset_;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    Eigen::Vector3d in_map = corner;
+    for (int axis = 0; axis < 3; ++axis)
+      if ((i >> axis & 1U) != 0) in_map += scaled_rotation_.col(axis);
+    values[i] = voxel(in_map, place);
+  }
+  return values;
+}
+
 Content Resampled::look(const Eigen::Vector3i& first, int edge, Place& place) const {
   if (place.node == nullptr) return {};
   // A place below the root holds the whole cube, so what is one leaf there, or nothing, needs no look at the cube.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <cstdint>
 
 #include "hal/se3.hpp"
@@ -39,8 +40,13 @@ class Resampled {
   [[nodiscard]] Place root() const;
   /// What the cube of `edge`³ voxels from `first` on holds. `place` is one that holds it, and becomes a smaller one.
   [[nodiscard]] Content look(const Eigen::Vector3i& first, int edge, Place& place) const;
+  /// The same for the eight voxels of a cube of edge 2, in the order of a node's children; SemanticNode::kAbsent where
+  /// nothing is known. `place` is one that holds the cube. Nearly all of a map is voxels, so this is what merging
+  /// costs.
+  [[nodiscard]] std::array<float, 8> octet(const Eigen::Vector3i& first, const Place& place) const;
 
  private:
+  [[nodiscard]] float voxel(const Eigen::Vector3d& in_map, const Place& place) const;
   [[nodiscard]] Box box_of(const Eigen::Vector3i& first, int edge) const;
 
   const SemanticNode* root_;

@@ -138,5 +138,18 @@ TEST(Merge, EmptyMapsAndImpossiblePosesAreClear) {
   EXPECT_EQ((*lost)->size(), 0U);
 }
 
+TEST(Merge, OneCubeThatStandsForMillionsIsRefused) {
+  auto cube = std::make_shared<SemanticOcTree>(0.1);
+  bool made = false;
+  SemanticNode* node = cube->root_or_new(made);
+  for (int depth = 0; depth < 6; ++depth) node = cube->writer(0).child(node, depth == 0 ? 7 : 0, made);
+  node->setLogOdds(-1.0F);
+  cube->settle_count();
+  cube->canonicalise();
+  const auto merged = merge({{1, {1, random_box(1), {}}}, {2, {1, cube, some_pose(0.4)}}});
+  ASSERT_FALSE(merged);
+  EXPECT_EQ(merged.error().code, Errc::kLimit);
+}
+
 }  // namespace
 }  // namespace cairn::merging
