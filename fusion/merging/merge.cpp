@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <string>
 #include <utility>
 #include <vector>
@@ -72,13 +73,27 @@ class Fusion {
     NodeWriter& writer = fused_.writer(0);
     bool made = false;
     for (unsigned k = 0; k < SemanticNode::kChildren; ++k) {
-      forget_opinions();
-      for (std::size_t i = 0; i < views_.size(); ++i)
-        if (octets_[i][k] != SemanticNode::kAbsent) add_opinion(i, octets_[i][k]);
-      if (!opinions_.empty()) writer.child(node, k, made)->setLogOdds(folded());
+      const float fused = fused_voxel(k);
+      if (fused != SemanticNode::kAbsent) writer.child(node, k, made)->setLogOdds(fused);
     }
     if (made) writer.refresh(node);
     return made;
+  }
+
+  /// Of voxel `k` of the octets at hand. One opinion stays what it is, under any policy.
+  float fused_voxel(unsigned k) {
+    float only = SemanticNode::kAbsent;
+    int known = 0;
+    for (const auto& octet : octets_)
+      if (octet[k] != SemanticNode::kAbsent) {
+        only = octet[k];
+        ++known;
+      }
+    if (known <= 1) return only;
+    forget_opinions();
+    for (std::size_t i = 0; i < octets_.size(); ++i)
+      if (octets_[i][k] != SemanticNode::kAbsent) add_opinion(i, octets_[i][k]);
+    return folded();
   }
 
   void forget_opinions() {
@@ -111,11 +126,26 @@ class Fusion {
     return any;
   }
 
-  [[nodiscard]] float folded() const {
-    const float fused = fold(options_.policy, opinions_, limits_);
+  /// fold() of the opinions. Log-odds are sums of few different steps, so that the same pairs come again and again.
+  float remembered_fold() {
+    if (opinions_.size() != 2) return fold(options_.policy, opinions_, limits_);
+    const auto bits = [&](std::size_t i) { return std::bit_cast<std::uint32_t>(opinions_[i]); };
+    Memo& memo = memos_[(bits(0) * 0x9E3779B1U + bits(1) * 0x85EBCA77U) >> (32 - kMemoBits)];
+    if (bits(0) != memo.first || bits(1) != memo.second)
+      memo = {bits(0), bits(1), fold(options_.policy, opinions_, limits_)};
+    return memo.fused;
+  }
+  float folded() {
+    const float fused = remembered_fold();
     const bool outranked = own_opinion_ && (*own_opinion_ >= limits_.occupied) != (fused >= limits_.occupied);
     return outranked ? *own_opinion_ : fused;
   }
+
+  struct Memo {
+    std::uint32_t first = 0, second = 0;
+    float fused = 0;  // right for two opinions of zero, too
+  };
+  static constexpr unsigned kMemoBits = 12;
 
   const MergeOptions& options_;
   SemanticOcTree& fused_;
@@ -126,6 +156,7 @@ class Fusion {
   std::vector<std::array<float, 8>> octets_;           // by view
   std::vector<float> opinions_;                        // about the cube at hand
   std::optional<float> own_opinion_;
+  std::vector<Memo> memos_ = std::vector<Memo>(std::size_t{1} << kMemoBits);
   std::int64_t nodes_ = 0, max_nodes_ = 0;
 };
 

@@ -20,6 +20,25 @@ Resampled::Place child(const Resampled::Place& p, unsigned i) {
   return {p.node->block() + i, p.first + p.edge / 2 * Eigen::Vector3i(bit(0), bit(1), bit(2)), p.edge / 2};
 }
 
+using Keys = Eigen::Array<int, 3, 8>;
+
+const SemanticNode* below(const SemanticNode* node, const Eigen::Array3i& key, int half) {
+  return node->block() +
+         (((key.x() & half) != 0 ? 1 : 0) | ((key.y() & half) != 0 ? 2 : 0) | ((key.z() & half) != 0 ? 4 : 0));
+}
+
+/// All bits in which keys differ; more than the tree has if one of them lies outside.
+int differing_bits(const Keys& keys) {
+  int bits = 0;
+  for (int i = 0; i < 8; ++i)
+    for (int axis = 0; axis < 3; ++axis) bits |= keys(axis, i) < 0 ? kTreeEdge : keys(axis, i) ^ keys(axis, 0);
+  return bits;
+}
+
+bool holds(const Resampled::Place& p, const Eigen::Array3i& key) {
+  return (key >= p.first.array()).all() && (key < p.first.array() + p.edge).all();
+}
+
 Content content_of(const SemanticNode* leaf) {
   return leaf->present() ? Content{Content::Kind::kUniform, leaf->getLogOdds()} : Content{};
 }
@@ -49,6 +68,7 @@ Resampled::Resampled(const SemanticOcTree& map, const SE3& T_grid_map, double gr
   scaled_rotation_ = ratio * T_map_grid.rotation();
   reach_ = scaled_rotation_.cwiseAbs();
   offset_ = (T_map_grid.translation() / map.getResolution()).array() + kTreeEdge / 2.0;
+  aligned_ = ratio == 1 && T_map_grid.matrix() == Eigen::Matrix4d::Identity();
 }
 
 Resampled::Place Resampled::root() const { return {root_, Eigen::Vector3i::Zero(), kTreeEdge}; }
@@ -65,39 +85,61 @@ Resampled::Box Resampled::box_of(const Eigen::Vector3i& first, int edge) const {
   return {key(in_map - half - slack), key(in_map + half + slack)};
 }
 
-float Resampled::voxel(const Eigen::Vector3d& in_map, const Place& place) const {
-  if (!(in_map.minCoeff() >= 0) || !(in_map.maxCoeff() < kTreeEdge)) return SemanticNode::kAbsent;
-  const Eigen::Vector3i key = in_map.cast<int>();  // rounds down what is not negative
-  const Eigen::Vector3i in_place = key - place.first;
-  const bool inside = in_place.minCoeff() >= 0 && in_place.maxCoeff() < place.edge;
-  const SemanticNode* node = inside ? place.node : root_;
-  for (int half = (inside ? place.edge : kTreeEdge) / 2; node->block() != nullptr; half /= 2)
-    node = node->block() +
-           (((key.x() & half) != 0 ? 1 : 0) | ((key.y() & half) != 0 ? 2 : 0) | ((key.z() & half) != 0 ? 4 : 0));
-  return node->getLogOdds();
+Keys Resampled::keys_of(const Eigen::Vector3i& first) const {
+  const Eigen::Vector3d centre = first.cast<double>().array() + 0.5 - kTreeEdge / 2.0;
+  const Eigen::Vector3d corner = scaled_rotation_ * centre + offset_;
+  Keys keys;
+  for (int axis = 0; axis < 3; ++axis)
+    for (int i = 0; i < 8; ++i) {
+      const double at = corner[axis] + (i & 1) * scaled_rotation_(axis, 0) + (i >> 1 & 1) * scaled_rotation_(axis, 1) +
+                        (i >> 2) * scaled_rotation_(axis, 2);
+      // Rounds down what is not negative; what is outside of the tree becomes −1.
+      keys(axis, i) = at >= 0 && at < kTreeEdge ? static_cast<int>(at) : -1;
+    }
+  return keys;
 }
 
-std::array<float, 8> Resampled::octet(const Eigen::Vector3i& first, const Place& place) const {
+Content Resampled::look_aligned(const Eigen::Vector3i& first, int edge, Place& place) const {
+  while (place.edge > edge && place.node->block() != nullptr) {
+    const Eigen::Array3i high = (first.array() >= place.first.array() + place.edge / 2).cast<int>();
+    place = child(place, static_cast<unsigned>(high.x() | high.y() << 1 | high.z() << 2));
+  }
+  return place.node->block() != nullptr ? Content{Content::Kind::kMixed, 0} : content_of(place.node);
+}
+
+std::array<float, 8> Resampled::octet(const Eigen::Vector3i& first, Place place) const {
   std::array<float, 8> values{};
   values.fill(SemanticNode::kAbsent);
   if (place.node == nullptr) return values;
+  if (aligned_ && look_aligned(first, 2, place).kind == Content::Kind::kMixed) {
+    for (std::size_t i = 0; i < values.size(); ++i) values[i] = place.node->block()[i].getLogOdds();
+    return values;
+  }
   if (place.edge < kTreeEdge && place.node->block() == nullptr) {
     values.fill(place.node->getLogOdds());
     return values;
   }
-  const Eigen::Vector3d centre = first.cast<double>().array() + 0.5 - kTreeEdge / 2.0;
-  const Eigen::Vector3d corner = scaled_rotation_ * centre + offset_;
-  for (std::size_t i = 0; i < values.size(); ++i) {
-    Eigen::Vector3d in_map = corner;
-    for (int axis = 0; axis < 3; ++axis)
-      if ((i >> axis & 1U) != 0) in_map += scaled_rotation_.col(axis);
-    values[i] = voxel(in_map, place);
+  const Keys keys = keys_of(first);
+  const SemanticNode* common = root_;
+  int half = kTreeEdge / 2;
+  const int differing = differing_bits(keys);
+  if (holds(place, keys.col(0)) && differing < place.edge) {  // but for rounding it always does
+    common = place.node;
+    half = place.edge / 2;
+  }
+  for (; half > differing && common->block() != nullptr; half /= 2) common = below(common, keys.col(0), half);
+  for (int i = 0; i < 8; ++i) {
+    if (keys.col(i).minCoeff() < 0) continue;
+    const SemanticNode* node = common;
+    for (int h = half; node->block() != nullptr; h /= 2) node = below(node, keys.col(i), h);
+    values[static_cast<std::size_t>(i)] = node->getLogOdds();
   }
   return values;
 }
 
 Content Resampled::look(const Eigen::Vector3i& first, int edge, Place& place) const {
   if (place.node == nullptr) return {};
+  if (aligned_) return look_aligned(first, edge, place);
   // A place below the root holds the whole cube, so what is one leaf there, or nothing, needs no look at the cube.
   if (place.edge < kTreeEdge && place.node->block() == nullptr) return content_of(place.node);
   const Box box = box_of(first, edge);

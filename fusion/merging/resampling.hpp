@@ -43,13 +43,17 @@ class Resampled {
   /// The same for the eight voxels of a cube of edge 2, in the order of a node's children; SemanticNode::kAbsent where
   /// nothing is known. `place` is one that holds the cube. Nearly all of a map is voxels, so this is what merging
   /// costs.
-  [[nodiscard]] std::array<float, 8> octet(const Eigen::Vector3i& first, const Place& place) const;
+  [[nodiscard]] std::array<float, 8> octet(const Eigen::Vector3i& first, Place place) const;
 
  private:
-  [[nodiscard]] float voxel(const Eigen::Vector3d& in_map, const Place& place) const;
+  /// Voxels of the map that the eight centres of a cube of edge 2 fall into; −1 outside of its tree.
+  [[nodiscard]] Eigen::Array<int, 3, 8> keys_of(const Eigen::Vector3i& first) const;
   [[nodiscard]] Box box_of(const Eigen::Vector3i& first, int edge) const;
 
+  [[nodiscard]] Content look_aligned(const Eigen::Vector3i& first, int edge, Place& place) const;
+
   const SemanticNode* root_;
+  bool aligned_;                             // the map's voxels are the grid's: each cube is a node or lies in a leaf
   Eigen::Matrix3d scaled_rotation_, reach_;  // from voxels of the grid to voxels of the map
   Eigen::Vector3d offset_;
 };
