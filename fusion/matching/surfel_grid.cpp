@@ -90,6 +90,7 @@ void SurfelGrid::refresh() {
     cell.stale = false;
   }
   stale_.clear();
+  put_in_order();
 }
 
 Surfel SurfelGrid::fit(const Cell& cell) const {
@@ -121,15 +122,19 @@ Surfel SurfelGrid::fit(const Cell& cell) const {
   return s;
 }
 
+void SurfelGrid::put_in_order() {
+  const auto known = static_cast<std::ptrdiff_t>(order_.size());
+  for (std::size_t i = order_.size(); i < cells_.size(); ++i)
+    order_.emplace_back(pack(cells_[i].cell), static_cast<int>(i));
+  std::sort(order_.begin() + known, order_.end());
+  std::inplace_merge(order_.begin(), order_.begin() + known, order_.end());
+}
+
 std::vector<Surfel> SurfelGrid::surfels() const {
-  std::vector<std::pair<std::uint64_t, int>> order;
-  order.reserve(cells_.size());
-  for (std::size_t i = 0; i < cells_.size(); ++i)
-    if (cells_[i].count > 0) order.emplace_back(pack(cells_[i].cell), static_cast<int>(i));
-  std::sort(order.begin(), order.end());
   std::vector<Surfel> all;
-  all.reserve(order.size());
-  for (const auto& [key, i] : order) all.push_back(cells_[static_cast<std::size_t>(i)].surfel);
+  all.reserve(order_.size());
+  for (const auto& [key, i] : order_)
+    if (const Cell& cell = cells_[static_cast<std::size_t>(i)]; cell.count > 0) all.push_back(cell.surfel);
   return all;
 }
 

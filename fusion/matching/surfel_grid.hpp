@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "fusion/matching/cell_index.hpp"
@@ -59,6 +60,7 @@ class SurfelGrid {
   };
   Cell& cell_at(const Eigen::Vector3i& cell);
   void clear_tile(TileKey tile);
+  void put_in_order();
   void make_stale(int i);
   [[nodiscard]] Surfel fit(const Cell& cell) const;
   [[nodiscard]] Eigen::Vector3f centre(const Cell& cell) const {
@@ -70,6 +72,7 @@ class SurfelGrid {
   CellIndex index_;
   std::vector<Cell> cells_;
   std::vector<int> stale_;
+  std::vector<std::pair<std::uint64_t, int>> order_;  // of cells_, by place; sorted once for each cell that appears
 };
 
 }  // namespace cairn::matching
