@@ -23,9 +23,10 @@ void declare(config::Section& s, RobotProfile& p) {
            "live: no further refinement of a pose this long after its last packet");
   s.group("mapping", p.mapping, "the OctoMap");
   s.group("schedule", p.schedule, "the fixed-rate tasks and what they may cost");
-  s.group("failsafe", p.failsafe,
-          "what each fault leads to (normal, degraded, hold, stop), and after how long a source counts as missing; both "
-          "may be stricter than the defaults, never milder");
+  s.group(
+      "failsafe", p.failsafe,
+      "what each fault leads to (normal, degraded, hold, stop), and after how long a source counts as missing; both "
+      "may be stricter than the defaults, never milder");
   s.group("overload", p.overload, "when work is left undone, and when it is taken up again");
 }
 

@@ -19,7 +19,7 @@ namespace cairn::scheduler {
 class Executive {
  public:
   /// Virtual time runs on for so long after the last packet; and no task of a replay runs further ahead of the inputs.
-  static constexpr Duration kTail = std::chrono::milliseconds(200);
+  static constexpr Duration kTail = std::chrono::milliseconds(30);
 
   /// Lines run in the order in which they are added when they are released together: producers before consumers. The
   /// reference stays valid as long as the executive. All tasks are set before a run.
@@ -39,10 +39,10 @@ class Executive {
   void run_live(const LiveOptions& options, const Clock& clock);
 
   struct ReplayOptions {
-    Time start{};                      ///< of virtual time: the first packet's arrival
-    const ScheduleLog* log = nullptr;  ///< must outlive the run; null: virtual time decides
-    const Clock* pace = nullptr;       ///< every task on a thread of its own, at real speed; null: as fast as possible
-    VirtualClock* time = nullptr;      ///< follows the releases, where ticks run one after the other
+    Time start{};                       ///< of virtual time: the first packet's arrival
+    const ScheduleLog* log = nullptr;   ///< must outlive the run; null: virtual time decides
+    const Clock* pace = nullptr;        ///< every task on a thread of its own, at real speed; null: as fast as possible
+    Duration length = Duration::max();  ///< no release later than so long after the start
   };
   /// Error kInvalidConfig: the log knows other tasks.
   Result<void> run_replay(const ReplayOptions& options);
@@ -69,6 +69,7 @@ class Executive {
   std::deque<Line> lines_;
   CountAllocations allocations_ = nullptr;
   bool diverged_ = false;
+  Time last_release_ = Time::max();
   Gate gate_;
   std::atomic<bool> stop_{false};
 };

@@ -87,6 +87,7 @@ void Executive::live_loop(Line& line, const Clock& clock) {
   UsageWatch usage(line);
   std::uint64_t k = line.releases.not_before(clock.now());
   std::uint64_t expected = 0;
+  line.stats.slips += k;  // the thread began late
   for (;;) {
     const Time release = line.releases.at(k);
     LiveClock::wait_until(release);

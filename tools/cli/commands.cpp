@@ -10,6 +10,7 @@
 #include "tools/cli/match_command.hpp"
 #include "tools/cli/merge_command.hpp"
 #include "tools/cli/record_command.hpp"
+#include "tools/cli/replay_command.hpp"
 #ifdef CAIRN_HAS_SIMULATOR
 #include "tools/cli/simulate_command.hpp"
 #endif
@@ -18,6 +19,7 @@ namespace cairn::cli {
 
 void add_tool_commands(Commands& commands) {
   add_record_command(commands);
+  add_replay_command(commands);
 #ifdef CAIRN_HAS_SIMULATOR  // it needs Embree, which Debian has for x86-64 only
   add_simulate_command(commands);
 #endif

@@ -1,7 +1,8 @@
 # SPDX-License-Identifier: Apache-2.0
 cairn_library(cli_recording
   SOURCES ${CMAKE_CURRENT_LIST_DIR}/import_command.cpp ${CMAKE_CURRENT_LIST_DIR}/inspect_command.cpp
-          ${CMAKE_CURRENT_LIST_DIR}/record_command.cpp ${CMAKE_CURRENT_LIST_DIR}/inspect/inspect.cpp
+          ${CMAKE_CURRENT_LIST_DIR}/record_command.cpp ${CMAKE_CURRENT_LIST_DIR}/replay_command.cpp
+          ${CMAKE_CURRENT_LIST_DIR}/inspect/inspect.cpp
           ${CMAKE_CURRENT_LIST_DIR}/inspect/inspect_stream.cpp ${CMAKE_CURRENT_LIST_DIR}/inspect/packet_figures.cpp
           ${CMAKE_CURRENT_LIST_DIR}/inspect/scan_figures.cpp ${CMAKE_CURRENT_LIST_DIR}/inspect/sensor_figures.cpp
           ${CMAKE_CURRENT_LIST_DIR}/inspect/can_figures.cpp ${CMAKE_CURRENT_LIST_DIR}/inspect/native_file.cpp ${CMAKE_CURRENT_LIST_DIR}/doctor_command.cpp ${CMAKE_CURRENT_LIST_DIR}/faults_command.cpp

@@ -8,6 +8,7 @@
 #include "hal/time.hpp"
 #include "onboard/robot.hpp"
 #include "onboard/scheduler/channel.hpp"
+#include "onboard/scheduler/failsafe.hpp"
 
 namespace cairn {
 
@@ -23,7 +24,21 @@ struct ArrivedMotion {
   Time arrival{};
 };
 
+/// When each kind of sensor last gave something good.
+struct SensorsSeen {
+  std::array<Seen, kWatched> seen{};
+};
+
+/// What the drive says of itself.
+struct DriveNews {
+  DriveStatus status;
+  Seen feedback;
+};
+
 using ScanChannel = scheduler::Channel<ArrivedScan>;
 using MotionChannel = scheduler::Channel<ArrivedMotion>;
+using SeenChannel = scheduler::Channel<SensorsSeen>;
+using DecisionChannel = scheduler::Channel<FailsafeDecision>;
+using DriveChannel = scheduler::Channel<DriveNews>;
 
 }  // namespace cairn

@@ -7,29 +7,38 @@ namespace cairn {
 
 using scheduler::Tick;
 
-ReceiveTask::ReceiveTask(ScanChannel& scans, Monitor& monitor, std::optional<double> seconds)
-    : scans_(scans), monitor_(monitor), decode_stage_(monitor.stage("decode")), seconds_(seconds) {}
+namespace {
+
+std::optional<Watched> watched_as(std::string_view kind) {
+  if (kind == recording::kCamera) return Watched::kCamera;
+  if (kind == recording::kThermal) return Watched::kThermal;
+  if (kind == recording::kDepth) return Watched::kDepth;
+  return std::nullopt;
+}
+
+}  // namespace
+
+ReceiveTask::ReceiveTask(ScanChannel& scans, SeenChannel& seen, Monitor& monitor)
+    : scans_(scans), seen_channel_(seen), monitor_(monitor), decode_stage_(monitor.stage("decode")) {}
 
 bool ReceiveTask::add(Input& input, SourceId id, scheduler::Feed::Tap tap) {
   if (ways_.size() == kMaxInputs) return false;
   const auto complain = [this](Time now, const Error& error) { monitor_.event(now, "input", to_string(error)); };
-  ways_.push_back({{*input.source, id, ways_.size(), complain, std::move(tap)}, input.scans.get()});
+  ways_.push_back(
+      {{*input.source, id, ways_.size(), complain, std::move(tap)}, input.scans.get(), watched_as(input.entry.kind)});
   return true;
 }
 
 void ReceiveTask::tick(Tick& tick) {
   bool ended = true;
   for (Way& way : ways_) {
-    while (!time_is_up(tick.release())) {
-      const Packet* packet = way.feed.take(tick);
-      if (packet == nullptr) break;
-      receive(*packet, way, tick);
-    }
+    while (const Packet* packet = way.feed.take(tick)) receive(*packet, way, tick);
     if (way.decoder != nullptr && tick.regime() != scheduler::Regime::kDrain)
       hand_on(way.decoder->expire(tick.release()), tick, false);
     ended = ended && way.feed.ended();
   }
-  if (ended || time_is_up(tick.release())) tick.end_of_input();
+  tell(tick);
+  if (ended) tick.end_of_input();
 }
 
 void ReceiveTask::finish(Tick& tick) {
@@ -40,7 +49,10 @@ void ReceiveTask::finish(Tick& tick) {
 void ReceiveTask::receive(const Packet& packet, Way& way, Tick& tick) {
   if (!figures_.start) figures_.start = packet.arrival;
   figures_.end = std::max(figures_.end, packet.arrival);
-  if (way.decoder == nullptr) return;
+  if (way.decoder == nullptr) {
+    if (way.watched) note(*way.watched, packet.arrival);
+    return;
+  }
   const auto scan = [&] {
     const StageTimer timing(decode_stage_);
     return way.decoder->decode(packet);
@@ -55,6 +67,7 @@ void ReceiveTask::hand_on(const Scan* scan, Tick& tick, bool at_the_end) {
   if (scan == nullptr) return;
   ++figures_.scans;
   figures_.lost_packets += scan->lost_packets;
+  if (!scan->incomplete) note(Watched::kLidar, figures_.end);
   // The first and the last revolution are cut by where the data begins and ends: nothing is wrong with the sensor.
   if (scan->incomplete && figures_.scans > 1 && !at_the_end)
     monitor_.event(scan->valid.end, "lidar", "incomplete scan: packets were lost or late, or the motor stood");
@@ -70,8 +83,19 @@ void ReceiveTask::hand_on(const Scan* scan, Tick& tick, bool at_the_end) {
   scans_.push(tick);
 }
 
-bool ReceiveTask::time_is_up(Time now) const {
-  return seconds_ && figures_.start && now - *figures_.start > from_seconds(*seconds_);
+void ReceiveTask::note(Watched what, Time when) {
+  Seen& seen = seen_.seen[static_cast<std::size_t>(what)];
+  seen = {when, seen.count + 1};
+  news_ = true;
+}
+
+void ReceiveTask::tell(Tick& tick) {
+  if (!news_ || tick.regime() == scheduler::Regime::kDrain) return;
+  SensorsSeen* out = seen_channel_.back(tick);
+  if (out == nullptr) return;  // with the next tick
+  *out = seen_;
+  seen_channel_.push(tick);
+  news_ = false;
 }
 
 Time ReceiveTask::first_arrival() {

@@ -14,10 +14,10 @@
 namespace cairn {
 
 /// Reads what the sensors sent, and hands on every scan that became whole. Slots: 0 … kMaxInputs − 1 packets of its
-/// inputs in their order, then scans accepted.
+/// inputs in their order, then scans and news accepted.
 class ReceiveTask final : public scheduler::Task {
  public:
-  static constexpr std::size_t kMaxInputs = 8, kScansSlot = 8;
+  static constexpr std::size_t kMaxInputs = 8, kScansSlot = 8, kSeenSlot = 9;
 
   /// What came in; of the task's thread, or of a run that has ended.
   struct Figures {
@@ -26,9 +26,8 @@ class ReceiveTask final : public scheduler::Task {
     std::uint64_t scans = 0, lost_packets = 0;
   };
 
-  /// `scans` and `monitor` must outlive the task. `seconds`: the input ends when so much of the robot's time has
-  /// passed.
-  ReceiveTask(ScanChannel& scans, Monitor& monitor, std::optional<double> seconds);
+  /// All must outlive the task.
+  ReceiveTask(ScanChannel& scans, SeenChannel& seen, Monitor& monitor);
   /// `input` must outlive the task. False: there are kMaxInputs already.
   bool add(Input& input, SourceId id, scheduler::Feed::Tap tap);
 
@@ -43,17 +42,21 @@ class ReceiveTask final : public scheduler::Task {
   struct Way {
     scheduler::Feed feed;
     ScanDecoder* decoder;  // null: only counted and recorded
+    std::optional<Watched> watched;
   };
   void receive(const Packet& packet, Way& way, scheduler::Tick& tick);
   void hand_on(const Scan* scan, scheduler::Tick& tick, bool at_the_end);
-  [[nodiscard]] bool time_is_up(Time now) const;
+  void note(Watched what, Time when);
+  void tell(scheduler::Tick& tick);
 
   ScanChannel& scans_;
+  SeenChannel& seen_channel_;
   Monitor& monitor_;
   StageStats& decode_stage_;
-  std::optional<double> seconds_;
   std::deque<Way> ways_;
   Figures figures_;
+  SensorsSeen seen_;
+  bool news_ = false;
 };
 
 }  // namespace cairn

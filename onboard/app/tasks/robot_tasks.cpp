@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/tasks/robot_tasks.hpp"
 
+#include <algorithm>
+
 #include "onboard/app/allocations.hpp"
 #include "onboard/app/stop_signal.hpp"
 #include "onboard/scheduler/threads.hpp"
@@ -11,7 +13,11 @@ namespace {
 // A scan may wait while the one before is located; more than a few would only be older when their turn comes.
 constexpr std::size_t kWaitingScans = 4;
 // Two seconds of a LiDAR.
-constexpr std::size_t kWaitingPackets = 2048;
+constexpr std::size_t kWaitingPackets = 2048, kWaitingEdges = 256;
+// More news than a safety task that comes late by a tenth of a second could find.
+constexpr std::size_t kNews = 64;
+// In virtual time: real ones are late by less, and a replay at real speed need not wait for them.
+constexpr Duration kNewsLag = std::chrono::milliseconds(20), kNextTick = std::chrono::microseconds(1);
 constexpr Duration kStartIn = std::chrono::milliseconds(50);
 
 std::size_t reserve(const RunOptions& options) { return options.recording.empty() ? 0 : 3 * kWaitingScans; }
@@ -21,6 +27,19 @@ std::function<void(unsigned)> like(const scheduler::TaskSpec& task) {
   return [plan = scheduler::ThreadPlan{task.name, task.priority, -1}](unsigned number) {
     scheduler::become({plan.name + "/" + std::to_string(number), plan.priority, plan.core});
   };
+}
+
+bool has(const Door& door, std::string_view kind) {
+  return std::any_of(door.inputs.begin(), door.inputs.end(), [&](const Input& i) { return i.entry.kind == kind; });
+}
+
+Fitted fitted(const Door& door) {
+  Fitted fitted;
+  fitted.watched = {has(door, recording::kVelodyne) || has(door, recording::kScans), has(door, recording::kCamera),
+                    has(door, recording::kThermal), has(door, recording::kDepth), has(door, recording::kDrive)};
+  fitted.drive = has(door, recording::kDrive);
+  fitted.estop = has(door, recording::kGpio);
+  return fitted;
 }
 
 Result<Recorder> make_recorder(const std::filesystem::path& folder, const recording::Recording& recording,
@@ -37,9 +56,17 @@ RobotTasks::RobotTasks(Door& door, const RobotProfile& profile, const RunOptions
       profile_(profile),
       options_(options),
       monitor_(monitor),
+      safety_line_(executive_.add(profile.schedule.safety)),
+      drive_line_(executive_.add(profile.schedule.drive)),
       receive_line_(executive_.add(profile.schedule.receive)),
       odometry_line_(executive_.add(profile.schedule.odometry)),
       mapping_line_(executive_.add(profile.schedule.mapping)),
+      seen_({kNews, 0, ReceiveTask::kSeenSlot, SafetyTask::kSensorsSlot, kNewsLag}, receive_line_.progress,
+            safety_line_.progress),
+      drive_news_({kNews, 0, DriveTask::kNewsSlot, SafetyTask::kDriveSlot, kNextTick}, drive_line_.progress,
+                  safety_line_.progress),
+      decisions_({kNews, 0, SafetyTask::kDecisionSlot, DriveTask::kDecisionSlot}, safety_line_.progress,
+                 drive_line_.progress),
       scans_({kWaitingScans, reserve(options), ReceiveTask::kScansSlot, OdometryTask::kScansSlot},
              receive_line_.progress, odometry_line_.progress),
       motions_({kWaitingScans, reserve(options), OdometryTask::kMotionsSlot, MappingTask::kMotionsSlot},
@@ -47,23 +74,59 @@ RobotTasks::RobotTasks(Door& door, const RobotProfile& profile, const RunOptions
       odometry_workers_(static_cast<unsigned>(profile.threads), like(profile.schedule.odometry)),
       mapping_workers_(static_cast<unsigned>(profile.threads), like(profile.schedule.mapping)),
       robot_(profile.robot(), odometry_workers_, mapping_workers_, monitor),
-      receive_(scans_, monitor, options.seconds),
+      safety_(profile.failsafe, fitted(door), {seen_, drive_news_, decisions_}),
+      drive_(decisions_, drive_news_),
+      receive_(scans_, seen_, monitor),
       odometry_(profile, scans_, motions_, robot_, monitor, options.progress),
       mapping_(motions_, robot_, monitor) {
+  safety_line_.task = &safety_;
+  drive_line_.task = &drive_;
   receive_line_.task = &receive_;
   odometry_line_.task = &odometry_;
   mapping_line_.task = &mapping_;
-  receive_line_.input = true;
+  safety_line_.input = drive_line_.input = receive_line_.input = true;
+  safety_line_.from = {&seen_, &drive_news_};
+  drive_line_.from = {&decisions_};
   odometry_line_.from = {&scans_};
   mapping_line_.from = {&motions_};
   executive_.count_allocations(allocations_of_this_thread);
 }
 
-void RobotTasks::connect(Recorder* recorder) {
-  const auto tap = recorder != nullptr ? recorder->tap(kWaitingPackets) : scheduler::Feed::Tap{};
-  for (std::size_t i = 0; i < door_.inputs.size(); ++i)
-    if (!receive_.add(door_.inputs[i], static_cast<SourceId>(i), tap))
-      monitor_.event({}, "input", "more sources than are read: " + door_.inputs[i].entry.id + " is left out");
+Result<void> RobotTasks::connect(Recorder* recorder) {
+  const auto tap = [recorder](std::size_t packets) {
+    return recorder != nullptr ? recorder->tap(packets) : scheduler::Feed::Tap{};
+  };
+  const auto received = tap(kWaitingPackets);
+  for (std::size_t i = 0; i < door_.inputs.size(); ++i) {
+    Input& input = door_.inputs[i];
+    const auto id = static_cast<SourceId>(i);
+    if (input.entry.kind == recording::kGpio) {
+      safety_.watch_estop(profile_.gpio.driver, *input.source, id, input.lines, tap(kWaitingEdges));
+    } else if (input.entry.kind == recording::kDrive) {
+      if (const auto attached =
+              drive_.attach(profile_.drive.driver, *input.source, id, input.can, tap(kWaitingPackets));
+          !attached)
+        return attached.error();
+    } else if (!receive_.add(input, id, received)) {
+      monitor_.event({}, "input", "more sources than are read: " + input.entry.id + " is left out");
+    }
+  }
+  return {};
+}
+
+/// What the safety task may not say itself.
+void RobotTasks::note_changes() {
+  for (; const SafetyTask::Change* change = safety_.changes().front(); safety_.changes().pop()) {
+    for (const FaultRow& row : fault_table()) {
+      if (change->raised.has(row.fault)) monitor_.event(change->at, "safety", "fault: " + std::string(row.code));
+      if (change->ended.has(row.fault)) monitor_.event(change->at, "safety", "ended: " + std::string(row.code));
+    }
+    monitor_.event(change->at, "safety", "mode: " + std::string(to_string(change->mode)));
+  }
+}
+
+Time RobotTasks::first_arrival() {
+  return std::min({safety_.first_arrival(), drive_.first_arrival(), receive_.first_arrival()});
 }
 
 Result<void> RobotTasks::run_live(const Clock& clock) {
@@ -73,26 +136,32 @@ Result<void> RobotTasks::run_live(const Clock& clock) {
     if (!made) return made.error();
     recorder.emplace(std::move(*made));
   }
-  connect(recorder ? &*recorder : nullptr);
+  if (const auto connected = connect(recorder ? &*recorder : nullptr); !connected) return connected.error();
   HousekeepingTask housekeeping(executive_, (recorder ? options_.record : options_.out) / "schedule.log",
                                 recorder ? &*recorder : nullptr);
+  housekeeping.add([this](Time) { note_changes(); });
   scheduler::Line& line = executive_.add(profile_.schedule.housekeeping);
   line.task = &housekeeping;
   line.live_only = true;
-  executive_.run_live({clock.now() + kStartIn, stop_requested}, clock);
+  const Time start = clock.now() + kStartIn;
+  const Duration length = options_.seconds ? from_seconds(*options_.seconds) : Duration::max();
+  executive_.run_live({start, [&] { return stop_requested() || clock.now() - start > length; }}, clock);
+  note_changes();
   return housekeeping.close(clock.now());
 }
 
 Result<void> RobotTasks::replay() {
-  connect(nullptr);
+  if (const auto connected = connect(nullptr); !connected) return connected.error();
   const LiveClock clock;
   scheduler::Executive::ReplayOptions options;
-  const Time first = receive_.first_arrival();
+  const Time first = first_arrival();
   options.start = first == Time::max() ? Time{} : first;
   options.log = door_.schedule ? &*door_.schedule : nullptr;
   options.pace = options_.pace == Pace::kRecorded ? &clock : nullptr;
+  if (options_.seconds) options.length = from_seconds(*options_.seconds);
   if (const auto done = executive_.run_replay(options); !done) return done.error();
-  if (executive_.diverged() || receive_.missing_packets() > 0)
+  note_changes();
+  if (executive_.diverged() || receive_.missing_packets() + drive_.missing_packets() > 0)
     monitor_.event(figures().end, "schedule", "the recording lacks packets that the live run had: not the same result");
   return {};
 }

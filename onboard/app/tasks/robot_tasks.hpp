@@ -7,10 +7,12 @@
 #include "hal/workers.hpp"
 #include "onboard/app/door.hpp"
 #include "onboard/app/run.hpp"
+#include "onboard/app/tasks/drive_task.hpp"
 #include "onboard/app/tasks/housekeeping_task.hpp"
 #include "onboard/app/tasks/odometry_task.hpp"
 #include "onboard/app/tasks/receive_task.hpp"
 #include "onboard/app/tasks/recorder.hpp"
+#include "onboard/app/tasks/safety_task.hpp"
 #include "onboard/scheduler/executive.hpp"
 
 namespace cairn {
@@ -31,10 +33,14 @@ class RobotTasks {
 
   [[nodiscard]] const Robot& robot() const { return robot_; }
   [[nodiscard]] const ReceiveTask::Figures& figures() const { return receive_.figures(); }
+  [[nodiscard]] const FailsafeDecision& decision() const { return safety_.decision(); }
+  [[nodiscard]] const std::optional<DriveState>& drive_state() const { return drive_.state(); }
   [[nodiscard]] const scheduler::Executive& executive() const { return executive_; }
 
  private:
-  void connect(Recorder* recorder);
+  Result<void> connect(Recorder* recorder);
+  void note_changes();
+  [[nodiscard]] Time first_arrival();
 
   Door& door_;
   const RobotProfile& profile_;
@@ -42,11 +48,16 @@ class RobotTasks {
   Monitor& monitor_;
 
   scheduler::Executive executive_;
-  scheduler::Line &receive_line_, &odometry_line_, &mapping_line_;
+  scheduler::Line &safety_line_, &drive_line_, &receive_line_, &odometry_line_, &mapping_line_;
+  SeenChannel seen_;
+  DriveChannel drive_news_;
+  DecisionChannel decisions_;
   ScanChannel scans_;
   MotionChannel motions_;
   Workers odometry_workers_, mapping_workers_;
   Robot robot_;
+  SafetyTask safety_;
+  DriveTask drive_;
   ReceiveTask receive_;
   OdometryTask odometry_;
   MappingTask mapping_;

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/tasks/safety_task.hpp"
+
+namespace cairn {
+namespace {
+
+using scheduler::Tick;
+
+// The drive hears of its arming with its next tick, and is heard with the next one here; late ticks take a little
+// longer.
+constexpr Duration kArming = std::chrono::milliseconds(20);
+// What a tick's level slot may hold; 0: as the edges said.
+constexpr std::int32_t kOpen = 1, kClosed = 2, kLost = 3;
+
+bool same(const FailsafeDecision& a, const FailsafeDecision& b) {
+  return a.mode == b.mode && a.cause == b.cause && a.active == b.active && a.epoch == b.epoch && !a.arm && !b.arm;
+}
+
+}  // namespace
+
+void SafetyTask::watch_estop(const gpio::Config& config, Source& source, SourceId id, gpio::GpioLines* lines,
+                             scheduler::Feed::Tap tap) {
+  estop_.emplace(config);
+  // The line's loss is seen by reading its level, too; there is no need for words on this thread.
+  edges_.emplace(
+      source, id, kEdgesSlot, [](Time, const Error&) {}, std::move(tap));
+  lines_ = lines;
+}
+
+void SafetyTask::tick(Tick& tick) {
+  inputs_.now = tick.release();
+  while (const SensorsSeen* news = parts_.sensors.take(tick))
+    for (std::size_t i = 0; i < kWatched; ++i)
+      if (i != static_cast<std::size_t>(Watched::kFeedback)) inputs_.seen[i] = news->seen[i];
+  while (const DriveNews* news = parts_.drive.take(tick)) {
+    inputs_.drive = news->status;
+    arming_until_ = {};
+    inputs_.seen[static_cast<std::size_t>(Watched::kFeedback)] = news->feedback;
+  }
+  if (tick.release() < arming_until_) inputs_.drive.level = DriveLevel::kHold;
+  if (estop_) read_estop(tick);
+  const std::int32_t rearm = tick.decide(
+      kRearmSlot, [this] { return rearm_.exchange(0); }, 0);
+  inputs_.rearm = rearm > 0 ? std::optional(static_cast<std::uint32_t>(rearm - 1)) : std::nullopt;
+  inputs_.faults = FaultSet(static_cast<std::uint32_t>(tick.decide(
+      kFaultsSlot, [this] { return faults_.load(); }, 0)));
+
+  const FailsafeDecision before = failsafe_.decision();
+  if (failsafe_.step(inputs_).arm) {
+    arming_until_ = tick.release() + kArming;
+    if (estop_) (void)estop_->rearm(tick.release());
+  }
+  if (!same(before, failsafe_.decision())) tell(before, tick);
+  if (input_ended()) tick.end_of_input();
+}
+
+void SafetyTask::read_estop(Tick& tick) {
+  while (const Packet* packet = edges_->take(tick)) {
+    const auto event = gpio::decode_event(*packet);
+    if (!event || event->line != gpio::Line::kEStop) continue;
+    closed_ = event->level ? kClosed : kOpen;
+    estop_->edge(packet->arrival, event->level, event->sequence);
+  }
+  read_level(tick);
+  const Time now = tick.release();
+  inputs_.estop.latched = estop_->stopped(now);
+  inputs_.estop.released = estop_->released(now);
+  const auto cause = estop_->cause();
+  inputs_.estop.lost =
+      inputs_.estop.latched && (cause == gpio::EStop::Cause::kLineLost || cause == gpio::EStop::Cause::kSilent);
+}
+
+void SafetyTask::read_level(Tick& tick) {
+  const auto look = [this] {
+    if (lines_ == nullptr) return 0;
+    const auto level = lines_->level(gpio::Line::kEStop);
+    const std::int32_t now = !level ? kLost : *level ? kClosed : kOpen;
+    return now == closed_ ? 0 : now;
+  };
+  const std::int32_t told = tick.decide(kLevelSlot, look, 0);
+  const std::int32_t level = told == 0 ? closed_ : told;
+  if (level == kLost)
+    estop_->lost(tick.release());
+  else if (level != 0)
+    estop_->level(tick.release(), level == kClosed);
+}
+
+void SafetyTask::tell(const FailsafeDecision& before, Tick& tick) {
+  const FailsafeDecision& now = failsafe_.decision();
+  if (FailsafeDecision* out = parts_.decisions.back(tick)) {
+    *out = now;
+    parts_.decisions.push(tick);
+  }
+  if (before.mode == now.mode && now.raised.empty() && now.ended.empty()) return;
+  if (Change* change = changes_.back()) {
+    *change = {tick.release(), now.mode, now.cause, now.raised, now.ended};
+    changes_.push();
+  } else {
+    ++lost_changes_;
+  }
+}
+
+}  // namespace cairn
