@@ -84,9 +84,14 @@ deny "only hal/workers and onboard/scheduler/threads start threads" \
   "compute with Workers::for_each, whose result is the same for any number of threads; make a fixed-rate job a scheduler::Task" \
   'std::(jthread|async|packaged_task|execution::)|std::thread\b($|[^:])|pthread_create|# *pragma +omp|tbb::|include *<tbb/' \
   '^hal/workers\.[ch]pp$|^onboard/scheduler/(threads\.[ch]pp|executive_threads\.cpp)$' "${all[@]}"
+# Local sockets alone (AF_UNIX): the service manager's and the live view's, which housekeeping serves and no real-time
+# thread. Whatever comes from another machine enters by a driver.
+readonly local_sockets='onboard/app/(sd_notify|live_server)\.cpp|tools/cli/top/live_client\.cpp|tests/support/local_socket\.hpp'
 deny "sockets belong to drivers" "put it into drivers/*/udp_* or socketcan_*, behind a Source" \
   "$(inc '(sys/socket|sys/un|netinet/|netdb|net/if|netpacket/|linux/(can|if_|net))')" \
-  '^(drivers|tests/drivers)/[a-z_]+/(udp|socketcan)_[a-z_]*\.|^tests/vm/uvc_camera\.cpp$' "${all[@]}"
+  "^(drivers|tests/drivers)/[a-z_]+/(udp|socketcan)_[a-z_]*\\.|^tests/vm/uvc_camera\\.cpp$|^($local_sockets)$" "${all[@]}"
+deny "only drivers speak to other machines" "put it into drivers/*/udp_*" '\b(AF|PF)_(INET6?|PACKET|CAN)\b' \
+  '^(drivers|tests/drivers|tests/vm)/' "${all[@]}"
 deny "devices belong to drivers" "put it into drivers/, behind a port of hal/ports.hpp" \
   "$(inc '(termios|sys/ioctl|arpa/|linux/|pcap|gpiod)')" '^(tests/)?drivers/' "${all[@]}"
 deny "OctoMap's own readers recurse without bounds on hostile files" "read maps with onboard/mapping's reader" \

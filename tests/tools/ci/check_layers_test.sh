@@ -70,6 +70,7 @@ denied "only hal/workers starts threads" onboard/robot.cpp '#pragma omp parallel
 denied "sockets belong to drivers" onboard/app/a.cpp '#include <sys/socket.h>'
 denied "sockets belong to drivers" drivers/velodyne/decoder.cpp '#include <netinet/in.h>'
 denied "sockets belong to drivers" tests/vm/helper.cpp '#include <sys/socket.h>'
+denied "only drivers speak to other machines" onboard/app/a.cpp 'int fd = ::socket(AF_INET, SOCK_STREAM, 0);'
 denied "devices belong to drivers" hal/a.cpp '#include <linux/gpio.h>'
 denied "OctoMap's own readers" tools/a.cpp 'tree.readBinary(path);'
 
@@ -97,6 +98,7 @@ plant onboard/robot.cpp 'auto n = std::thread::hardware_concurrency();'
 plant hal/workers.hpp 'std::vector<std::thread> pool_;'
 plant drivers/velodyne/udp_source.cpp '#include <sys/socket.h>'
 plant tests/vm/uvc_camera.cpp '#include <sys/socket.h>'
+plant onboard/app/sd_notify.cpp '#include <sys/un.h>'
 plant hal/a.cpp "$(seq -f '// %g' 299)"
 out=$("$check" "$tree" 2>&1) || complain "wrongly denied: $out"
 
