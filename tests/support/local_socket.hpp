@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <cstddef>
 #include <cstring>
 #include <stdexcept>
 #include <string>
@@ -48,6 +49,45 @@ class DatagramListener {
     const ssize_t n = ::recv(fd_, bytes.data(), bytes.size(), 0);
     return n > 0 ? std::string(bytes.data(), static_cast<std::size_t>(n)) : std::string();
   }
+
+ private:
+  int fd_;
+};
+
+/// Connected to a listening socket.
+class StreamClient {
+ public:
+  explicit StreamClient(const std::string& path) : fd_(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    const LocalAddress address(path);
+    if (::connect(fd_, address.get(), address.length()) != 0) throw std::runtime_error("cannot connect to " + path);
+  }
+  StreamClient(const StreamClient&) = delete;
+  StreamClient& operator=(const StreamClient&) = delete;
+  ~StreamClient() { ::close(fd_); }
+
+  /// What is there.
+  std::string read() {
+    std::string all;
+    std::array<char, 65536> bytes{};
+    for (ssize_t n; (n = ::recv(fd_, bytes.data(), bytes.size(), MSG_DONTWAIT)) > 0;)
+      all.append(bytes.data(), static_cast<std::size_t>(n));
+    return all;
+  }
+
+ private:
+  int fd_;
+};
+
+/// What a killed server leaves behind: a name that nobody serves.
+class AbandonedSocket {
+ public:
+  explicit AbandonedSocket(const std::string& path) : fd_(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+    const LocalAddress address(path);
+    if (::bind(fd_, address.get(), address.length()) != 0) throw std::runtime_error("cannot bind " + path);
+  }
+  AbandonedSocket(const AbandonedSocket&) = delete;
+  AbandonedSocket& operator=(const AbandonedSocket&) = delete;
+  ~AbandonedSocket() { ::close(fd_); }
 
  private:
   int fd_;

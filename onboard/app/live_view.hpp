@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/result.hpp"
+
+namespace cairn {
+
+/// What `cairn top` shows of a running core; once per second one line of JSON on a local socket. Text is cut at
+/// kMaxText bytes, lists at kMaxItems, on both sides.
+struct LiveView {
+  struct Stage {
+    std::string name;
+    double p50_ms = 0, p99_ms = 0, p999_ms = 0, max_ms = 0;  ///< of the response, since the run began
+    double budget_ms = 0;                                    ///< 0: none declared
+    std::uint64_t count = 0, overruns = 0;                   ///< ticks or calls; those above the budget
+    std::uint64_t slips = 0, misses = 0;                     ///< releases passed; deadlines missed
+    std::uint64_t dropped = 0, queued = 0, capacity = 0;     ///< of its input; capacity 0: it has no queue
+  };
+  struct Event {
+    double t_s = 0;  ///< when it happened last
+    std::string stage, what;
+    std::uint64_t count = 0;
+  };
+  std::string robot;
+  double t_s = 0;  ///< robot time
+  std::string mode, cause, shed;
+  std::uint32_t epoch = 0;  ///< for a re-arm request
+  std::uint64_t scans = 0;
+  double rss_mb = 0;
+  std::vector<std::string> faults;  ///< codes of what is wrong now
+  std::vector<Stage> stages;
+  std::vector<Event> events;  ///< the last one last
+
+  static constexpr std::size_t kMaxText = 160, kMaxItems = 64;
+  static constexpr std::size_t kMaxLine = 64 * 1024;
+};
+
+/// One line, its end included; kMaxLine at most: events that do not fit are left out, oldest first.
+[[nodiscard]] std::string to_line(const LiveView& view);
+/// The inverse, for bytes of any origin: fields of another type or value count as missing. Errors: kLimit (longer than
+/// kMaxLine), kMalformed (no JSON object).
+[[nodiscard]] Result<LiveView> parse_line(std::string_view line);
+
+}  // namespace cairn

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "onboard/app/live_view.hpp"
+
+namespace cairn::support {
+
+/// A robot in trouble, for tests of the live view.
+inline LiveView sample_view() {
+  LiveView v;
+  v.robot = "husky";
+  v.t_s = 83.4;
+  v.mode = "degraded";
+  v.cause = "lidar_late";
+  v.shed = "peer_tiles";
+  v.epoch = 2;
+  v.scans = 834;
+  v.rss_mb = 412;
+  v.faults = {"lidar_late", "disk_failing"};
+  v.stages = {{"safety", 0.011, 0.034, 0.12, 0.4, 1, 16680, 0, 0, 0, 0, 0, 0},
+              {"odometry", 21.7, 44.2, 58.1, 63.5, 60, 834, 3, 0, 0, 0, 1, 8},
+              {"mapping", 38.0, 104.9, 140.2, 141.0, 80, 790, 61, 12, 2, 44, 8, 8}};
+  v.events = {{12.3, "lidar", "incomplete scan: packets were lost", 7}, {83.1, "failsafe", "lidar_late", 1}};
+  return v;
+}
+
+}  // namespace cairn::support
