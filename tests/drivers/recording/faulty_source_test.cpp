@@ -128,5 +128,83 @@ TEST(FaultySource, TheSameSeedGivesTheSameFaults) {
   EXPECT_NE(arrive(faults).counters.dropped, a.counters.dropped);
 }
 
+TEST(FaultySource, AddedBytesAreAddedAtTheEnd) {
+  Faults faults;
+  faults.extend = 0.1;
+  const auto all = arrive(faults);
+  std::uint64_t longer = 0;
+  for (const Packet& p : all.packets) {
+    longer += p.bytes.size() > 16 ? 1U : 0U;
+    EXPECT_LE(p.bytes.size(), 16U + 64U);
+    EXPECT_FALSE(p.truncated);
+  }
+  EXPECT_EQ(longer, all.counters.extended);
+  EXPECT_NEAR(static_cast<double>(longer), 1000, 150);
+}
+
+TEST(FaultySource, DelayedPacketsComeInTheOrderOfTheirNewArrival) {
+  Faults faults;
+  faults.delay = 0.2;
+  faults.delay_by = 7ms;
+  const auto all = arrive(faults);
+  ASSERT_EQ(all.packets.size(), kPackets);
+  EXPECT_TRUE(std::is_sorted(all.packets.begin(), all.packets.end(),
+                             [](const Packet& a, const Packet& b) { return a.arrival < b.arrival; }));
+  EXPECT_NEAR(static_cast<double>(all.counters.delayed), 2000, 200);
+}
+
+TEST(FaultySource, ASpellOfBurstsKeepsEverythingAndHandsItOverAtOnce) {
+  Faults faults;
+  faults.spell = Spell::kBurst;
+  faults.freeze = 100ms;
+  faults.period = 1s;
+  const auto all = arrive(faults);
+  ASSERT_EQ(all.packets.size(), kPackets);
+  EXPECT_EQ(all.counters.burst, 1000U);
+  const auto at_once =
+      std::count_if(all.packets.begin(), all.packets.end(), [](const Packet& p) { return p.arrival == Time{1s}; });
+  EXPECT_EQ(at_once, 101);
+}
+
+TEST(FaultySource, AStuckSourceRepeatsItsLastGoodBytes) {
+  Faults faults;
+  faults.spell = Spell::kStuck;
+  faults.freeze = 100ms;
+  faults.period = 1s;
+  const auto all = arrive(faults);
+  ASSERT_EQ(all.packets.size(), kPackets);
+  EXPECT_EQ(all.counters.stuck, 1000U);
+  for (std::size_t i = 900; i < 1000; ++i) EXPECT_EQ(all.packets[i].bytes, all.packets[899].bytes);
+  EXPECT_NE(all.packets[1000].bytes, all.packets[899].bytes);
+}
+
+TEST(FaultySource, ADisconnectIsSaidOnceAndThenSilent) {
+  Numbers numbers;
+  Faults faults;
+  faults.spell = Spell::kDisconnect;
+  faults.freeze = 100ms;
+  faults.period = 1s;
+  FaultySource source(numbers, faults);
+  Packet packet;
+  int errors = 0, packets = 0;
+  for (auto poll = source.next(packet, {}); !poll || *poll != Poll::kEnd; poll = source.next(packet, {})) {
+    errors += poll ? 0 : 1;
+    packets += poll ? 1 : 0;
+    EXPECT_TRUE(poll || poll.error().code == Errc::kLinkDown);
+  }
+  EXPECT_EQ(errors, 10);
+  EXPECT_EQ(packets, 9000);
+}
+
+TEST(FaultySource, AShiftMovesTheStampsFromItsTimeOn) {
+  Faults faults;
+  faults.shift = -3s;
+  faults.shift_after = 5s;
+  const auto all = arrive(faults);
+  EXPECT_EQ(all.packets[4999].arrival, Time{4999ms});
+  EXPECT_EQ(all.packets[5000].arrival, Time{2000ms});
+  EXPECT_EQ(all.counters.shifted, 5000U);
+}
+
 }  // namespace
 }  // namespace cairn::recording

@@ -72,5 +72,16 @@ TEST(FaultsCommand, WrongSourcesAndFoldersAreNamed) {
   EXPECT_EQ(faults({folder / "good", "--out", folder / "bad"}).exit_code, kFailed) << "an old recording is kept";
 }
 
+TEST(FaultsCommand, ListsWhatCountsAsAFault) {
+  const Outcome o = faults({"list"});
+  EXPECT_EQ(o.exit_code, kDone);
+  EXPECT_THAT(o.out, HasSubstr("lidar_silent"));
+  const auto json = faults({"list", "--json"}).json();
+  EXPECT_EQ(json["faults"].size(), 27U);
+  EXPECT_EQ(json["faults"][16]["least"], "stop");
+}
+
+TEST(FaultsCommand, WithoutAPlaceForTheResultItSaysSo) { EXPECT_EQ(faults({"somewhere"}).exit_code, kWrongArguments); }
+
 }  // namespace
 }  // namespace cairn::cli
