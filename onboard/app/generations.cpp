@@ -4,7 +4,7 @@
 #include <xxhash.h>
 
 #include <algorithm>
-#include <charconv>
+#include <new>
 #include <string>
 #include <system_error>
 
@@ -96,6 +96,12 @@ Result<void> Generations::store(std::span<const std::byte> generation) {
   ++sequence_;
   next_ = 1 - next_;
   return {};
+}
+
+Result<void> Generations::save(const SemanticOcTree& map, const SavedState& state) try {
+  return store(encode(map, state));
+} catch (const std::bad_alloc&) {
+  return Error{Errc::kLimit, "no memory to save the map"};
 }
 
 Result<void> Generations::save_state(SavedState state) {

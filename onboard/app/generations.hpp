@@ -44,7 +44,8 @@ class Generations {
   [[nodiscard]] std::vector<std::byte> encode(const SemanticOcTree& map, SavedState state) const;
   /// On an error the generation before is as it was, and the next call tries the same place again.
   Result<void> store(std::span<const std::byte> generation);
-  Result<void> save(const SemanticOcTree& map, const SavedState& state) { return store(encode(map, state)); }
+  /// Both. Error kLimit also where there is no memory for the bytes.
+  Result<void> save(const SemanticOcTree& map, const SavedState& state);
   /// Errors as of store(); what is in the generations stays as it is.
   Result<void> save_state(SavedState state);
 

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "hal/time.hpp"
+#include "onboard/scheduler/fault.hpp"
+
+namespace cairn::faults {
+
+/// What a row's run in virtual time gave: the same on every machine.
+struct Measured {
+  std::optional<Duration> detect;  ///< from the fault's beginning to the first sign that the core knows
+  std::optional<Duration>
+      recover;  ///< from the fault's end to normal operation; none: it is latched, or nothing changed
+  Mode worst = Mode::kNormal;
+  bool held = true;  ///< everything else that the requirement says
+};
+
+/// A row of the fault matrix. Either measured here, or by the named test, or left out with the reason.
+struct Row {
+  std::string id;     ///< L…: LiDAR and cameras, D…: drive, E…: e-stop, C…: computer; never changes its meaning
+  std::string fault;  ///< as the matrix says
+  std::string requirement;                     ///< what must hold
+  Duration detect_within{}, recover_within{};  ///< zero: nothing is required
+  Mode worst = Mode::kNormal;                  ///< the mode it must lead to
+  std::string test;                            ///< what shows it, or why it is left out
+  std::function<Measured()> measure{};         ///< empty: `test` alone
+};
+
+[[nodiscard]] std::vector<Row> sensor_rows();
+[[nodiscard]] std::vector<Row> drive_rows();
+[[nodiscard]] std::vector<Row> computer_rows();
+/// Of the matrix, but not automated here.
+[[nodiscard]] std::vector<Row> rows_left_out();
+
+/// All, as docs/faults.md has them.
+[[nodiscard]] std::string to_markdown();
+
+}  // namespace cairn::faults

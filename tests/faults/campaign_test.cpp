@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/faults/campaign.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <set>
+#include <string_view>
+
+#include "hal/file.hpp"
+
+namespace cairn::faults {
+
+// GoogleTest would print the bytes of a std::function.
+void PrintTo(const Row& row, std::ostream* out) { *out << row.id << ", " << row.fault; }
+
+namespace {
+
+std::vector<Row> measured_rows() {
+  std::vector<Row> rows;
+  for (auto& group : {sensor_rows(), drive_rows(), computer_rows()})
+    for (const Row& row : group)
+      if (row.measure) rows.push_back(row);
+  return rows;
+}
+
+class Campaign : public testing::TestWithParam<Row> {};
+
+TEST_P(Campaign, EveryRowHolds) {
+  const Row& row = GetParam();
+  const Measured m = row.measure();
+  EXPECT_EQ(m.worst, row.worst) << to_string(m.worst);
+  EXPECT_TRUE(m.held) << row.requirement;
+  EXPECT_EQ(m.detect.has_value(), row.detect_within > Duration{});
+  EXPECT_TRUE(!m.detect || *m.detect <= row.detect_within) << to_milliseconds(*m.detect) << " ms";
+  EXPECT_EQ(m.recover.has_value(), row.recover_within > Duration{});
+  EXPECT_TRUE(!m.recover || *m.recover <= row.recover_within) << to_milliseconds(*m.recover) << " ms";
+}
+
+INSTANTIATE_TEST_SUITE_P(Faults, Campaign, testing::ValuesIn(measured_rows()),
+                         [](const auto& row) { return row.param.id; });
+
+TEST(FaultTable, IdsAreUniqueAndEveryRowNamesATestOrAReason) {
+  std::set<std::string> ids;
+  for (const auto& rows : {sensor_rows(), drive_rows(), computer_rows(), rows_left_out()})
+    for (const Row& row : rows) {
+      EXPECT_TRUE(ids.insert(row.id).second) << row.id;
+      EXPECT_TRUE(row.measure || !row.test.empty()) << row.id;
+    }
+}
+
+TEST(FaultTable, TheDocumentIsCurrent) {
+  const std::filesystem::path document = std::filesystem::path(CAIRN_SOURCE_DIR) / "docs/faults.md";
+  const std::string now = to_markdown();
+  if (std::getenv("CAIRN_WRITE_FAULT_TABLE") != nullptr) {
+    ASSERT_TRUE(write_file_atomic(document, now));
+    return;
+  }
+  const auto bytes = read_file(document, 1 << 20);
+  ASSERT_TRUE(bytes) << to_string(bytes.error());
+  EXPECT_EQ(std::string_view(reinterpret_cast<const char*>(bytes->data()), bytes->size()), now)
+      << "write it anew with tools/ci/fault_table.sh";
+}
+
+}  // namespace
+}  // namespace cairn::faults
