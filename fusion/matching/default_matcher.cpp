@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fusion/matching/global_search.hpp"
 #include "fusion/matching/sample.hpp"
 
 namespace cairn::matching {
@@ -15,10 +16,12 @@ constexpr int kModes = 16, kWideModes = 48;
 constexpr double kWindowSigmas = 3, kMinWindowM = 0.8, kMaxWindowM = 20, kMaxHeightM = 4, kMinYaw = 0.07;
 constexpr double kOneHeightM = 0.5;  // a prior that knows the height better than this needs no search over it
 constexpr double kWideYaw = 1.0;
+constexpr std::size_t kPlacements = 400, kHeightVotes = 600, kGlobalModes = 64, kCloser = 6;
 constexpr double kSameM = 0.8, kSameRad = 0.07;  // refined modes this close are one
 
 constexpr RefineOptions kOnCoarse{3.0F, 1.25F, 0.75F, 12, 1e-3, 1e-4};  // gates in cells
 constexpr RefineOptions kOnFine{4.0F, 2.0F, 0.7F, 30, 1e-4, 1e-5};
+constexpr RefineOptions kCloserLook{4.0F, 2.0F, 0.7F, 6, 1e-3, 1e-4};
 
 RefineOptions in_metres(RefineOptions options, float cell_m) {
   options.gate_m *= cell_m;
@@ -51,6 +54,11 @@ bool same_place(const SE3& a, const SE3& b) {
   return between.translation().norm() < kSameM && rotation_angle(between) < kSameRad;
 }
 
+template <class Candidate>
+bool better(const Candidate& x, const Candidate& y) {
+  return x.score > y.score;
+}
+
 /// How far ahead the best mode is of the next that is another place.
 template <class Candidates>
 double uniqueness(const Candidates& best_first) {
@@ -65,7 +73,9 @@ double uniqueness(const Candidates& best_first) {
 }  // namespace
 
 DefaultMatcher::DefaultMatcher(const MapFeatures& a, const MapFeatures& b)
-    : judge_(a, b),
+    : map_a_(a.map()),
+      map_b_(b.map()),
+      judge_(a, b),
       structure_a_(points_of(structure_of(a.coarse()))),
       structure_b_(sample(std::span<const Eigen::Vector3f>(points_of(structure_of(b.coarse()))), kSearchPoints)),
       coarse_a_(a.coarse()),
@@ -73,26 +83,60 @@ DefaultMatcher::DefaultMatcher(const MapFeatures& a, const MapFeatures& b)
       coarse_m_(std::max(a.coarse_m(), b.coarse_m())),
       near_coarse_(a.coarse(), coarse_m_, 3 * coarse_m_) {}
 
-std::vector<DefaultMatcher::Candidate> DefaultMatcher::verified_modes(const SE3& initial, const SearchWindow& window,
-                                                                      int modes, Budget& budget) const {
+std::vector<SE3> DefaultMatcher::starts_near(const UncertainPose& prior) const {
+  const SearchWindow window = window_of(prior);
   const LikelihoodField field(structure_a_, std::max(0.4F, coarse_m_), window);
-  std::vector<Candidate> candidates;
-  for (const Mode& mode : search(field, structure_b_, initial, window, modes)) {
-    if (!budget.one_more()) break;
-    const Refinement r = refine(coarse_a_, near_coarse_, coarse_sample_b_, mode.T_target_source,
-                                in_metres(kOnCoarse, coarse_m_), budget);
-    candidates.push_back({r.T_target_source, judge_.score(r.T_target_source)});
+  std::vector<SE3> starts;
+  const int modes = window.yaw_rad > kWideYaw ? kWideModes : kModes;
+  for (const Mode& mode : search(field, structure_b_, prior.mean, window, modes))
+    starts.push_back(mode.T_target_source);
+  return starts;
+}
+
+std::vector<SE3> DefaultMatcher::starts_anywhere(Budget& budget) const {
+  const PlanView a(judge_.a().surfels, map_a_), b(judge_.b().surfels, map_b_);
+  const auto placements = sweep(a, b, kPlacements, budget);
+  const auto voters = sample(std::span<const Surfel>(judge_.b().surfels), kHeightVotes);
+  std::vector<Candidate> poses;
+  for (const SE3& T : stand_up(placements, a, b, voters)) poses.push_back({T, judge_.first_impression(T)});
+  std::stable_sort(poses.begin(), poses.end(), better<Candidate>);
+  std::vector<SE3> starts;
+  for (const Candidate& pose : poses) {
+    if (starts.size() == kGlobalModes) break;
+    starts.push_back(pose.T_a_b);
   }
-  std::stable_sort(candidates.begin(), candidates.end(),
-                   [](const Candidate& x, const Candidate& y) { return x.score > y.score; });
+  return starts;
+}
+
+std::vector<DefaultMatcher::Candidate> DefaultMatcher::verified(const std::vector<SE3>& starts, Budget& budget) const {
+  std::vector<Candidate> candidates;
+  for (const SE3& start : starts) {
+    if (!budget.one_more()) break;
+    const SE3 T = refine(coarse_a_, near_coarse_, coarse_sample_b_, start, in_metres(kOnCoarse, coarse_m_), budget)
+                      .T_target_source;
+    candidates.push_back({T, judge_.score(T)});
+  }
+  std::stable_sort(candidates.begin(), candidates.end(), better<Candidate>);
   return candidates;
+}
+
+void DefaultMatcher::look_closer(std::vector<Candidate>& best_first, Budget& budget) const {
+  std::size_t looks = 0;
+  for (Candidate& c : best_first) {
+    if (looks++ == kCloser || !budget.one_more()) break;
+    c.T_a_b = refine(judge_.a().surfels, judge_.near_a(), judge_.b().sample, c.T_a_b,
+                     in_metres(kCloserLook, judge_.cell_m()), budget)
+                  .T_target_source;
+    c.score = judge_.score(c.T_a_b);
+  }
+  std::stable_sort(best_first.begin(), best_first.end(), better<Candidate>);
 }
 
 Result<MatchResult> DefaultMatcher::match(const std::optional<UncertainPose>& initial, Budget& budget) const {
   if (auto answer = judge_.without_search(initial)) return *std::move(answer);
   const UncertainPose prior = initial.value_or(anywhere());
-  const SearchWindow window = window_of(prior);
-  const auto modes = verified_modes(prior.mean, window, window.yaw_rad > kWideYaw ? kWideModes : kModes, budget);
+  auto modes = verified(initial ? starts_near(prior) : starts_anywhere(budget), budget);
+  if (!initial) look_closer(modes, budget);
   const SE3 best = modes.empty() ? prior.mean : modes.front().T_a_b;  // none when the budget came spent
   const SE3 T =
       refine(judge_.a().surfels, judge_.near_a(), judge_.b().sample, best, in_metres(kOnFine, judge_.cell_m()), budget)

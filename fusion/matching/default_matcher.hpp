@@ -14,8 +14,10 @@ namespace cairn::matching {
 
 /// Coarse correlation over the prior's window → several modes → each refined on the coarse surfels → verified on the
 /// fine map with free space both ways → the best one refined on the fine surfels. The window makes the start
-/// irrelevant, the modes and the free space keep out what merely overlaps more.
-class DefaultMatcher final : public Matcher {
+/// irrelevant, the modes and the free space keep out what merely overlaps more. Without a prior the modes are those of
+/// a sweep over all headings and distances with gravity known (GlobalMatcher), hundreds of them, of which a first
+/// impression leaves the best.
+class DefaultMatcher : public Matcher {
  public:
   /// `a` and `b` must outlive the matcher.
   DefaultMatcher(const MapFeatures& a, const MapFeatures& b);
@@ -26,15 +28,31 @@ class DefaultMatcher final : public Matcher {
     SE3 T_a_b;
     double score;
   };
-  [[nodiscard]] std::vector<Candidate> verified_modes(const SE3& initial, const SearchWindow& window, int modes,
-                                                      Budget& budget) const;
+  [[nodiscard]] std::vector<SE3> starts_near(const UncertainPose& prior) const;
+  [[nodiscard]] std::vector<SE3> starts_anywhere(Budget& budget) const;
+  /// Each start refined on the coarse surfels and scored, best first.
+  [[nodiscard]] std::vector<Candidate> verified(const std::vector<SE3>& starts, Budget& budget) const;
+  /// The first few of them refined on the fine surfels and scored again, best first.
+  void look_closer(std::vector<Candidate>& best_first, Budget& budget) const;
 
+  const SemanticOcTree& map_a_;
+  const SemanticOcTree& map_b_;
   Judge judge_;
   std::vector<Eigen::Vector3f> structure_a_, structure_b_;  // coarse
   std::span<const Surfel> coarse_a_;
   std::vector<Surfel> coarse_sample_b_;
   float coarse_m_;
   NearestGrid near_coarse_;
+};
+
+/// Never believes a guess.
+class GlobalMatcher final : public DefaultMatcher {
+ public:
+  using DefaultMatcher::DefaultMatcher;
+  [[nodiscard]] Result<MatchResult> match(const std::optional<UncertainPose>& /*initial*/,
+                                          Budget& budget) const override {
+    return DefaultMatcher::match(std::nullopt, budget);
+  }
 };
 
 }  // namespace cairn::matching

@@ -29,6 +29,12 @@ int in_free_space(const FreeSpace& free, std::span<const Surfel> structure, cons
       std::count_if(structure.begin(), structure.end(), [&](const Surfel& s) { return free.contains(move(s.point)); }));
 }
 
+/// Whether two surfels may be of one surface seen from one side; `n`: the source's normal in the target's frame.
+bool same_side(const Surfel& target, const Surfel& source, const Eigen::Vector3f& n) {
+  const float cosine = target.normal.dot(n);
+  return (target.oriented && source.oriented ? cosine : std::abs(cosine)) > kSameNormal;
+}
+
 double share(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
 /// The pairs of the book's overlap and inlier test.
@@ -58,11 +64,12 @@ struct Meetings {
   Eigen::Matrix2d normals = Eigen::Matrix2d::Zero();  // Σ n nᵀ, horizontal part, of those that agree
 };
 
-Meetings meet(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T) {
+Meetings meet(const Party& target, const NearestGrid& nearest, const Party& source, std::span<const Surfel> structure,
+              const SE3& T) {
   const Moved move(T);
   const auto cell = static_cast<float>(std::max(target.cell_m, source.cell_m));
   Meetings m;
-  for (const Surfel& s : source.structure) {
+  for (const Surfel& s : structure) {
     const Eigen::Vector3f q = move(s.point);
     const int i = nearest.nearest(q, kPairCells * cell);
     if (i == NearestGrid::kNone) {
@@ -70,7 +77,7 @@ Meetings meet(const Party& target, const NearestGrid& nearest, const Party& sour
       continue;
     }
     const Surfel& r = target.surfels[static_cast<std::size_t>(i)];
-    if ((q - r.point).squaredNorm() < cell * cell && std::abs(r.normal.dot(move.R * s.normal)) > kSameNormal) {
+    if ((q - r.point).squaredNorm() < cell * cell && same_side(r, s, move.R * s.normal)) {
       ++m.agree;
       const Eigen::Vector2d n = r.normal.head<2>().cast<double>();
       m.normals += n * n.transpose();
@@ -83,21 +90,51 @@ Meetings meet(const Party& target, const NearestGrid& nearest, const Party& sour
 
 }  // namespace
 
-double score(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T) {
-  const Meetings m = meet(target, nearest, source, T);
-  const auto n = static_cast<double>(source.structure.size());
+namespace {
+
+double score_of(const Party& target, const NearestGrid& nearest, const Party& source, std::span<const Surfel> of_target,
+                std::span<const Surfel> of_source, const SE3& T) {
+  const Meetings m = meet(target, nearest, source, of_source, T);
+  const auto n = static_cast<double>(of_source.size());
   const double reverse =
-      share(in_free_space(source.free, target.structure, T.inverse()), static_cast<double>(target.structure.size()));
+      share(in_free_space(source.free, of_target, T.inverse()), static_cast<double>(of_target.size()));
   // The target's conflicts count by their number, as the source's do.
   const double sizes = share(static_cast<double>(target.surfels.size()), static_cast<double>(source.surfels.size()));
   return share(m.agree - kMismatchWeight * m.differ - kConflictWeight * m.in_free, n) -
          kConflictWeight * reverse * sizes;
 }
 
+void face_free_space(Surfel& s, const FreeSpace& free, float cell_m) {
+  int ahead = 0, behind = 0;
+  for (const float cells : {1.25F, 2.0F}) {
+    ahead += free.seen_free(s.point + cells * cell_m * s.normal) ? 1 : 0;
+    behind += free.seen_free(s.point - cells * cell_m * s.normal) ? 1 : 0;
+  }
+  s.oriented = (ahead == 0) != (behind == 0);
+  if (behind > ahead) s.normal = -s.normal;
+}
+
+}  // namespace
+
+std::vector<Surfel> facing_free_space(std::span<const Surfel> surfels, const FreeSpace& free, float cell_m) {
+  std::vector<Surfel> all(surfels.begin(), surfels.end());
+  for (Surfel& s : all)
+    if (s.structure() && !s.normal.isZero()) face_free_space(s, free, cell_m);
+  return all;
+}
+
+double score(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T) {
+  return score_of(target, nearest, source, target.structure, source.structure, T);
+}
+
+double first_impression(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T) {
+  return score_of(target, nearest, source, target.few, source.few, T);
+}
+
 Evidence weigh(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T) {
   Evidence out;
   count_pairs(target, nearest, source, T, out);
-  const Meetings m = meet(target, nearest, source, T);
+  const Meetings m = meet(target, nearest, source, source.structure, T);
   out.structure_pairs = m.agree;
   out.structure_inliers = share(m.agree, m.agree + m.differ);
   out.conflict = share(m.in_free, m.agree + m.differ + m.in_free);
@@ -153,7 +190,7 @@ Matrix6 covariance(const Party& target, const NearestGrid& nearest, const Party&
     const int i = nearest.nearest(q, cell);
     if (i == NearestGrid::kNone) continue;
     const Surfel& r = target.surfels[static_cast<std::size_t>(i)];
-    if (!(std::abs(r.normal.dot(move.R * s.normal)) > kSameNormal)) continue;
+    if (!same_side(r, s, move.R * s.normal)) continue;
     sum.add(s.point.cast<double>(), (move.R.transpose() * r.normal).cast<double>(),
             static_cast<double>(r.normal.dot(q - r.point)));
   }

@@ -13,9 +13,10 @@ namespace cairn::matching {
 
 /// One map as a party to a comparison: surfels, those of them that are structure (a sample), and what it saw free.
 struct Party {
-  std::span<const Surfel> surfels;
+  std::vector<Surfel> surfels;    ///< structure faces free space
   std::vector<Surfel> sample;     ///< of all surfels
   std::vector<Surfel> structure;  ///< of those that are structure
+  std::vector<Surfel> few;        ///< of these, for a first impression
   FreeSpace free;
   double cell_m;
 };
@@ -32,11 +33,21 @@ struct Evidence {
   double uniqueness = 1;           ///< 1 − score of the next mode over that of the best
 };
 
-/// Score of a pose for ranking modes: +1 for each structure surfel of the source that agrees in place and normal,
+/// Score of a pose for ranking modes: +1 for each structure surfel of the source that agrees in place, normal and,
+/// where known, the side it was seen from,
 /// −¼ where it meets another surface, −2 where it stands in the target's free space, and −2 for target structure in
 /// the source's free space; per source surfel.
 [[nodiscard]] double score(const Party& target, const NearestGrid& nearest, const Party& source,
                            const SE3& T_target_source);
+
+/// A rough score() over a few surfels, for sorting out hundreds of poses.
+[[nodiscard]] double first_impression(const Party& target, const NearestGrid& nearest, const Party& source,
+                                      const SE3& T_target_source);
+
+/// The surfels with the normals of structure turned to where free space was observed on one side only: two maps that
+/// meet back to back at a wall must not agree there.
+[[nodiscard]] std::vector<Surfel> facing_free_space(std::span<const Surfel> surfels, const FreeSpace& free,
+                                                    float cell_m);
 
 /// Leaves `uniqueness` alone.
 [[nodiscard]] Evidence weigh(const Party& target, const NearestGrid& nearest, const Party& source,

@@ -11,14 +11,8 @@
 namespace cairn::matching {
 namespace {
 
-constexpr std::size_t kFinePoints = 8000, kVerifyPoints = 1500, kMinStructure = 60;
+constexpr std::size_t kFinePoints = 8000, kVerifyPoints = 1500, kFewPoints = 300, kMinStructure = 60;
 constexpr float kNearCells = 4;
-
-Party party_of(const MapFeatures& map) {
-  return {map.fine(), sample(map.fine(), kFinePoints),
-          sample(std::span<const Surfel>(structure_of(map.fine())), kVerifyPoints), FreeSpace(map.map()),
-          static_cast<double>(map.fine_m())};
-}
 
 /// The error for a guess that cannot be used; none if it can.
 std::optional<Error> fault_of(const std::optional<UncertainPose>& initial) {
@@ -47,7 +41,7 @@ Matrix6 default_prior_covariance() {
 UncertainPose anywhere() {
   UncertainPose pose;
   Vector6 sigma;
-  sigma << 10.0 / 3, 10.0 / 3, 0.3, 0.03, 0.03, M_PI;
+  sigma << 100, 100, 3, 0.03, 0.03, M_PI;
   pose.covariance = sigma.cwiseAbs2().asDiagonal();
   return pose;
 }
@@ -57,6 +51,16 @@ Judge::Judge(const MapFeatures& a, const MapFeatures& b)
       b_(party_of(b)),
       cell_m_(std::max(a.fine_m(), b.fine_m())),
       near_a_(a.fine(), cell_m_, kNearCells * cell_m_) {}
+
+Party party_of(const MapFeatures& map) {
+  Party party{{}, {}, {}, {}, FreeSpace(map.map()), static_cast<double>(map.fine_m())};
+  party.surfels = facing_free_space(map.fine(), party.free, map.fine_m());
+  const auto structure = structure_of(party.surfels);
+  party.sample = sample(std::span<const Surfel>(party.surfels), kFinePoints);
+  party.structure = sample(std::span<const Surfel>(structure), kVerifyPoints);
+  party.few = sample(std::span<const Surfel>(structure), kFewPoints);
+  return party;
+}
 
 MatchResult refused(const UncertainPose& prior, std::string reason) {
   MatchResult result;

@@ -28,6 +28,10 @@ class Judge {
 
   /// For ranking; see score().
   [[nodiscard]] double score(const SE3& T_a_b) const { return matching::score(a_, near_a_, b_, T_a_b); }
+  /// The same, roughly.
+  [[nodiscard]] double first_impression(const SE3& T_a_b) const {
+    return matching::first_impression(a_, near_a_, b_, T_a_b);
+  }
   /// The result for a pose: covariance, evidence, the book's test and the decision.
   [[nodiscard]] MatchResult conclude(const SE3& T_a_b, const Matrix6& prior_covariance, double uniqueness,
                                      const Budget& budget) const;
@@ -38,11 +42,13 @@ class Judge {
   NearestGrid near_a_;
 };
 
+/// A map's surfels facing free space, and samples of them.
+[[nodiscard]] Party party_of(const MapFeatures& map);
 /// Those of the surfels that are structure.
 [[nodiscard]] std::vector<Surfel> structure_of(std::span<const Surfel> surfels);
 /// A result without evidence: the prior, and why nothing better is known.
 [[nodiscard]] MatchResult refused(const UncertainPose& prior, std::string reason);
-/// What a match without a guess starts from: ±10 m, all headings.
+/// What is known without a guess: which way is up.
 [[nodiscard]] UncertainPose anywhere();
 
 }  // namespace cairn::matching

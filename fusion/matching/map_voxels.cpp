@@ -104,7 +104,7 @@ FreeSpace::FreeSpace(const SemanticOcTree& map)
   margin_depth_ = SemanticOcTree::kDepth - static_cast<unsigned>(std::clamp(levels, 0.0, 16.0));
 }
 
-bool FreeSpace::contains(const Eigen::Vector3f& point) const {
+bool FreeSpace::free_at(const Eigen::Vector3f& point, unsigned margin_depth) const {
   const Eigen::Vector3f scaled = point * inverse_resolution_;
   // maxCoeff() may pass a NaN by.
   if (root_ == nullptr || !(scaled.cwiseAbs().maxCoeff() < static_cast<float>(kKeyOrigin - 1)) || scaled.hasNaN())
@@ -112,7 +112,7 @@ bool FreeSpace::contains(const Eigen::Vector3f& point) const {
   const Eigen::Vector3i key = scaled.array().floor().cast<int>() + kKeyOrigin;
   const SemanticNode* node = root_;
   for (unsigned depth = 0; node->block() != nullptr; ++depth) {
-    if (depth == margin_depth_ && node->getLogOdds() >= threshold_) return false;
+    if (depth == margin_depth && node->getLogOdds() >= threshold_) return false;
     const auto bit = SemanticOcTree::kDepth - 1 - depth;
     node = node->block() + ((key.x() >> bit & 1) | (key.y() >> bit & 1) << 1 | (key.z() >> bit & 1) << 2);
     if (!node->present()) return false;

@@ -39,11 +39,15 @@ class FreeSpace {
 
   /// Whether the voxel at `point` (m, map frame) was observed free and nothing occupied is in the cube of `margin_m`
   /// or more around it that the tree has as one node.
-  [[nodiscard]] bool contains(const Eigen::Vector3f& point) const;
+  [[nodiscard]] bool contains(const Eigen::Vector3f& point) const { return free_at(point, margin_depth_); }
+  /// Whether the voxel at `point` itself was.
+  [[nodiscard]] bool seen_free(const Eigen::Vector3f& point) const { return free_at(point, SemanticOcTree::kDepth); }
 
   static constexpr double kMarginM = 0.4;
 
  private:
+  [[nodiscard]] bool free_at(const Eigen::Vector3f& point, unsigned margin_depth) const;
+
   const SemanticNode* root_;
   float inverse_resolution_, threshold_;
   unsigned margin_depth_;

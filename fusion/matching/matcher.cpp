@@ -23,6 +23,7 @@ struct Method {
   Make make;
 };
 constexpr Method kMethods[] = {{"default", make<DefaultMatcher>},
+                               {"global", make<GlobalMatcher>},
                                {"oicp", make<Oicp>},
                                {"pmm", make<Pmm>},
                                {"pmm_level1", make<PmmLevel1>},

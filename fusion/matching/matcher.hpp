@@ -35,8 +35,9 @@ class Matcher {
  public:
   virtual ~Matcher() = default;
   /// `initial` is the guess of T_a_b with the covariance of its right perturbation (m, rad). Without one, the search
-  /// covers ±10 m in x and y around identity and all headings. Errors: kInvalidConfig for a pose or covariance that is
-  /// not finite or not positive definite. Maps with too little in them give a result that is not accepted.
+  /// covers all headings and distances, with z of both maps upwards within some degrees (the book's methods then start
+  /// at identity). Errors: kInvalidConfig for a pose or covariance that is not finite or not positive definite. Maps
+  /// with too little in them give a result that is not accepted.
   [[nodiscard]] virtual Result<MatchResult> match(const std::optional<UncertainPose>& initial,
                                                   Budget& budget) const = 0;
 

@@ -20,6 +20,8 @@ struct Surfel {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
   float variation = 0;  ///< smallest of the three eigenvalues of the spread, over their sum: 0 plane, 1/3 ball
   float occupancy = 0;  ///< mean probability of the cell's voxels
+  /// Whether the normal points to where free space was observed, and none behind; see facing_free_space().
+  bool oriented = false;
 
   /// Walls, edges and clutter tell places apart; floors and ceilings agree everywhere (prototype's finding 2).
   [[nodiscard]] bool structure() const { return std::abs(normal.z()) < 0.7F || variation > 0.05F; }

@@ -105,13 +105,13 @@ std::vector<support::MapPair> pairs(const std::string& wanted, unsigned seed, do
     if (wanted != "all" && wanted != name) continue;
     const auto map = load_map(support::recorded_data("octomap") / (name + ".bt"));
     if (map)
-      out.push_back(support::halves(**map, name, share, 130 * kDegree, seed));
+      out.push_back(support::halves(**map, name, share, (79 + 51.0 * seed) * kDegree, seed));
     else
       std::printf("%s\n", to_string(map.error()).c_str());
   }
   for (const support::Scene& scene : support::all_scenes())
     if ((wanted == "all" && scene.name != "endless") || wanted == scene.name)
-      out.push_back(support::two_robots(scene, {0, 3, 36}, {3 * (1 - share), 3 * (2 - share), 36}, seed, 2.0));
+      out.push_back(support::two_robots(scene, {0, 3, 36}, {3 * (1 - share), 3 * (2 - share), 36}, seed, 1.3 + 0.7 * seed));
   return out;
 }
 

@@ -6,29 +6,21 @@
 #include <Eigen/Eigenvalues>
 
 #include "fusion/matching/acceptance.hpp"
+#include "fusion/matching/judge.hpp"
 #include "fusion/matching/map_features.hpp"
 #include "fusion/matching/matcher.hpp"
-#include "fusion/matching/sample.hpp"
 #include "tests/support/map_pairs.hpp"
 
 namespace cairn::matching {
 namespace {
-
-Party party(const MapFeatures& map) {
-  std::vector<Surfel> structure;
-  for (const Surfel& s : map.fine())
-    if (s.structure()) structure.push_back(s);
-  return {map.fine(), sample(map.fine(), 4000), sample(std::span<const Surfel>(structure), 1500), FreeSpace(map.map()),
-          static_cast<double>(map.fine_m())};
-}
 
 struct Pair {
   explicit Pair(const support::Scene& scene, const support::Stretch& of_a, const support::Stretch& of_b)
       : maps(support::two_robots(scene, of_a, of_b, 5)),
         features_a(*MapFeatures::build(*maps.a)),
         features_b(*MapFeatures::build(*maps.b)),
-        a(party(features_a)),
-        b(party(features_b)),
+        a(party_of(features_a)),
+        b(party_of(features_b)),
         nearest(features_a.fine(), 0.2F, 0.8F) {}
   support::MapPair maps;
   MapFeatures features_a, features_b;
