@@ -16,7 +16,7 @@ constexpr int kModes = 16, kWideModes = 48;
 constexpr double kWindowSigmas = 3, kMinWindowM = 0.8, kMaxWindowM = 20, kMaxHeightM = 4, kMinYaw = 0.07;
 constexpr double kOneHeightM = 0.5;  // a prior that knows the height better than this needs no search over it
 constexpr double kWideYaw = 1.0;
-constexpr std::size_t kPlacements = 400, kHeightVotes = 600, kGlobalModes = 64, kCloser = 6;
+constexpr std::size_t kPlacements = 400, kHeightVotes = 600, kGlobalModes = 64, kBestSwept = 24, kCloser = 6;
 constexpr double kSameM = 0.8, kSameRad = 0.07;  // refined modes this close are one
 
 constexpr RefineOptions kOnCoarse{3.0F, 1.25F, 0.75F, 12, 1e-3, 1e-4};  // gates in cells
@@ -97,14 +97,15 @@ std::vector<SE3> DefaultMatcher::starts_anywhere(Budget& budget) const {
   const PlanView a(judge_.a().surfels, map_a_), b(judge_.b().surfels, map_b_);
   const auto placements = sweep(a, b, kPlacements, budget);
   const auto voters = sample(std::span<const Surfel>(judge_.b().surfels), kHeightVotes);
-  std::vector<Candidate> poses;
-  for (const SE3& T : stand_up(placements, a, b, voters)) poses.push_back({T, judge_.first_impression(T)});
-  std::stable_sort(poses.begin(), poses.end(), better<Candidate>);
-  std::vector<SE3> starts;
-  for (const Candidate& pose : poses) {
-    if (starts.size() == kGlobalModes) break;
-    starts.push_back(pose.T_a_b);
-  }
+  const auto poses = stand_up(placements, a, b, voters);
+  std::vector<Candidate> impressions;
+  for (const SE3& T : poses) impressions.push_back({T, judge_.first_impression(T)});
+  std::stable_sort(impressions.begin(), impressions.end(), better<Candidate>);
+  // An impression is better than the sweep at telling right from wrong, but blind where the sweep is half a metre off.
+  std::vector<SE3> starts(poses.begin(),
+                          poses.begin() + static_cast<std::ptrdiff_t>(std::min(poses.size(), kBestSwept)));
+  for (const Candidate& c : impressions)
+    if (starts.size() < kGlobalModes) starts.push_back(c.T_a_b);
   return starts;
 }
 

@@ -12,6 +12,7 @@ namespace {
 constexpr float kSameNormal = 0.7F;  // |cos| between normals of one surface
 constexpr float kPairCells = 2.5F;   // gate of a pair
 constexpr double kConflictWeight = 2, kMismatchWeight = 0.25;
+constexpr double kDiscredit = 3, kLeastCredit = 0.15;
 constexpr double kCorrelated = 12;     // residuals that err together
 constexpr double kNormalNoise = 0.1;   // standard deviation of a surfel's normal [rad]
 constexpr double kMinResidual = 0.05;  // of a cell: no grid is believed to be finer
@@ -100,8 +101,11 @@ double score_of(const Party& target, const NearestGrid& nearest, const Party& so
       share(in_free_space(source.free, of_target, T.inverse()), static_cast<double>(of_target.size()));
   // The target's conflicts count by their number, as the source's do.
   const double sizes = share(static_cast<double>(target.surfels.size()), static_cast<double>(source.surfels.size()));
-  return share(m.agree - kMismatchWeight * m.differ - kConflictWeight * m.in_free, n) -
-         kConflictWeight * reverse * sizes;
+  const double sum =
+      share(m.agree - kMismatchWeight * m.differ - kConflictWeight * m.in_free, n) - kConflictWeight * reverse * sizes;
+  // A wrong pose of the same building agrees nearly as well as the right one; what gives it away is contradiction.
+  const double contradiction = share(m.in_free, m.agree + m.differ + m.in_free) + reverse;
+  return sum > 0 ? sum * std::max(kLeastCredit, 1 - kDiscredit * contradiction) : sum;
 }
 
 void face_free_space(Surfel& s, const FreeSpace& free, float cell_m) {

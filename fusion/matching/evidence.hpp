@@ -36,7 +36,7 @@ struct Evidence {
 /// Score of a pose for ranking modes: +1 for each structure surfel of the source that agrees in place, normal and,
 /// where known, the side it was seen from,
 /// −¼ where it meets another surface, −2 where it stands in the target's free space, and −2 for target structure in
-/// the source's free space; per source surfel.
+/// the source's free space; per source surfel, and times 1 − 3·(share of conflicts), at least 0.15.
 [[nodiscard]] double score(const Party& target, const NearestGrid& nearest, const Party& source,
                            const SE3& T_target_source);
 

@@ -192,9 +192,11 @@ std::vector<Placement> sweep(const PlanView& a, const PlanView& b, std::size_t m
       for (const Peak& p : peaks_of(c.re - kRoomWeights[w] * c.im))
         found[w].push_back({yaw, metres(p.x, a.low().x()), metres(p.y, a.low().y()), p.score});
   }
+  for (auto& of_weight : found) of_weight = apart(std::move(of_weight), most / kRoomWeights.size());
   std::vector<Placement> all;
-  for (auto& of_weight : found)
-    for (const Placement& p : apart(std::move(of_weight), most / kRoomWeights.size())) all.push_back(p);
+  for (std::size_t i = 0; i < most; ++i)
+    for (const auto& of_weight : found)
+      if (i < of_weight.size()) all.push_back(of_weight[i]);
   return all;
 }
 

@@ -16,10 +16,11 @@ struct Placement {
   float score;
 };
 
-/// Where b's plan may lie in a's, best first, whatever the heading and distance: for every 3° of heading, walls are
-/// correlated with walls, the ways they face with each other, and walls against the other's free space, for all shifts
-/// at once by Fourier transforms. Headings under which the walls' directions do not agree are left out. Each heading is
-/// a step of the budget. At most `most` placements, 0.8 m or 4.5° apart.
+/// Where b's plan may lie in a's, best first (by a weak and by a strong weight of free space in turn), whatever the
+/// heading and distance: for every 3° of heading, walls are correlated with walls, the ways they face with each other,
+/// and walls against the other's free space, for all shifts at once by Fourier transforms. Headings under which the
+/// walls' directions do not agree are left out. Each heading is a step of the budget. At most `most` placements, 0.8 m
+/// or 4.5° apart.
 [[nodiscard]] std::vector<Placement> sweep(const PlanView& a, const PlanView& b, std::size_t most, Budget& budget);
 
 /// The same in three dimensions: each placement at the two heights at which most surfaces of the same kind meet.
