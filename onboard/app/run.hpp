@@ -19,6 +19,7 @@ struct RunOptions {
   std::filesystem::path record;    ///< live: where to keep the packets and the schedule; empty: nowhere
   std::filesystem::path schedule;  ///< of another live run, instead of the recording's own schedule.log
   Pace pace = Pace::kRecorded;
+  bool reference = false;  ///< at real speed: run an empty task beside the control task, to know what the machine costs
   std::optional<int> threads;                             ///< instead of the profile's
   std::optional<double> seconds;                          ///< ends the run when so much of the robot's time has passed
   std::function<void(Time, std::size_t scans)> progress;  ///< after every scan, on odometry's thread; may be empty

@@ -9,6 +9,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "onboard/app/report/budgets.hpp"
 #include "onboard/app/report/report_json.hpp"
 #include "onboard/app/run.hpp"
 #include "onboard/app/stop_signal.hpp"
@@ -18,6 +19,7 @@ namespace {
 
 struct Arguments {
   RunOptions run;
+  std::filesystem::path budgets;
   std::string speed = "real";
   bool json = false;
 };
@@ -42,7 +44,23 @@ void print_summary(const RunReport& r, const std::filesystem::path& out) {
   std::printf("  output_sha256 %s\n  %s\n", r.output_sha256.c_str(), (out / "report.html").c_str());
 }
 
+/// Prints the table; the exit code says whether everything was kept.
+int judge(const std::vector<BudgetLimit>& limits, const RunReport& report) {
+  const auto verdicts = check_budgets(limits, to_json(report));
+  if (!verdicts) return fail(verdicts.error());
+  std::fprintf(stderr, "%s", to_table(*verdicts).c_str());
+  if (all_kept(*verdicts)) return kDone;
+  return fail({Errc::kLimit, "budgets were exceeded", report.robot, {}, "see the table above"});
+}
+
 int run_robot(Arguments a) {
+  std::vector<BudgetLimit> limits;
+  if (!a.budgets.empty()) {
+    auto loaded = load_budgets(a.budgets);
+    if (!loaded) return fail(loaded.error());
+    limits = std::move(*loaded);
+    a.run.reference = true;
+  }
   a.run.pace = a.run.recording.empty() ? Pace::kLive : a.speed == "max" ? Pace::kMaximum : Pace::kRecorded;
   if (::isatty(STDERR_FILENO) != 0) a.run.progress = show_progress;
   catch_stop_signals();
@@ -54,7 +72,7 @@ int run_robot(Arguments a) {
     print(to_json(report));
   else
     print_summary(report, a.run.out);
-  if (report.scans != 0) return kDone;
+  if (report.scans != 0) return limits.empty() ? kDone : judge(limits, report);
   return fail({Errc::kNotFound,
                "not one scan came in",
                report.source,
@@ -75,6 +93,7 @@ void add_run_command(Commands& commands) {
   sub->add_option("--speed", a->speed, "of a recording: as it was made, or as fast as possible in virtual time")
       ->check(CLI::IsMember({"real", "max"}))
       ->default_val("real");
+  sub->add_option("--assert", a->budgets, "fail when a budget is exceeded, such as config/budgets/husky.yaml");
   sub->add_option("--threads", a->run.threads, "instead of the profile's; the result does not depend on it")
       ->check(CLI::Range(1, 64));
   sub->add_option("--seconds", a->run.seconds, "end after so much of the robot's time")->check(CLI::PositiveNumber);

@@ -46,7 +46,9 @@ void add_tasks(const scheduler::Executive& executive, RunReport& report) {
   for (const scheduler::Line& line : executive.lines()) report.tasks.push_back({line.spec, line.stats});
   const scheduler::Line& control = executive.lines().front();
   report.ticks = {control.stats.ticks, control.stats.misses + control.stats.slips, control.stats.wake.max()};
-  report.control_thread_allocations = control.stats.allocations;
+  for (const scheduler::Line& line : executive.lines())
+    if (line.spec.name == "safety" || line.spec.name == "drive")
+      report.control_thread_allocations += line.stats.allocations;
 }
 
 /// Every stage of the odometry and the map, as far as the run got.
@@ -63,6 +65,10 @@ RunReport make_report(const RunFacts& facts) {
   report.odometry = odometry_stats(track);
   report.peak_rss_mb = peak_rss_mb();
   add_tasks(facts.tasks.executive(), report);
+  report.mode = to_string(facts.tasks.decision().mode);
+  for (int level = 0; level < kShedLevels; ++level)
+    report.shed.emplace_back(to_string(static_cast<Shed>(level)),
+                             facts.tasks.mapping().scans_at()[static_cast<std::size_t>(level)]);
   report.monitor = &facts.monitor;
   if (facts.tasks.figures().start) {
     report.start = *facts.tasks.figures().start;

@@ -92,6 +92,7 @@ class Channel final : public ChannelBase {
     return queue_.size() >= wanted;
   }
   [[nodiscard]] std::size_t size() const { return queue_.size(); }
+  [[nodiscard]] std::size_t capacity() const { return ends_.capacity; }
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }
 
  private:

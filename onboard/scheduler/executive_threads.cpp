@@ -151,11 +151,19 @@ void Executive::replay_loop(Line& line, const Pace& pace) {
 
 void Executive::run_threads(const ReplayOptions& options) {
   const Pace pace{options.pace, options.pace->now() - options.start};
-  std::vector<std::thread> threads;
-  for (Line& line : lines_)
-    if (!line.live_only)
+  std::vector<std::thread> threads, beside;
+  stop_ = false;
+  for (Line& line : lines_) {
+    if (line.live_only) {
+      line.releases = {options.pace->now() + line.spec.phase(), line.spec.period()};
+      beside.push_back(start_thread(plan_of(line.spec), [this, &line, &pace] { live_loop(line, *pace.clock); }));
+    } else {
       threads.push_back(start_thread(plan_of(line.spec), [this, &line, &pace] { replay_loop(line, pace); }));
+    }
+  }
   for (std::thread& t : threads) t.join();
+  stop_ = true;
+  for (std::thread& t : beside) t.join();
 }
 
 }  // namespace cairn::scheduler

@@ -44,6 +44,10 @@ Json stages_json(const Monitor* monitor) {
   return stages;
 }
 
+double ratio(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
 Json task_json(const TaskFigures& task) {
   const scheduler::TaskStats& s = task.stats;
   Json json{{"count", s.ticks.get()},
@@ -52,6 +56,8 @@ Json task_json(const TaskFigures& task) {
             {"budget_ms", task.spec.soft_ms},
             {"slips", s.slips.get()},
             {"missed", s.misses.get()},
+            {"miss_ratio", ratio(s.misses, s.ticks)},
+            {"slip_ratio", ratio(s.slips, s.ticks + s.slips)},
             {"soft_overruns", s.soft_overruns.get()},
             {"hard_overruns", s.hard_overruns.get()},
             {"demotions", s.demotions.get()},
@@ -64,6 +70,12 @@ Json task_json(const TaskFigures& task) {
   add_percentiles(json, "execution_", s.execution);
   add_percentiles(json, "cpu_", s.cpu);
   return json;
+}
+
+Json shed_json(const RunReport& report) {
+  Json shed = Json::object();
+  for (const auto& [level, scans] : report.shed) shed[level] = scans;
+  return shed;
 }
 
 Json tasks_json(const RunReport& report) {
@@ -207,6 +219,8 @@ Json to_json(const RunReport& report) {
             {"missed", report.ticks.missed},
             {"max_lateness_us", 1e-3 * static_cast<double>(report.ticks.max_lateness.count())}}},
           {"tasks", tasks_json(report)},
+          {"mode", report.mode},
+          {"shed", shed_json(report)},
           {"odometry",
            {{"degenerate_scans", report.odometry.degenerate_scans},
             {"lost_scans", report.odometry.lost_scans},

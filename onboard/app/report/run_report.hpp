@@ -5,6 +5,7 @@
 #include <map>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hal/monitor.hpp"
@@ -63,6 +64,8 @@ struct RunReport {
   std::uint64_t scans = 0, lost_packets = 0;
   TickStats ticks;  ///< of the control task
   std::vector<TaskFigures> tasks;
+  std::string mode;                                         ///< at the end
+  std::vector<std::pair<std::string, std::uint64_t>> shed;  ///< scans mapped at each level of shedding
   OdometryStats odometry;
   double peak_rss_mb = 0;
   std::uint64_t control_thread_allocations = 0;

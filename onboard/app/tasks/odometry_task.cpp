@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/tasks/odometry_task.hpp"
 
+#include <algorithm>
+
 namespace cairn {
 
 using scheduler::Regime;
@@ -42,17 +44,45 @@ void OdometryTask::locate(const ArrivedScan& arrived, Tick& tick) {
   if (progress_) progress_(arrived.scan.valid.end, ++count_);
 }
 
-MappingTask::MappingTask(MotionChannel& motions, Robot& robot, Monitor& monitor)
-    : motions_(motions), robot_(robot), monitor_(monitor), latency_(monitor.stage("packet_to_map")) {}
+MappingTask::MappingTask(const OverloadConfig& overload, Duration deadline, MotionChannel& motions, Robot& robot,
+                         Monitor& monitor)
+    : deadline_(deadline),
+      overload_(overload),
+      motions_(motions),
+      robot_(robot),
+      monitor_(monitor),
+      latency_(monitor.stage("packet_to_map")) {}
 
 void MappingTask::tick(Tick& tick) {
   while (const ArrivedMotion* motion = motions_.take(tick)) {
-    if (const auto extended = robot_.extend_map(motion->scan); !extended)
-      monitor_.event(motion->scan.stamp, "mapping", to_string(extended.error()));
-    if (tick.takes_time()) latency_.wall.record(tick.figure_now() - motion->arrival);
+    extend(*motion, tick);
     if (tick.regime() != Regime::kDrain) break;
   }
   motions_.give_back(tick);
+}
+
+void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
+  const Shed level = decide(motion, tick);
+  if (level != level_.exchange(level, std::memory_order_relaxed))
+    monitor_.event(motion.scan.stamp, "overload", "shed: " + std::string(to_string(level)));
+  ++scans_at_[static_cast<std::size_t>(level)];
+  const ShedPlan plan = plan_of(level);
+  if (count_++ % static_cast<std::uint64_t>(plan.scan_stride) != 0) return;
+  if (const auto extended = robot_.extend_map(motion.scan, {plan.point_stride}); !extended)
+    monitor_.event(motion.scan.stamp, "mapping", to_string(extended.error()));
+  if (tick.takes_time()) latency_.wall.record(tick.figure_now() - motion.arrival);
+}
+
+/// By how late this scan is already and how many wait behind it. A replay of a log sheds what was shed then; virtual
+/// time knows no overload.
+Shed MappingTask::decide(const ArrivedMotion& motion, Tick& tick) {
+  const auto measure = [&] {
+    Load load;
+    load.utilisation = to_seconds(tick.figure_now() - motion.arrival) / to_seconds(deadline_);
+    load.queue_fill = static_cast<double>(motions_.size() - 1) / static_cast<double>(motions_.capacity());
+    return static_cast<std::int32_t>(overload_.step(tick.release(), load));
+  };
+  return static_cast<Shed>(std::clamp(tick.decide(kShedSlot, measure, 0), 0, kShedLevels - 1));
 }
 
 }  // namespace cairn

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <atomic>
 #include <functional>
 
 #include "hal/monitor.hpp"
 #include "onboard/app/robot_profile.hpp"
 #include "onboard/app/tasks/messages.hpp"
+#include "onboard/scheduler/overload.hpp"
 #include "onboard/scheduler/tick.hpp"
 
 namespace cairn {
@@ -37,17 +40,32 @@ class OdometryTask final : public scheduler::Task {
   std::size_t count_ = 0;
 };
 
-/// Located scans in, map out, one in a tick. Slots: 0 located scans taken, 1 how much is shed.
+/// Located scans in, map out, one in a tick. When its scans come too late it sheds work, in the order of Shed. Slots:
+/// 0 located scans taken, 1 the level of shedding.
 class MappingTask final : public scheduler::Task {
  public:
   static constexpr std::size_t kMotionsSlot = 0, kShedSlot = 1;
 
-  /// All must outlive the task.
-  MappingTask(MotionChannel& motions, Robot& robot, Monitor& monitor);
+  /// All must outlive the task. `deadline`: from a scan's last byte to its being in the map.
+  MappingTask(const OverloadConfig& overload, Duration deadline, MotionChannel& motions, Robot& robot,
+              Monitor& monitor);
 
   void tick(scheduler::Tick& tick) override;
 
+  /// Any thread.
+  [[nodiscard]] Shed shed() const { return level_.load(std::memory_order_relaxed); }
+  /// Scans that were mapped at each level.
+  [[nodiscard]] const std::array<RelaxedCounter, kShedLevels>& scans_at() const { return scans_at_; }
+
  private:
+  void extend(const ArrivedMotion& motion, scheduler::Tick& tick);
+  Shed decide(const ArrivedMotion& motion, scheduler::Tick& tick);
+
+  Duration deadline_;
+  OverloadController overload_;
+  std::atomic<Shed> level_{Shed::kNothing};
+  std::array<RelaxedCounter, kShedLevels> scans_at_{};
+  std::uint64_t count_ = 0;
   MotionChannel& motions_;
   Robot& robot_;
   Monitor& monitor_;

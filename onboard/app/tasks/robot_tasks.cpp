@@ -78,7 +78,7 @@ RobotTasks::RobotTasks(Door& door, const RobotProfile& profile, const RunOptions
       drive_(decisions_, drive_news_),
       receive_(scans_, seen_, monitor),
       odometry_(profile, scans_, motions_, robot_, monitor, options.progress),
-      mapping_(motions_, robot_, monitor) {
+      mapping_(profile.overload, profile.schedule.mapping.deadline(), motions_, robot_, monitor) {
   safety_line_.task = &safety_;
   drive_line_.task = &drive_;
   receive_line_.task = &receive_;
@@ -90,6 +90,11 @@ RobotTasks::RobotTasks(Door& door, const RobotProfile& profile, const RunOptions
   odometry_line_.from = {&scans_};
   mapping_line_.from = {&motions_};
   executive_.count_allocations(allocations_of_this_thread);
+  if (!options.reference) return;
+  scheduler::Line& reference = executive_.add(profile.schedule.safety);
+  reference.spec.name = "reference";
+  reference.task = &reference_;
+  reference.live_only = true;
 }
 
 Result<void> RobotTasks::connect(Recorder* recorder) {

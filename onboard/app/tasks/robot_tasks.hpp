@@ -17,6 +17,12 @@
 
 namespace cairn {
 
+/// Does nothing, as often as the control task: what it misses is the machine's doing.
+class IdleTask final : public scheduler::Task {
+ public:
+  void tick(scheduler::Tick& /*tick*/) override {}
+};
+
 /// A robot's tasks, joined by their channels, ready to be run by their executive.
 class RobotTasks {
  public:
@@ -33,6 +39,7 @@ class RobotTasks {
 
   [[nodiscard]] const Robot& robot() const { return robot_; }
   [[nodiscard]] const ReceiveTask::Figures& figures() const { return receive_.figures(); }
+  [[nodiscard]] const MappingTask& mapping() const { return mapping_; }
   [[nodiscard]] const FailsafeDecision& decision() const { return safety_.decision(); }
   [[nodiscard]] const std::optional<DriveState>& drive_state() const { return drive_.state(); }
   [[nodiscard]] const scheduler::Executive& executive() const { return executive_; }
@@ -61,6 +68,7 @@ class RobotTasks {
   ReceiveTask receive_;
   OdometryTask odometry_;
   MappingTask mapping_;
+  IdleTask reference_;
 };
 
 }  // namespace cairn

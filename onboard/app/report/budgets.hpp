@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/result.hpp"
+
+namespace cairn {
+
+/// One line of a budget file: a field of report.json and how large it may be.
+struct BudgetLimit {
+  std::string field;  ///< "tasks.safety.response_p999_ms"
+  double at_most = 0;
+  int line = 0;  ///< in the file, from 1
+};
+
+/// What came of it.
+struct BudgetVerdict {
+  BudgetLimit limit;
+  double measured = 0;
+  [[nodiscard]] bool kept() const { return measured <= limit.at_most; }
+};
+
+/// A budget file: a YAML mapping of report.json's fields, nested as there, to the largest value that is allowed. For
+/// one class of machines, as its name says. Errors: all faults at once, with file and line (kInvalidConfig).
+[[nodiscard]] Result<std::vector<BudgetLimit>> parse_budgets(std::string_view yaml, std::string_view file_name);
+[[nodiscard]] Result<std::vector<BudgetLimit>> load_budgets(const std::filesystem::path& file);
+
+/// Compares. Error kInvalidConfig: a field that the report has not got, or that is no number; all at once. A limit that
+/// cannot be checked would otherwise pass for ever.
+[[nodiscard]] Result<std::vector<BudgetVerdict>> check_budgets(const std::vector<BudgetLimit>& limits,
+                                                               const nlohmann::ordered_json& report);
+/// A table for reading: field, limit, measured, and which were not kept.
+[[nodiscard]] std::string to_table(const std::vector<BudgetVerdict>& verdicts);
+[[nodiscard]] bool all_kept(const std::vector<BudgetVerdict>& verdicts);
+
+}  // namespace cairn
