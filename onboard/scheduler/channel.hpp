@@ -17,6 +17,13 @@ class ChannelBase {
   /// Whether as much has been handed over as the consumer's next tick took then.
   [[nodiscard]] virtual bool holds(const TickRecord& consumer) const = 0;
 
+  struct Fill {
+    std::size_t waiting = 0, capacity = 0;
+    std::uint64_t dropped = 0;
+  };
+  /// For figures: a moment's view, for any thread.
+  [[nodiscard]] virtual Fill fill() const = 0;
+
  protected:
   ChannelBase() = default;
   ChannelBase(const ChannelBase&) = default;
@@ -91,6 +98,7 @@ class Channel final : public ChannelBase {
     const auto wanted = static_cast<std::size_t>(std::max(0, consumer.slots[ends_.consumer_slot]));
     return queue_.size() >= wanted;
   }
+  [[nodiscard]] Fill fill() const override { return {queue_.size(), queue_.capacity(), dropped_}; }
   [[nodiscard]] std::size_t size() const { return queue_.size(); }
   [[nodiscard]] std::size_t capacity() const { return ends_.capacity; }
   [[nodiscard]] std::uint64_t dropped() const { return dropped_; }

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "hal/monitor.hpp"
+#include "onboard/app/live_server.hpp"
+#include "onboard/app/live_view.hpp"
+#include "onboard/app/watchdog.hpp"
+#include "onboard/scheduler/executive.hpp"
+#include "onboard/scheduler/failsafe.hpp"
+#include "onboard/scheduler/overload.hpp"
+
+namespace cairn {
+
+/// Tells the outside how a live run goes: signs of life to the service manager, the live view to whoever watches. A
+/// chore of housekeeping; reads figures that their tasks write without a lock.
+class Telling {
+ public:
+  struct Options {
+    std::string robot;
+    std::filesystem::path live_socket;         ///< empty: no live view
+    std::string notify_socket;                 ///< $NOTIFY_SOCKET
+    std::optional<Duration> watchdog_timeout;  ///< watchdog_timeout() of $WATCHDOG_USEC and $WATCHDOG_PID
+  };
+  /// As the environment of this process says.
+  [[nodiscard]] static Options from_environment(std::string robot, std::filesystem::path live_socket);
+
+  /// After all lines are added; both must outlive it. What cannot be opened is an event, and left out.
+  Telling(const scheduler::Executive& executive, Monitor& monitor, const Options& options, Time now);
+
+  /// What there was to hear last: on the thread of tick().
+  void set_decision(const FailsafeDecision& decision) { decision_ = decision; }
+  void set_shed(Shed level) { shed_ = level; }
+  /// A chore. False while a task hangs: Fault::kTaskHung.
+  bool tick(Time now);
+
+  [[nodiscard]] LiveView view(Time now) const;
+
+ private:
+  const scheduler::Executive& executive_;
+  Monitor& monitor_;
+  std::string robot_;
+  FailsafeDecision decision_;
+  Shed shed_ = Shed::kNothing;
+  std::optional<LiveServer> server_;
+  std::optional<Watchdog> watchdog_;
+  std::optional<Time> published_;
+};
+
+}  // namespace cairn
