@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/top_command.hpp"
 
+#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
-#include <charconv>
-#include <cstdlib>
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -23,12 +23,12 @@ struct TopArguments {
   bool once = false, json = false;
 };
 
-int size_of_terminal(const char* variable, int otherwise) {
-  const char* text = std::getenv(variable);
-  int size = 0;
-  if (text == nullptr || std::from_chars(text, text + std::string_view(text).size(), size).ec != std::errc{})
-    return otherwise;
-  return size >= 20 && size <= 1000 ? size : otherwise;
+/// Of the terminal on stdout; where it is none, what a wide page holds.
+Screen screen_now() {
+  winsize size{};
+  const bool terminal = ::isatty(STDOUT_FILENO) != 0;
+  if (!terminal || ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return {120, 200, false};
+  return {size.ws_col, std::max(2, static_cast<int>(size.ws_row)) - 1, true};
 }
 
 void show(const LiveView& view, const TopArguments& a) {
@@ -36,11 +36,11 @@ void show(const LiveView& view, const TopArguments& a) {
     std::cout << to_line(view) << std::flush;
     return;
   }
-  const bool terminal = ::isatty(STDOUT_FILENO) != 0;
-  const Screen screen{size_of_terminal("COLUMNS", 110), size_of_terminal("LINES", 24) - 1, terminal};
-  std::string text = terminal && !a.once ? "\x1b[H" : "";
-  for (const std::string& line : render(view, screen)) text += line + (terminal ? "\x1b[K\n" : "\n");
-  if (terminal && !a.once) text += "\x1b[J";
+  const Screen screen = screen_now();
+  const bool in_place = screen.colour && !a.once;
+  std::string text = in_place ? "\x1b[H" : "";
+  for (const std::string& line : render(view, screen)) text += line + (in_place ? "\x1b[K\n" : "\n");
+  if (in_place) text += "\x1b[J";
   std::cout << text << std::flush;
 }
 
