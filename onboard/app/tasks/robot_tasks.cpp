@@ -127,7 +127,16 @@ void RobotTasks::note_changes() {
       if (change->ended.has(row.fault)) monitor_.event(change->at, "safety", "ended: " + std::string(row.code));
     }
     monitor_.event(change->at, "safety", "mode: " + std::string(to_string(change->mode)));
+    noted_.mode = change->mode;
+    noted_.cause = change->cause;
+    noted_.active = change->active;
+    noted_.epoch = change->epoch;
   }
+}
+
+void RobotTasks::tell(Telling& telling, Time now) {
+  telling.set_decision(noted_);
+  safety_.report(telling.tick(now) ? FaultSet{} : FaultSet{Fault::kTaskHung});
 }
 
 Time RobotTasks::first_arrival() {
@@ -145,6 +154,8 @@ Result<void> RobotTasks::run_live(const Clock& clock) {
   HousekeepingTask housekeeping(executive_, (recorder ? options_.record : options_.out) / "schedule.log",
                                 recorder ? &*recorder : nullptr);
   housekeeping.add([this](Time) { note_changes(); });
+  Telling telling(executive_, monitor_, Telling::from_environment(profile_.name, options_.live_view), clock.now());
+  housekeeping.add([&](Time now) { tell(telling, now); });
   scheduler::Line& line = executive_.add(profile_.schedule.housekeeping);
   line.task = &housekeeping;
   line.live_only = true;

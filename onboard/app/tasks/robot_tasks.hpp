@@ -13,6 +13,7 @@
 #include "onboard/app/tasks/receive_task.hpp"
 #include "onboard/app/tasks/recorder.hpp"
 #include "onboard/app/tasks/safety_task.hpp"
+#include "onboard/app/tasks/telling.hpp"
 #include "onboard/scheduler/executive.hpp"
 
 namespace cairn {
@@ -47,6 +48,7 @@ class RobotTasks {
  private:
   Result<void> connect(Recorder* recorder);
   void note_changes();
+  void tell(Telling& telling, Time now);
   [[nodiscard]] Time first_arrival();
 
   Door& door_;
@@ -69,6 +71,7 @@ class RobotTasks {
   OdometryTask odometry_;
   MappingTask mapping_;
   IdleTask reference_;
+  FailsafeDecision noted_;  // as far as note_changes() has read
 };
 
 }  // namespace cairn

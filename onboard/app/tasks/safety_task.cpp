@@ -66,8 +66,9 @@ void SafetyTask::read_estop(Tick& tick) {
   inputs_.estop.latched = estop_->stopped(now);
   inputs_.estop.released = estop_->released(now);
   const auto cause = estop_->cause();
-  inputs_.estop.lost =
-      inputs_.estop.latched && (cause == gpio::EStop::Cause::kLineLost || cause == gpio::EStop::Cause::kSilent);
+  // Once the contact is seen closed again, the loss is history: it must not stand in the way of a request.
+  inputs_.estop.lost = inputs_.estop.latched && !inputs_.estop.released &&
+                       (cause == gpio::EStop::Cause::kLineLost || cause == gpio::EStop::Cause::kSilent);
 }
 
 void SafetyTask::read_level(Tick& tick) {
@@ -93,7 +94,7 @@ void SafetyTask::tell(const FailsafeDecision& before, Tick& tick) {
   }
   if (before.mode == now.mode && now.raised.empty() && now.ended.empty()) return;
   if (Change* change = changes_.back()) {
-    *change = {tick.release(), now.mode, now.cause, now.raised, now.ended};
+    *change = {tick.release(), now.mode, now.cause, now.raised, now.ended, now.active, now.epoch};
     changes_.push();
   } else {
     ++lost_changes_;

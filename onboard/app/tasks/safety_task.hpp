@@ -29,7 +29,8 @@ class SafetyTask final : public scheduler::Task {
     Time at{};
     Mode mode{};
     std::optional<Fault> cause;
-    FaultSet raised, ended;
+    FaultSet raised, ended, active;
+    std::uint32_t epoch = 0;
   };
   static constexpr std::size_t kChanges = 1024;
 
