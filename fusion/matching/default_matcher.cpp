@@ -12,20 +12,21 @@ namespace cairn::matching {
 namespace {
 
 constexpr std::size_t kSearchPoints = 2000, kRefinePoints = 2000;
-constexpr int kModes = 16, kWideModes = 48;
+constexpr int kModes = 40, kWideModes = 48;
 constexpr double kWindowSigmas = 3, kMinWindowM = 0.8, kMaxWindowM = 20, kMaxHeightM = 4, kMinYaw = 0.07;
 constexpr double kOneHeightM = 0.5;  // a prior that knows the height better than this needs no search over it
 constexpr double kWideYaw = 1.0;
 constexpr std::size_t kPlacements = 400, kHeightVotes = 600, kGlobalModes = 64, kBestSwept = 24, kCloser = 6;
 constexpr double kSameM = 0.8, kSameRad = 0.07;  // refined modes this close are one
 
-constexpr RefineOptions kOnCoarse{3.0F, 1.25F, 0.75F, 12, 1e-3, 1e-4};  // gates in cells
-constexpr RefineOptions kOnFine{4.0F, 2.0F, 0.7F, 30, 1e-4, 1e-5};
-constexpr RefineOptions kCloserLook{4.0F, 2.0F, 0.7F, 6, 1e-3, 1e-4};
+constexpr RefineOptions kOnCoarse{3.0F, 1.25F, 0.75F, 12, 0, 1e-3, 1e-4};  // gates in cells
+constexpr RefineOptions kOnFine{4.0F, 2.0F, 0.7F, 30, 0.4F, 1e-4, 1e-5};
+constexpr RefineOptions kCloserLook{4.0F, 2.0F, 0.7F, 6, 0, 1e-3, 1e-4};
 
 RefineOptions in_metres(RefineOptions options, float cell_m) {
   options.gate_m *= cell_m;
   options.last_gate_m *= cell_m;
+  options.robust_m *= cell_m;
   return options;
 }
 

@@ -10,6 +10,7 @@ namespace {
 
 constexpr float kThin = 0.999F;  // 1 less the variance along a normal over that across it
 constexpr int kMinPairs = 20;
+constexpr float kLevel = 0.85F;
 
 using Matrix36f = Eigen::Matrix<float, 3, 6>;
 using Matrix6f = Eigen::Matrix<float, 6, 6>;
@@ -27,10 +28,16 @@ Eigen::Matrix3f information(const Eigen::Vector3f& n_target, const Eigen::Vector
   return sum.inverse();
 }
 
+/// Geman–McClure's weight of a pair by its distance along the normals.
+float credit(float cost, float robust_m) {
+  const float distance = cost * 2 * (1 - kThin) / (robust_m * robust_m);
+  return 1 / ((1 + distance) * (1 + distance));
+}
+
 }  // namespace
 
 NormalEquations plane_to_plane(std::span<const Surfel> target, const NearestGrid& nearest,
-                               std::span<const Surfel> source, const SE3& T, float gate_m) {
+                               std::span<const Surfel> source, const SE3& T, float gate_m, float robust_m) {
   NormalEquations sum;
   const Eigen::Matrix3f R = T.rotation().cast<float>();
   const Eigen::Vector3f t = T.translation().cast<float>();
@@ -39,8 +46,13 @@ NormalEquations plane_to_plane(std::span<const Surfel> target, const NearestGrid
     const int i = nearest.nearest(q, gate_m);
     if (i == NearestGrid::kNone) continue;
     const Surfel& r = target[static_cast<std::size_t>(i)];
-    const Eigen::Vector3f e = R.transpose() * (q - r.point);
-    const Eigen::Matrix3f W = information(R.transpose() * r.normal, s.normal);
+    const Eigen::Vector3f e = R.transpose() * (q - r.point), n = R.transpose() * r.normal;
+    // The two faces of a trunk or a thin wall, seen by one robot each, are not one place.
+    if (r.oriented && s.oriented && n.dot(s.normal) < 0) continue;
+    // The voxels of sloping ground are terraces, whose edges would hold fast in the wrong place.
+    const bool level = std::abs(r.normal.z()) > kLevel && std::abs(s.normal.z()) > kLevel;
+    Eigen::Matrix3f W = level ? information(R.row(2).transpose(), Eigen::Vector3f::UnitZ()) : information(n, s.normal);
+    if (robust_m > 0) W *= credit(e.dot(W * e), robust_m);
     Matrix36f J;
     J << Eigen::Matrix3f::Identity(), -skew(s.point);
     const Matrix36f WJ = W * J;
@@ -57,7 +69,7 @@ Refinement refine(std::span<const Surfel> target, const NearestGrid& nearest, st
   Refinement out{initial, 0, 0};
   float gate = options.gate_m;
   while (out.iterations < options.max_iterations && budget.one_more()) {
-    const NormalEquations sum = plane_to_plane(target, nearest, source, out.T_target_source, gate);
+    const NormalEquations sum = plane_to_plane(target, nearest, source, out.T_target_source, gate, options.robust_m);
     ++out.iterations;
     out.pairs = sum.pairs;
     if (sum.pairs < kMinPairs) break;

@@ -15,6 +15,7 @@ struct RefineOptions {
   float last_gate_m = 0.5F;  ///< which shrinks by `gate_decay` each time down to this
   float gate_decay = 0.75F;
   int max_iterations = 12;
+  float robust_m = 0;                     ///< pairs this far apart along their normals count a quarter; 0: all alike
   double stop_m = 1e-4, stop_rad = 1e-5;  ///< a smaller step, once the gate has shrunk, ends it
 };
 
@@ -32,9 +33,11 @@ struct NormalEquations {
   int pairs = 0;
 };
 /// Σ eᵀ (Σ_t + R Σ_s Rᵀ)⁻¹ e over the pairs within the gate, e = T x_s − x_t, with the covariance of a surfel thin
-/// along its normal (4.17, with R on the side that makes both covariances speak of the target's frame).
+/// along its normal (4.17, with R on the side that makes both covariances speak of the target's frame). Pairs that were
+/// seen from opposite sides are left out.
 [[nodiscard]] NormalEquations plane_to_plane(std::span<const Surfel> target, const NearestGrid& nearest,
-                                             std::span<const Surfel> source, const SE3& T, float gate_m);
+                                             std::span<const Surfel> source, const SE3& T, float gate_m,
+                                             float robust_m = 0);
 
 /// Gauss–Newton on plane_to_plane(). Stops early when fewer than 20 pairs are left or the budget is spent.
 [[nodiscard]] Refinement refine(std::span<const Surfel> target, const NearestGrid& nearest,

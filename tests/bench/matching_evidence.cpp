@@ -60,6 +60,9 @@ void print(const std::string& name, const Matcher& matcher, const SE3& initial, 
               e.weakest_translation, e.uniqueness, r->accepted, r->probability_correct, r->book_accepted);
 }
 
+/// fr_079 and geb079 are maps of the same building: a match of them is not wrong, but nobody measured what is right.
+bool one_building(const std::string& a, const std::string& b) { return a.ends_with("079") && b.ends_with("079"); }
+
 void run(unsigned seed) {
   const auto all = pairs(seed);
   std::vector<MapFeatures> a, b;
@@ -72,8 +75,12 @@ void run(unsigned seed) {
     const auto own = make_matcher("default", a[i], b[i]);
     for (int k = 0; k < 3; ++k) print(all[i].name, **own, start(all[i].T_a_b, 1.5, random), &all[i].T_a_b);
     for (int k = 0; k < 12; ++k) print(all[i].name, **own, start(all[i].T_a_b, 15, random), &all[i].T_a_b);
-    const std::size_t j = (i + 1 + random() % (all.size() - 1)) % all.size();
+    std::size_t j = (i + 1 + random() % (all.size() - 1)) % all.size();
+    if (one_building(all[i].name, all[j].name)) j = 0;
     const auto other = make_matcher("default", a[i], b[j]);
+    const auto own_global = make_matcher("global", a[i], b[i]), other_global = make_matcher("global", a[i], b[j]);
+    print(all[i].name, **own_global, {}, &all[i].T_a_b);
+    print(all[i].name + "+" + all[j].name, **other_global, {}, nullptr);
     for (int k = 0; k < 6; ++k)
       print(all[i].name + "+" + all[j].name, **other, start(all[i].T_a_b, 15, random), nullptr);
   }

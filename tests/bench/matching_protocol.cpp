@@ -111,7 +111,8 @@ std::vector<support::MapPair> pairs(const std::string& wanted, unsigned seed, do
   }
   for (const support::Scene& scene : support::all_scenes())
     if ((wanted == "all" && scene.name != "endless") || wanted == scene.name)
-      out.push_back(support::two_robots(scene, {0, 3, 36}, {3 * (1 - share), 3 * (2 - share), 36}, seed, 1.3 + 0.7 * seed));
+      out.push_back(
+          support::two_robots(scene, {0, 3, 36}, {3 * (1 - share), 3 * (2 - share), 36}, seed, 1.3 + 0.7 * seed));
   return out;
 }
 

@@ -66,7 +66,7 @@ TEST(Refine, FindsTheMotionOfACopy) {
     s.normal = off.rotation().cast<float>() * s.normal;
   }
   Budget budget = Budget::steps(1000);
-  const Refinement r = refine(a->fine(), grid, moved, {}, {0.8F, 0.4F, 0.7F, 40, 1e-5, 1e-6}, budget);
+  const Refinement r = refine(a->fine(), grid, moved, {}, {0.8F, 0.4F, 0.7F, 40, 0, 1e-5, 1e-6}, budget);
   EXPECT_LT((r.T_target_source * off).log().norm(), 2e-3);
   EXPECT_EQ(r.iterations, budget.spent());
 }
