@@ -32,10 +32,12 @@ void print_summary(const RunReport& r, const std::filesystem::path& out) {
   std::printf("%s: %zu scans in %.1f s, %.2f m travelled, %llu packets lost\n", r.robot.c_str(),
               static_cast<std::size_t>(r.scans), r.duration_s, r.distance_m,
               static_cast<unsigned long long>(r.lost_packets));
-  for (const StageStats& s : r.monitor->stages())
+  for (const StageStats& s : r.monitor->stages()) {
+    if (s.wall.count() == 0) continue;  // latencies exist in real time only
     std::printf("  %-9s p50 %7.3f ms  p99 %7.3f ms  max %7.3f ms\n", s.name.c_str(),
                 to_milliseconds(s.wall.percentile(0.5)), to_milliseconds(s.wall.percentile(0.99)),
                 to_milliseconds(s.wall.max()));
+  }
   std::printf("  map: %llu occupied and %llu free voxels of %.2f m\n", static_cast<unsigned long long>(r.map.occupied),
               static_cast<unsigned long long>(r.map.free), r.map.resolution_m);
   for (const Event& e : r.monitor->events())

@@ -113,7 +113,8 @@ void Executive::run_serial(const ReplayOptions& options) {
 void Executive::drain(const Clock* clock) {
   TickRecord unused;
   Time end = Time::min();
-  for (const Line& line : lines_) end = std::max(end, line.releases.at(line.next));
+  for (const Line& line : lines_)
+    if (!line.live_only) end = std::max(end, line.releases.at(line.next));
   const auto each = [&](auto act) {
     for (std::size_t i = 0; i < lines_.size(); ++i) {
       if (lines_[i].live_only) continue;

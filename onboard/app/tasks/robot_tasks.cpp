@@ -136,7 +136,22 @@ void RobotTasks::note_changes() {
 
 void RobotTasks::tell(Telling& telling, Time now) {
   telling.set_decision(noted_);
-  safety_.report(telling.tick(now) ? FaultSet{} : FaultSet{Fault::kTaskHung});
+  telling.set_shed(mapping_.shed());
+  FaultSet faults;
+  faults.set(Fault::kTaskHung, !telling.tick(now));
+  faults.set(Fault::kBestEffort, best_effort_);
+  faults.set(Fault::kOverload, mapping_.shed() != Shed::kNothing);
+  safety_.report(faults);
+}
+
+/// What real-time operation lacks here is said once; the run goes on in best-effort mode.
+void RobotTasks::become_real_time() {
+  int highest = 0;
+  for (const scheduler::Line& line : executive_.lines()) highest = std::max(highest, line.spec.priority);
+  const auto missing = scheduler::probe_privileges(highest);
+  best_effort_ = !missing.empty();
+  for (const std::string& what : missing) monitor_.event({}, "best effort", "missing: " + what);
+  if (!scheduler::lock_memory() && !best_effort_) monitor_.event({}, "best effort", "memory cannot be locked");
 }
 
 Time RobotTasks::first_arrival() {
@@ -159,10 +174,15 @@ Result<void> RobotTasks::run_live(const Clock& clock) {
   scheduler::Line& line = executive_.add(profile_.schedule.housekeeping);
   line.task = &housekeeping;
   line.live_only = true;
+  become_real_time();
   const Time start = clock.now() + kStartIn;
   const Duration length = options_.seconds ? from_seconds(*options_.seconds) : Duration::max();
   executive_.run_live({start, [&] { return stop_requested() || clock.now() - start > length; }}, clock);
   note_changes();
+  for (const scheduler::Line& l : executive_.lines())
+    if (l.unlogged > 0)
+      monitor_.event(clock.now(), "schedule",
+                     l.spec.name + ": ticks are missing in the log: not to be replayed to the bit");
   return housekeeping.close(clock.now());
 }
 
@@ -175,6 +195,7 @@ Result<void> RobotTasks::replay() {
   options.log = door_.schedule ? &*door_.schedule : nullptr;
   options.pace = options_.pace == Pace::kRecorded ? &clock : nullptr;
   if (options_.seconds) options.length = from_seconds(*options_.seconds);
+  if (options.pace != nullptr) become_real_time();
   if (const auto done = executive_.run_replay(options); !done) return done.error();
   note_changes();
   if (executive_.diverged() || receive_.missing_packets() + drive_.missing_packets() > 0)

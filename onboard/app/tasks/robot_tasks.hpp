@@ -48,6 +48,7 @@ class RobotTasks {
  private:
   Result<void> connect(Recorder* recorder);
   void note_changes();
+  void become_real_time();
   void tell(Telling& telling, Time now);
   [[nodiscard]] Time first_arrival();
 
@@ -71,6 +72,7 @@ class RobotTasks {
   OdometryTask odometry_;
   MappingTask mapping_;
   IdleTask reference_;
+  bool best_effort_ = false;
   FailsafeDecision noted_;  // as far as note_changes() has read
 };
 

@@ -28,6 +28,7 @@ void SafetyTask::watch_estop(const gpio::Config& config, Source& source, SourceI
 }
 
 void SafetyTask::tick(Tick& tick) {
+  if (tick.regime() == scheduler::Regime::kDrain) return;  // the run is over: nothing is late any more
   inputs_.now = tick.release();
   while (const SensorsSeen* news = parts_.sensors.take(tick))
     for (std::size_t i = 0; i < kWatched; ++i)
