@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// A live run on loopback: a LiDAR's datagrams come while the robot's threads run, and what was recorded of it, played
+// again with another number of threads, is the same run.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "drivers/velodyne/udp_sender.hpp"
+#include "drivers/velodyne/udp_source.hpp"
+#include "hal/workers.hpp"
+#include "onboard/app/run.hpp"
+#include "tests/support/scenes.hpp"
+#include "tests/support/temporary_folder.hpp"
+#include "tests/support/vlp16_drive.hpp"
+
+namespace cairn {
+namespace {
+
+const Vector6 kMountOfLidar = (Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished();
+constexpr double kLiveSeconds = 1.6;
+
+/// Two ports that nobody else uses while they are held; a moment later nobody does either, as a rule.
+std::pair<int, int> ports_for_now() {
+  velodyne::Config any;
+  any.data_port = any.position_port = 0;
+  const LiveClock clock;
+  const auto source = velodyne::UdpSource::open(any, SourceId{0}, clock).value();
+  return {source->data_port(), source->position_port()};
+}
+
+/// Sends the packets as far apart as they came.
+void send(const std::vector<Packet>& packets, int port) {
+  const auto wire = velodyne::UdpSender::open("127.0.0.1").value();
+  const LiveClock clock;
+  const Duration offset = clock.now() - packets.front().arrival;
+  for (const Packet& packet : packets) {
+    LiveClock::wait_until(packet.arrival + offset);
+    ASSERT_TRUE(wire->send(packet.payload(), static_cast<std::uint16_t>(port)));
+  }
+}
+
+TEST(LiveRun, IsRepeatedToTheBitFromWhatItRecorded) {
+  const support::TemporaryFolder folder;
+  const auto [data, position] = ports_for_now();
+  std::ofstream(folder / "robot.yaml") << "lidar:\n  data_port: " << data << "\n  position_port: " << position
+                                       << "\n  T_base_lidar: [0.2, 0, 0.6, 0, 0, 0]\n";
+  const support::Vlp16Drive drive(support::lobby(), SE3::from_xyz_rpy(kMountOfLidar), kLiveSeconds, 1);
+  RunOptions live;
+  live.config = folder / "robot.yaml";
+  live.out = folder / "live";
+  live.record = folder / "recording";
+  live.seconds = kLiveSeconds;
+  live.pace = Pace::kLive;
+  Result<std::unique_ptr<RunResult>> result = Error{Errc::kNotFound, "the run has not begun"};
+  Workers both(2);
+  both.for_each(2, [&](std::size_t side) { side == 0 ? void(result = run(live)) : send(drive.packets(), data); });
+  ASSERT_TRUE(result) << to_string(result.error());
+  const RunReport& ran = (*result)->report;
+  EXPECT_GT(ran.scans, 3U);
+  EXPECT_EQ(ran.control_thread_allocations, 0U);
+
+  for (const int threads : {1, 2, 4}) {
+    RunOptions again = live;
+    again.recording = live.record;
+    again.record.clear();
+    again.seconds.reset();
+    again.pace = threads == 2 ? Pace::kRecorded : Pace::kMaximum;
+    again.threads = threads;
+    again.out = folder / "again";
+    const auto repeated = run(again);
+    ASSERT_TRUE(repeated) << to_string(repeated.error());
+    EXPECT_EQ((*repeated)->report.output_sha256, ran.output_sha256) << threads << " threads";
+    for (const Event& e : (*repeated)->monitor.events()) EXPECT_NE(e.stage, "schedule") << e.what;
+  }
+}
+
+}  // namespace
+}  // namespace cairn
