@@ -61,7 +61,8 @@ class LidarOdometry {
 
   /// Goes on from where a run ended: `points_odom` is what its map says is occupied, `T_odom_base` where the base was
   /// at `stamp`. The base may have moved since, by some metres; the first scan looks for it there. Points that are not
-  /// finite or farther than the window are left out. To be called before the first scan.
+  /// finite or farther than the window are left out. Where the map is small or its walls are far, the base may be
+  /// placed metres off without `lost` being set: voxels tell less than scans. To be called before the first scan.
   void resume(const UncertainPose& T_odom_base, Time stamp, std::span<const Eigen::Vector3f> points_odom);
 
   /// Blocks the map holds, for figures and tests.

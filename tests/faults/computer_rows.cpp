@@ -135,7 +135,7 @@ std::vector<Row> computer_rows() {
       {"C13", "saved state with any damage", "the map's own pose, with an event", 0ms, 0ms, N,
        "generations/GenerationsTest.ADamagedPoseIsAnEventAndTheMapsOwnIsTaken"},
       {"C14", "restart in the middle of a drive", "the trajectory goes on within a voxel", 0ms, 0ms, N,
-       "robot/Resume.InEverySceneTheTrajectoryGoesOn"},
+       "robot/Scenes/Resumed.TheTrajectoryGoesOn"},
   };
 }
 

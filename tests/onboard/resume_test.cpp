@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A robot that dies on its way and goes on from what it saved.
+// A robot that dies on its way and goes on from what it saved. It must have seen enough: after half of the way (2.4 s
+// of mapping) the way back is not found in office and car park, and the odometry does not notice.
 #include <gtest/gtest.h>
 
 #include <cstdio>
@@ -29,6 +30,7 @@ class Journey {
     return lidar_.scan(
         world_, [this](double t) { return at(t); }, 0.1 * scans_++);
   }
+  void miss(int scans) { scans_ += scans; }
   void step(Robot& robot) {
     const Scan scan = next();
     Budget budget = Budget::steps(12);
@@ -77,44 +79,47 @@ SavedState state_of(const Journey& journey) {
   return state;
 }
 
-TEST(Resume, InEverySceneTheTrajectoryGoesOn) {
-  std::printf("%-18s %22s %28s %24s\n", "scene", "before the kill", "first pose after it", "3 s later");
-  for (const support::Scene& scene : {support::corridor(), support::lobby(), support::office(), support::carpark()}) {
-    SCOPED_TRACE(scene.name);
-    support::TemporaryFolder folder;
-    Journey journey(scene, 5.0);
-    Generations generations(folder.path(), journey.monitor);
-    Vector6 before;
-    {
-      Robot robot(journey.config, journey.workers, journey.workers, journey.monitor);
-      for (int i = 0; i < 40; ++i) journey.step(robot);
-      ASSERT_TRUE(generations.save(robot.map(), state_of(journey)));
-      for (int i = 0; i < 8; ++i) journey.step(robot);
-      ASSERT_TRUE(generations.save_state(state_of(journey)));
-      before = journey.error();
-    }
-    for (int i = 0; i < 12; ++i) (void)journey.next();  // dead: 0.2 s at full speed, then braking, then at rest
+class Resumed : public testing::TestWithParam<support::Scene> {};
 
-    Generations again(folder.path(), journey.monitor);
-    const auto saved = again.load(Time{});
-    ASSERT_TRUE(saved);
-    Robot robot(journey.config, journey.workers, journey.workers, journey.monitor,
-                {*saved->map, saved->state.T_odom_base, saved->state.stamp});
-    journey.step(robot);
-    const Vector6 first = journey.error();
-    EXPECT_FALSE(journey.last.lost);
-    for (int i = 0; i < 30; ++i) journey.step(robot);
-    const Vector6 later = journey.error();
-    EXPECT_FALSE(journey.last.lost);
-    std::printf("%-18s %10.3f m %7.2f deg %14.3f m %7.2f deg %12.3f m %6.2f deg\n", scene.name.c_str(),
-                before.head<3>().norm(), before.tail<3>().norm() * 57.3, first.head<3>().norm(),
-                first.tail<3>().norm() * 57.3, later.head<3>().norm(), later.tail<3>().norm() * 57.3);
-    EXPECT_LT(first.head<3>().norm(), before.head<3>().norm() + 0.10);
-    EXPECT_LT(first.tail<3>().norm(), before.tail<3>().norm() + 0.02);
-    EXPECT_LT(later.head<3>().norm(), before.head<3>().norm() + 0.10);
-    EXPECT_LT(later.tail<3>().norm(), before.tail<3>().norm() + 0.02);
+TEST_P(Resumed, TheTrajectoryGoesOn) {
+  const support::Scene& scene = GetParam();
+  support::TemporaryFolder folder;
+  Journey journey(scene, 5.0);
+  Generations generations(folder.path(), journey.monitor);
+  Vector6 before;
+  {
+    Robot robot(journey.config, journey.workers, journey.workers, journey.monitor);
+    for (int i = 0; i < 40; ++i) journey.step(robot);
+    ASSERT_TRUE(generations.save(robot.map(), state_of(journey)));
+    for (int i = 0; i < 8; ++i) journey.step(robot);
+    ASSERT_TRUE(generations.save_state(state_of(journey)));
+    before = journey.error();
   }
+  journey.miss(12);  // dead: 0.2 s at full speed, then braking, then at rest
+
+  Generations again(folder.path(), journey.monitor);
+  const auto saved = again.load(Time{});
+  ASSERT_TRUE(saved);
+  Robot robot(journey.config, journey.workers, journey.workers, journey.monitor,
+              {*saved->map, saved->state.T_odom_base, saved->state.stamp});
+  journey.step(robot);
+  const Vector6 first = journey.error();
+  EXPECT_FALSE(journey.last.lost);
+  for (int i = 0; i < 15; ++i) journey.step(robot);
+  const Vector6 later = journey.error();
+  EXPECT_FALSE(journey.last.lost);
+  std::printf("%-18s %10.3f m %7.2f deg %14.3f m %7.2f deg %12.3f m %6.2f deg\n", scene.name.c_str(),
+              before.head<3>().norm(), before.tail<3>().norm() * 57.3, first.head<3>().norm(),
+              first.tail<3>().norm() * 57.3, later.head<3>().norm(), later.tail<3>().norm() * 57.3);
+  EXPECT_LT(first.head<3>().norm(), before.head<3>().norm() + 0.10);
+  EXPECT_LT(first.tail<3>().norm(), before.tail<3>().norm() + 0.02);
+  EXPECT_LT(later.head<3>().norm(), before.head<3>().norm() + 0.10);
+  EXPECT_LT(later.tail<3>().norm(), before.tail<3>().norm() + 0.02);
 }
+
+INSTANTIATE_TEST_SUITE_P(Scenes, Resumed,
+                         testing::Values(support::corridor(), support::lobby(), support::office(), support::carpark()),
+                         [](const auto& scene) { return scene.param.name; });
 
 }  // namespace
 }  // namespace cairn

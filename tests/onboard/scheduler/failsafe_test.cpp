@@ -279,8 +279,8 @@ TEST(Failsafe, CommandsAreSlowedOnTheSameCurve) {
 TEST(Failsafe, StepsAllocateNothing) {
   Rig rig;
   const std::size_t before = support::allocation_count();
-  for (int i = 0; i < 100'000; ++i) {
-    rig.in.faults = FaultSet(static_cast<std::uint32_t>(i * 2'654'435'761U) & ((1U << kFaults) - 1));
+  for (std::uint32_t i = 0; i < 100'000; ++i) {
+    rig.in.faults = FaultSet((i * 2'654'435'761U) & ((1U << kFaults) - 1));
     rig.in.rearm = rig.decision().epoch;
     rig.step();
   }
