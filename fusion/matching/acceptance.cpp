@@ -9,12 +9,12 @@ namespace {
 
 constexpr int kMinStructurePairs = 60;
 constexpr double kMinWeakest = 0.02;
-constexpr double kMinProbability = 0.9;
+constexpr double kMinProbability = 0.95;
 
 double probability(const Evidence& e) {
-  const double z = -9.412 - 1.367 * e.structure_inliers - 10.482 * std::sqrt(e.conflict + e.reverse_conflict) +
-                   1.000 * std::log(1.0 + e.structure_pairs) + 8.676 * std::sqrt(e.weakest_translation) +
-                   3.035 * e.uniqueness + 1.544 * e.overlap;
+  const double z = -11.502 + 0.176 * e.structure_inliers - 13.174 * std::sqrt(e.conflict + e.reverse_conflict) +
+                   1.599 * std::log(1.0 + e.structure_pairs) + 8.890 * std::sqrt(e.weakest_translation) +
+                   3.324 * e.uniqueness - 2.585 * e.overlap;
   return 1 / (1 + std::exp(-z));
 }
 

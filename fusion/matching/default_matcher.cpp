@@ -146,4 +146,9 @@ Result<MatchResult> DefaultMatcher::match(const std::optional<UncertainPose>& in
   return judge_.conclude(T, prior.covariance, uniqueness(modes), budget);
 }
 
+Result<MatchResult> GlobalMatcher::match(const std::optional<UncertainPose>& initial, Budget& budget) const {
+  if (auto fault = fault_of(initial)) return *std::move(fault);
+  return DefaultMatcher::match(std::nullopt, budget);
+}
+
 }  // namespace cairn::matching

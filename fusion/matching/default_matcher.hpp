@@ -45,14 +45,11 @@ class DefaultMatcher : public Matcher {
   NearestGrid near_coarse_;
 };
 
-/// Never believes a guess.
+/// Never believes a guess; one that cannot be used is an error all the same.
 class GlobalMatcher final : public DefaultMatcher {
  public:
   using DefaultMatcher::DefaultMatcher;
-  [[nodiscard]] Result<MatchResult> match(const std::optional<UncertainPose>& /*initial*/,
-                                          Budget& budget) const override {
-    return DefaultMatcher::match(std::nullopt, budget);
-  }
+  [[nodiscard]] Result<MatchResult> match(const std::optional<UncertainPose>& initial, Budget& budget) const override;
 };
 
 }  // namespace cairn::matching

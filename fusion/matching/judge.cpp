@@ -14,16 +14,6 @@ namespace {
 constexpr std::size_t kFinePoints = 8000, kVerifyPoints = 1500, kFewPoints = 300, kMinStructure = 60;
 constexpr float kNearCells = 4;
 
-/// The error for a guess that cannot be used; none if it can.
-std::optional<Error> fault_of(const std::optional<UncertainPose>& initial) {
-  if (!initial) return std::nullopt;
-  if (!initial->mean.matrix().allFinite() || !initial->covariance.allFinite())
-    return Error{Errc::kInvalidConfig, "the initial pose is not finite", "initial pose"};
-  if (Eigen::SelfAdjointEigenSolver<Matrix6>(initial->covariance).eigenvalues()[0] <= 0)
-    return Error{Errc::kInvalidConfig, "the initial covariance is not positive definite", "initial pose"};
-  return std::nullopt;
-}
-
 }  // namespace
 
 std::vector<Surfel> structure_of(std::span<const Surfel> surfels) {
@@ -60,6 +50,15 @@ Party party_of(const MapFeatures& map) {
   party.structure = sample(std::span<const Surfel>(structure), kVerifyPoints);
   party.few = sample(std::span<const Surfel>(structure), kFewPoints);
   return party;
+}
+
+std::optional<Error> fault_of(const std::optional<UncertainPose>& initial) {
+  if (!initial) return std::nullopt;
+  if (!initial->mean.matrix().allFinite() || !initial->covariance.allFinite())
+    return Error{Errc::kInvalidConfig, "the initial pose is not finite", "initial pose"};
+  if (Eigen::SelfAdjointEigenSolver<Matrix6>(initial->covariance).eigenvalues()[0] <= 0)
+    return Error{Errc::kInvalidConfig, "the initial covariance is not positive definite", "initial pose"};
+  return std::nullopt;
 }
 
 MatchResult refused(const UncertainPose& prior, std::string reason) {

@@ -46,6 +46,8 @@ class Judge {
 [[nodiscard]] Party party_of(const MapFeatures& map);
 /// Those of the surfels that are structure.
 [[nodiscard]] std::vector<Surfel> structure_of(std::span<const Surfel> surfels);
+/// The error for a guess that cannot be used; none if it can.
+[[nodiscard]] std::optional<Error> fault_of(const std::optional<UncertainPose>& initial);
 /// A result without evidence: the prior, and why nothing better is known.
 [[nodiscard]] MatchResult refused(const UncertainPose& prior, std::string reason);
 /// What is known without a guess: which way is up.

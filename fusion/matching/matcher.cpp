@@ -27,7 +27,9 @@ constexpr Method kMethods[] = {{"default", make<DefaultMatcher>},
                                {"oicp", make<Oicp>},
                                {"pmm", make<Pmm>},
                                {"pmm_level1", make<PmmLevel1>},
-                               {"em", make<Em>}};
+                               {"em", make<Em>},
+                               {"icp", make<Icp>},
+                               {"p2plane", make<PlaneIcp>}};
 
 }  // namespace
 

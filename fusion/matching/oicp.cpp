@@ -8,14 +8,9 @@
 #include "fusion/matching/structural_edges.hpp"
 
 namespace cairn::matching {
-namespace {
 
-constexpr int kPlaneIterations = 15, kOccupancyIterations = 35;
-
-}  // namespace
-
-Oicp::Oicp(const MapFeatures& a, const MapFeatures& b)
-    : VoxelMatcher(a, b), normals_a_(voxel_normals(voxels_a(), EdgeOptions{}.normal_radius_cells)) {}
+Oicp::Oicp(const MapFeatures& a, const MapFeatures& b, const Stages& stages)
+    : VoxelMatcher(a, b), stages_(stages), normals_a_(voxel_normals(voxels_a(), EdgeOptions{}.normal_radius_cells)) {}
 
 /// The right perturbation that brings the source's voxels onto the planes of their nearest ones.
 std::optional<SE3> Oicp::plane_step(const SE3& T) const {
@@ -41,15 +36,15 @@ std::optional<SE3> Oicp::plane_step(const SE3& T) const {
 
 SE3 Oicp::descend(const UncertainPose& prior, Budget& budget) const {
   SE3 T = prior.mean;
-  for (int i = 0; i < kPlaneIterations && budget.one_more(); ++i) {
+  for (int i = 0; i < stages_.plane_iterations && budget.one_more(); ++i) {
     const auto step = plane_step(T);
     if (!step) return T;
     T = T * *step;
     if (negligible(*step)) break;
   }
   double weight = std::numeric_limits<double>::infinity(), mean_squared = 0;
-  for (int i = 0; i < kOccupancyIterations && budget.one_more(); ++i) {
-    const auto step = closed_form_step(T, kGateM, i == 0 ? 0 : weight, false, mean_squared);
+  for (int i = 0; i < stages_.closed_iterations && budget.one_more(); ++i) {
+    const auto step = closed_form_step(T, kGateM, i == 0 || !stages_.occupancy ? 0 : weight, false, mean_squared);
     if (!step) return T;
     T = *step * T;
     weight = std::min(weight, mean_squared / entropy_a());

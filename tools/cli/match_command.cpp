@@ -120,12 +120,11 @@ void add_match_command(Commands& commands) {
   sub->add_option("--method", options->method, "how")
       ->check(CLI::IsMember(std::vector<std::string>(matching::method_names().begin(), matching::method_names().end())))
       ->capture_default_str();
-  CLI::Option* initial =
-      sub->add_option(
-             "--initial", options->initial,
-             "x,y,z,roll,pitch,yaw of b in a, m and rad; without it ±10 m around 0 and all headings are searched")
-          ->delimiter(',')
-          ->expected(6);
+  CLI::Option* initial = sub->add_option("--initial", options->initial,
+                                         "x,y,z,roll,pitch,yaw of b in a, m and rad; without it all headings and "
+                                         "distances are searched, z being upwards in both")
+                             ->delimiter(',')
+                             ->expected(6);
   sub->add_option("--sigma", options->sigma_m, "standard deviation of the guess's x and y, m; 3σ is searched")
       ->check(CLI::Range(0.01, 7.0))
       ->needs(initial)

@@ -52,7 +52,7 @@ TEST_P(BookMatchers, OneStepIsAResult) {
   EXPECT_EQ(r->iterations, 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BookMatchers, testing::Values("oicp", "pmm", "em"),
+INSTANTIATE_TEST_SUITE_P(All, BookMatchers, testing::Values("oicp", "pmm", "em", "icp", "p2plane"),
                          [](const auto& p) { return std::string(p.param); });
 
 TEST(Em, PairsFallAsTheSparseMapFills) {
