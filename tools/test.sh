@@ -14,7 +14,8 @@ preset=dev groups=(build test) targets=() select=()
 case ${1:-} in
   --asan) preset=asan && shift ;;
   --tsan)
-    preset=tsan targets=(--target test_hal test_odometry test_mapping test_app) select=(-R '^(hal|odometry|mapping|app)/')
+    preset=tsan targets=(--target test_hal test_odometry test_mapping test_scheduler test_app)
+    select=(-R '^(hal|odometry|mapping|scheduler|app)/')
     shift
     ;;
   --clang | --fuzz) preset=${1#--} groups+=(ci) && shift ;;
