@@ -43,8 +43,9 @@ void send(const std::vector<Packet>& packets, int port) {
 
 TEST(LiveRun, IsRepeatedToTheBitFromWhatItRecorded) {
   const support::TemporaryFolder folder;
-  const auto [data, position] = ports_for_now();
-  std::ofstream(folder / "robot.yaml") << "lidar:\n  data_port: " << data << "\n  position_port: " << position
+  const auto ports = ports_for_now();
+  std::ofstream(folder / "robot.yaml") << "lidar:\n  data_port: " << ports.first
+                                       << "\n  position_port: " << ports.second
                                        << "\n  T_base_lidar: [0.2, 0, 0.6, 0, 0, 0]\n";
   const support::Vlp16Drive drive(support::lobby(), SE3::from_xyz_rpy(kMountOfLidar), kLiveSeconds, 1);
   RunOptions live;
@@ -55,7 +56,8 @@ TEST(LiveRun, IsRepeatedToTheBitFromWhatItRecorded) {
   live.pace = Pace::kLive;
   Result<std::unique_ptr<RunResult>> result = Error{Errc::kNotFound, "the run has not begun"};
   Workers both(2);
-  both.for_each(2, [&](std::size_t side) { side == 0 ? void(result = run(live)) : send(drive.packets(), data); });
+  both.for_each(2,
+                [&](std::size_t side) { side == 0 ? void(result = run(live)) : send(drive.packets(), ports.first); });
   ASSERT_TRUE(result) << to_string(result.error());
   const RunReport& ran = (*result)->report;
   EXPECT_GT(ran.scans, 3U);
