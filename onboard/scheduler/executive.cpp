@@ -4,21 +4,6 @@
 #include <algorithm>
 
 namespace cairn::scheduler {
-namespace {
-
-/// The record of the tick that is due: what the log says of it, or an idle one.
-TickRecord due_record(const Line& line) {
-  const std::uint64_t k = line.next.load(std::memory_order_relaxed);
-  if (line.history != nullptr && line.repeated < line.history->ticks.size()) {
-    const TickRecord& logged = line.history->ticks[line.repeated];
-    if (logged.index - logged.skipped == k) return logged;
-  }
-  TickRecord idle;
-  idle.index = k;
-  return idle;
-}
-
-}  // namespace
 
 Time Executive::stop_time() const {
   Time last = Time::min();
@@ -67,7 +52,7 @@ Result<void> Executive::run_replay(const ReplayOptions& options) {
 }
 
 void Executive::replay_tick(Line& line, Gate* gate, const Clock* figures) {
-  TickRecord record = due_record(line);
+  TickRecord record = line.due();
   if (line.history != nullptr && !record.idle()) ++line.repeated;
   const Time release = line.releases.at(record.index);
   Tick tick(line.history != nullptr ? Regime::kLogged : Regime::kVirtual, release, record, gate, figures);
@@ -86,7 +71,7 @@ Line* Executive::next_line(bool only_ready) {
   Time best_release = Time::max();
   for (Line& line : lines_) {
     if (line.live_only) continue;
-    const TickRecord record = due_record(line);
+    const TickRecord record = line.due();
     const Time release = line.releases.at(record.index);
     if (over(line, release) || (best != nullptr && release >= best_release)) continue;
     const auto holds = [&](const ChannelBase* channel) { return channel->holds(record); };

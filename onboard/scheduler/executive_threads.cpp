@@ -136,7 +136,7 @@ void Executive::replay_loop(Line& line, const Pace& pace) {
   const RobotClock clock(pace);
   UsageWatch usage(line);
   for (;;) {
-    const Time release = line.releases.at(due_record(line).index);
+    const Time release = line.releases.at(line.due().index);
     gate_.wait_until([&] { return inputs_reached(release - kTail) || line.history != nullptr; });
     if (over(line, release)) break;
     LiveClock::wait_until(release + pace.offset);

@@ -48,6 +48,17 @@ struct Line {
   /// Logged: its ticks, and how far they have been repeated.
   const TaskLog* history = nullptr;
   std::size_t repeated = 0;
+  /// Replay: the record of the tick that comes next: what the log says of it, or an idle one.
+  [[nodiscard]] TickRecord due() const {
+    const std::uint64_t k = next.load(std::memory_order_relaxed);
+    if (history != nullptr && repeated < history->ticks.size()) {
+      const TickRecord& logged = history->ticks[repeated];
+      if (logged.index - logged.skipped == k) return logged;
+    }
+    TickRecord idle;
+    idle.index = k;
+    return idle;
+  }
 
  private:
   std::atomic<Time::rep> ended_{Time::max().time_since_epoch().count()};
