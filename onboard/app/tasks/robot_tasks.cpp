@@ -33,12 +33,17 @@ bool has(const Door& door, std::string_view kind) {
   return std::any_of(door.inputs.begin(), door.inputs.end(), [&](const Input& i) { return i.entry.kind == kind; });
 }
 
-Fitted fitted(const Door& door) {
+/// A chip may serve the camera trigger alone: an e-stop that nobody named cannot be watched.
+bool has_estop(const Door& door, const RobotProfile& profile) {
+  return has(door, recording::kGpio) && !profile.gpio.driver.estop_line.empty();
+}
+
+Fitted fitted(const Door& door, const RobotProfile& profile) {
   Fitted fitted;
   fitted.watched = {has(door, recording::kVelodyne) || has(door, recording::kScans), has(door, recording::kCamera),
                     has(door, recording::kThermal), has(door, recording::kDepth), has(door, recording::kDrive)};
   fitted.drive = has(door, recording::kDrive);
-  fitted.estop = has(door, recording::kGpio);
+  fitted.estop = has_estop(door, profile);
   return fitted;
 }
 
@@ -74,7 +79,7 @@ RobotTasks::RobotTasks(Door& door, const RobotProfile& profile, const RunOptions
       odometry_workers_(static_cast<unsigned>(profile.threads), like(profile.schedule.odometry)),
       mapping_workers_(static_cast<unsigned>(profile.threads), like(profile.schedule.mapping)),
       robot_(profile.robot(), odometry_workers_, mapping_workers_, monitor),
-      safety_(profile.failsafe, fitted(door), {seen_, drive_news_, decisions_}),
+      safety_(profile.failsafe, fitted(door, profile), {seen_, drive_news_, decisions_}),
       drive_(decisions_, drive_news_),
       receive_(scans_, seen_, monitor),
       odometry_(profile, scans_, motions_, robot_, monitor, options.progress),
@@ -105,7 +110,7 @@ Result<void> RobotTasks::connect(Recorder* recorder) {
   for (std::size_t i = 0; i < door_.inputs.size(); ++i) {
     Input& input = door_.inputs[i];
     const auto id = static_cast<SourceId>(i);
-    if (input.entry.kind == recording::kGpio) {
+    if (input.entry.kind == recording::kGpio && has_estop(door_, profile_)) {
       safety_.watch_estop(profile_.gpio.driver, *input.source, id, input.lines, tap(kWaitingEdges));
     } else if (input.entry.kind == recording::kDrive) {
       if (const auto attached =

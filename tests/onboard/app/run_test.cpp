@@ -40,10 +40,11 @@ support::World room() {
   return world;
 }
 
-void record(const fs::path& folder) {
+void record(const fs::path& folder, bool with_gpio = false) {
   recording::Recording index;
   index.robot = "husky_1";
   index.sources.push_back({"lidar", "scans", "data.csv", "lidar", "VLP-16", kMount});
+  if (with_gpio) index.sources.push_back({"gpio", "gpio", "gpio.csv", "base_link", ""});
   auto writer = recording::RecordingWriter::create(folder, index);
   ASSERT_TRUE(writer) << to_string(writer.error());
   support::Vlp16 lidar(SE3::from_xyz_rpy(kMount), 0.02, 1);
@@ -154,6 +155,18 @@ TEST_F(RunTest, ADamagedScanIsAnEventAndTheRestIsUsed) {
                                                     "safety: mode: degraded", "safety: ended: lidar_late",
                                                     "safety: mode: normal"))
       << "a fifth of a second without a scan";
+}
+
+TEST_F(RunTest, AnEStopThatTheProfileDoesNotNameStopsNobody) {
+  record(*folder_ / "with_gpio", true);
+  RunOptions o = options("no_estop");
+  o.recording = *folder_ / "with_gpio";
+  for (const auto& [line, mode] : {std::pair{"", "normal"}, std::pair{"gpio:\n  estop_line: estop\n", "stop"}}) {
+    o.config = write("estop.yaml", std::string("name: husky\n") + line);
+    const auto result = run(o);
+    ASSERT_TRUE(result) << to_string(result.error());
+    EXPECT_EQ((*result)->report.mode, mode) << line;
+  }
 }
 
 TEST_F(RunTest, EndsWhenTheSecondsAreOver) {
