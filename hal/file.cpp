@@ -47,11 +47,26 @@ int write_all(FileCalls& calls, int fd, std::span<const std::byte> bytes) {
   return 0;
 }
 
-int write_and_sync(FileCalls& calls, const fs::path& path, std::span<const std::byte> bytes) {
+enum class Sync : bool { kNo, kYes };
+
+int write_new(FileCalls& calls, const fs::path& path, std::span<const std::byte> bytes, Sync sync) {
   const Fd fd(calls, calls.open(path.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644));
   if (fd.get() < 0) return errno;
   if (const int error = write_all(calls, fd.get(), bytes); error != 0) return error;
-  return calls.fsync(fd.get()) == 0 ? 0 : errno;
+  return sync == Sync::kNo || calls.fsync(fd.get()) == 0 ? 0 : errno;
+}
+
+Result<void> replace(FileCalls& calls, const fs::path& path, std::span<const std::byte> bytes, Sync sync) {
+  fs::path temporary = path;
+  temporary += ".tmp";
+  if (const int error = write_new(calls, temporary, bytes, sync); error != 0) {
+    calls.unlink(temporary.c_str());
+    return io_error("cannot write the file", path, error);
+  }
+  if (calls.rename(temporary.c_str(), path.c_str()) == 0) return {};
+  const int error = errno;
+  calls.unlink(temporary.c_str());
+  return io_error("cannot replace the file", path, error);
 }
 
 int sync_folder(FileCalls& calls, const fs::path& folder) {
@@ -99,20 +114,14 @@ Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t max
 }
 
 Result<void> write_file_atomic(const fs::path& path, std::span<const std::byte> bytes, FileCalls& calls) {
-  fs::path temporary = path;
-  temporary += ".tmp";
-  if (const int error = write_and_sync(calls, temporary, bytes); error != 0) {
-    calls.unlink(temporary.c_str());
-    return io_error("cannot write the file", path, error);
-  }
-  if (calls.rename(temporary.c_str(), path.c_str()) != 0) {
-    const int error = errno;
-    calls.unlink(temporary.c_str());
-    return io_error("cannot replace the file", path, error);
-  }
+  if (auto replaced = replace(calls, path, bytes, Sync::kYes); !replaced) return replaced;
   if (const int error = sync_folder(calls, path.parent_path()); error != 0)
     return io_error("cannot sync the folder of the file", path, error);
   return {};
+}
+
+Result<void> replace_file(const fs::path& path, std::span<const std::byte> bytes, FileCalls& calls) {
+  return replace(calls, path, bytes, Sync::kNo);
 }
 
 Result<void> write_file_atomic(const fs::path& path, std::string_view text) {

@@ -21,5 +21,9 @@ Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std:
 Result<void> write_file_atomic(const std::filesystem::path& path, std::span<const std::byte> bytes,
                                FileCalls& calls = FileCalls::machine());
 Result<void> write_file_atomic(const std::filesystem::path& path, std::string_view text);
+/// The same without any sync: whole whenever the program dies, but not when the machine does. For what is written
+/// often and is worth nothing after a reboot.
+Result<void> replace_file(const std::filesystem::path& path, std::span<const std::byte> bytes,
+                          FileCalls& calls = FileCalls::machine());
 
 }  // namespace cairn

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/robot.hpp"
 
-#include "onboard/mapping/point_file.hpp"
+#include <utility>
 
 namespace cairn {
 
@@ -21,15 +21,21 @@ Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapp
       monitor_(monitor),
       odometry_stage_(monitor.stage("odometry")),
       mapping_stage_(monitor.stage("mapping")) {
-  const auto points = occupied_voxel_centres(saved.map);
-  if (points)
-    odometry_.resume(saved.T_odom_base, saved.stamp, *points);
-  else
-    monitor.event(saved.stamp, "odometry", to_string(points.error()));
+  odometry_.resume(saved.T_odom_base, saved.twist, saved.stamp, saved.scans);
+  LocatedScan located;
+  for (const PlacedScan& scan : saved.scans) {
+    if (scan.stamp <= saved.map_stamp) continue;
+    located.stamp = scan.stamp;
+    located.T_odom_base.mean = scan.T_odom_base;
+    located.points_base = scan.points_base;
+    if (const auto extended = extend_map(located); !extended)
+      monitor.event(scan.stamp, "mapping", to_string(extended.error()));
+  }
 }
 
 Result<TrackPoint> Robot::locate(const Scan& scan, Budget& budget, LocatedScan& located) {
   const StageTimer timing(odometry_stage_);
+  const bool resuming = odometry_.resuming();
   const auto motion = odometry_.update(scan, budget);
   if (!motion) return motion.error();
 
@@ -37,15 +43,20 @@ Result<TrackPoint> Robot::locate(const Scan& scan, Budget& budget, LocatedScan& 
   located.stamp = motion->stamp;
   located.T_odom_base = motion->T_odom_base;
   located.points_base.assign(motion->points_base.begin(), motion->points_base.end());
+  if (motion->began) ++epoch_;
+  if (motion->began && resuming)
+    monitor_.event(motion->stamp, "restart", "the robot is not where the saved map ends: it begins anew");
+  located.epoch = epoch_;
   located.lost = motion->lost;
-  track_.push_back(
-      {motion->stamp, motion->T_odom_base, motion->degenerate_directions, motion->iterations, motion->lost});
+  track_.push_back({motion->stamp, motion->T_odom_base, motion->twist, epoch_, motion->degenerate_directions,
+                    motion->iterations, motion->lost});
   return track_.back();
 }
 
 Result<void> Robot::extend_map(const LocatedScan& scan, const MapShare& share) {
   if (scan.lost) return {};
   const StageTimer timing(mapping_stage_);
+  if (scan.epoch != std::exchange(mapped_epoch_, scan.epoch)) mapper_.clear();
   const SE3& T_odom_base = scan.T_odom_base.mean;
   const Eigen::Matrix3f R = T_odom_base.rotation().cast<float>();
   const Eigen::Vector3f t = T_odom_base.translation().cast<float>();

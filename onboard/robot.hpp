@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "hal/budget.hpp"
@@ -25,7 +26,9 @@ struct RobotConfig {
 struct TrackPoint {
   Time stamp{};
   UncertainPose T_odom_base;
-  int degenerate_directions = 0;  ///< of the motion since the last scan: 0 = all six directions were observed
+  Vector6 twist = Vector6::Zero();  ///< of base_link in base_link: m/s, rad/s
+  std::uint32_t epoch = 0;          ///< counts beginnings of odom: poses of two epochs have nothing in common
+  int degenerate_directions = 0;    ///< of the motion since the last scan: 0 = all six directions were observed
   int iterations = 0;
   bool lost = false;
 };
@@ -35,6 +38,7 @@ struct LocatedScan {
   Time stamp{};
   UncertainPose T_odom_base;
   std::vector<Eigen::Vector3f> points_base;  ///< deskewed, in base_link at `stamp`, in metres
+  std::uint32_t epoch = 0;                   ///< see TrackPoint
   bool lost = false;                         ///< the pose is only a prediction
 };
 
@@ -43,11 +47,14 @@ struct MapShare {
   int every_point = 1;  ///< 1: all points, 2: every second one, …
 };
 
-/// Where a robot goes on that was here before.
+/// Where a robot goes on that was here before: in epoch 0, where one without a past begins with epoch 1.
 struct Resume {
   const SemanticOcTree& map;  ///< of the config's resolution; copied
+  Time map_stamp{};           ///< scans that are later go into the map again
+  std::span<const PlacedScan> scans;
   UncertainPose T_odom_base;
-  Time stamp{};
+  Vector6 twist = Vector6::Zero();
+  Time stamp{};  ///< of the pose
 };
 
 /// One robot: scans in, trajectory and map out. Deterministic for any number of threads. locate() and extend_map() may
@@ -57,7 +64,7 @@ class Robot {
   /// The workers (one set for each of the two stages) and `monitor` are borrowed and must outlive the robot.
   Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapping_workers, Monitor& monitor);
 
-  /// The same, going on where one ended.
+  /// The same, going on where one ended. If the robot is not there any more, its first scan begins a map anew.
   Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapping_workers, Monitor& monitor,
         const Resume& saved);
 
@@ -66,6 +73,9 @@ class Robot {
   Result<TrackPoint> locate(const Scan& scan, Budget& budget, LocatedScan& located);
   /// Adds a scan to the map, where its pose is trusted. On an error (kLimit: the map's memory) the map is as before.
   Result<void> extend_map(const LocatedScan& scan, const MapShare& share = {});
+
+  /// The next scan tells whether the robot is still where it was: it is worth every iteration.
+  [[nodiscard]] bool resuming() const { return odometry_.resuming(); }
 
   [[nodiscard]] const std::vector<TrackPoint>& track() const { return track_; }
   [[nodiscard]] const SemanticOcTree& map() const { return mapper_.tree(); }
@@ -78,6 +88,8 @@ class Robot {
   StageStats& odometry_stage_;
   StageStats& mapping_stage_;
   std::vector<TrackPoint> track_;
+  std::uint32_t epoch_ = 0;                   // odometry's
+  std::uint32_t mapped_epoch_ = 0;            // mapping's
   std::vector<Eigen::Vector3f> points_odom_;  // reused
 };
 

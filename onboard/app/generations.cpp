@@ -17,6 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMaxStateBytes = 4096;
+// Forty scans of the largest LiDAR, thinned, are less than half of that.
+constexpr std::uint64_t kMaxScansBytes = std::uint64_t{256} << 20;
 constexpr std::size_t kHashLine = 17;  // 16 hexadecimal digits and the end of the line
 
 std::string hash_line(std::string_view text) {
@@ -57,7 +59,9 @@ std::optional<Generation> Generations::load_file(std::size_t slot, Time now, con
   if (!state) return refuse(state.error());
   auto map = decode_cairn(*bytes, limits);
   if (!map) return refuse(map.error());
-  return Generation{std::move(*state), std::move(*map)};
+  const Time stamp = state->stamp;
+  const std::uint32_t epoch = state->epoch;
+  return Generation{std::move(*state), std::move(*map), stamp, epoch, {}};
 }
 
 std::optional<Generation> Generations::load(Time now, const MapLimits& limits) {
@@ -71,6 +75,7 @@ std::optional<Generation> Generations::load(Time now, const MapLimits& limits) {
   if (!newest) return std::nullopt;
   sequence_ = newest->state.sequence;
   take_newer_pose(*newest, now);
+  take_scans(*newest, now);
   return newest;
 }
 
@@ -81,9 +86,18 @@ void Generations::take_newer_pose(Generation& generation, Time now) {
                      : Result<SavedState>(bytes.error());
   if (!state) return monitor_.event(now, "saved map", to_string(at(kStateFile, state.error())));
   const SavedState& old = generation.state;
+  generation.newest_epoch = std::max(old.epoch, state->epoch);
   if (state->epoch != old.epoch || state->boot != old.boot || state->stamp < old.stamp) return;
   state->sequence = old.sequence;
   generation.state = std::move(*state);
+}
+
+void Generations::take_scans(Generation& generation, Time now) {
+  const auto bytes = read_file(folder_ / kScansFile, kMaxScansBytes);
+  if (!bytes && bytes.error().code == Errc::kNotFound) return;
+  auto saved = bytes ? decode_scans(*bytes) : Result<SavedScans>(bytes.error());
+  if (!saved) return monitor_.event(now, "saved map", to_string(at(kScansFile, saved.error())));
+  if (saved->epoch == generation.state.epoch) generation.scans = std::move(saved->scans);
 }
 
 std::vector<std::byte> Generations::encode(const SemanticOcTree& map, SavedState state) const {
@@ -108,7 +122,13 @@ Result<void> Generations::save_state(SavedState state) {
   state.sequence = sequence_;
   std::string text = to_text(state);
   text += hash_line(text);
-  return write_file_atomic(folder_ / kStateFile, std::as_bytes(std::span(text)), calls_);
+  return replace_file(folder_ / kStateFile, std::as_bytes(std::span(text)), calls_);
+}
+
+Result<void> Generations::save_scans(const SavedScans& scans) try {
+  return replace_file(folder_ / kScansFile, cairn::encode(scans), calls_);
+} catch (const std::bad_alloc&) {
+  return Error{Errc::kLimit, "no memory to save the scans"};
 }
 
 }  // namespace cairn

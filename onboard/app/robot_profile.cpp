@@ -28,6 +28,7 @@ void declare(config::Section& s, RobotProfile& p) {
       "what each fault leads to (normal, degraded, hold, stop), and after how long a source counts as missing; both "
       "may be stricter than the defaults, never milder");
   s.group("overload", p.overload, "when work is left undone, and when it is taken up again");
+  s.group("restart", p.restart, "what a core that starts again goes on from");
 }
 
 Result<RobotProfile> load_profile(const std::filesystem::path& path) {

@@ -6,6 +6,7 @@
 
 #include "hal/config.hpp"
 #include "hal/result.hpp"
+#include "onboard/app/restart.hpp"
 #include "onboard/app/schedule_profile.hpp"
 #include "onboard/app/sensor_profiles.hpp"
 #include "onboard/robot.hpp"
@@ -27,6 +28,7 @@ struct RobotProfile {
   MappingConfig mapping;
   FailsafeConfig failsafe;
   OverloadConfig overload;
+  RestartProfile restart;
   double odometry_deadline_s = 0.08;  ///< live: no further refinement of a pose this long after its last packet
   int threads = 1;
   ScheduleProfile schedule;

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/run.hpp"
 
+#include <optional>
 #include <thread>
 
+#include "onboard/app/restart.hpp"
 #include "onboard/app/run_output.hpp"
+#include "onboard/app/start_log.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
 
 namespace cairn {
@@ -32,6 +35,20 @@ Result<void> check_schedule(const RobotProfile& profile) {
   return scheduler::validate(tasks, static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
 }
 
+/// The past of a live run, in its state folder; what fails there must not keep the robot from starting.
+struct Past {
+  Past(const std::filesystem::path& folder, Monitor& monitor)
+      : generations(folder, monitor), starts(folder / "starts.txt") {}
+  Generations generations;
+  StartLog starts;
+};
+
+Before look_back(Past& past, const RobotProfile& profile, Time now, Monitor& monitor) {
+  Before before = look_back(past.generations, profile.restart, profile.mapping.resolution_m, now, monitor);
+  before.crash_loop = past.starts.begin(now, boot_id());
+  return before;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
@@ -47,9 +64,16 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
   auto door = open_door(options, *profile, clock, result->monitor);  // live devices, or a recording
   if (!door) return door.error();
 
-  RobotTasks tasks(*door, *profile, options, result->monitor);
-  const auto ran = live ? tasks.run_live(clock) : tasks.replay();  // packets → scans → poses and map
-  if (!ran) return ran.error();
+  std::optional<Past> past;
+  if (live && !options.state.empty()) past.emplace(options.state, result->monitor);
+  Before before;
+  if (past) before = look_back(*past, *profile, clock.now(), result->monitor);
+  if (!live) before.resumed = resumed_in_recording(options.recording, result->monitor);
+
+  RobotTasks tasks(*door, *profile, options, before, result->monitor);
+  const auto ran = live ? tasks.run_live(clock, past ? &past->generations : nullptr) : tasks.replay();
+  if (past) past->starts.end();
+  if (!ran) return ran.error();  // packets → scans → poses and map
 
   auto report = write_output({options, *profile, tasks, result->monitor});
   if (!report) return report.error();

@@ -18,6 +18,7 @@ struct RunOptions {
   std::filesystem::path out;
   std::filesystem::path record;     ///< live: where to keep the packets and the schedule; empty: nowhere
   std::filesystem::path schedule;   ///< of another live run, instead of the recording's own schedule.log
+  std::filesystem::path state;      ///< live: where the map is kept for a restart; empty: nowhere
   std::filesystem::path live_view;  ///< live: the local socket for `cairn top`; empty: none
   Pace pace = Pace::kRecorded;
   bool reference = false;  ///< at real speed: run an empty task beside the control task, to know what the machine costs

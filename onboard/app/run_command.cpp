@@ -91,6 +91,9 @@ void add_run_command(Commands& commands) {
   sub->add_option("--recording", a->run.recording, "folder of a recording; live hardware without one");
   sub->add_option("--out", a->run.out, "folder for what the run leaves")->default_val("cairn-out");
   sub->add_option("--record", a->run.record, "live: also keep every packet and the schedule, for a replay to the bit");
+  sub->add_option(
+      "--state", a->run.state,
+      "live: keep map and pose in this folder, and go on from there after a crash; see the profile's restart");
   sub->add_option("--live-view", a->run.live_view, "live: a local socket for cairn top, such as /run/cairn/live.sock");
   sub->add_option("--schedule", a->run.schedule, "repeat the schedule.log of a live run; a recording may hold its own");
   sub->add_option("--speed", a->speed, "of a recording: as it was made, or as fast as possible in virtual time")

@@ -16,9 +16,10 @@ struct ScheduleProfile {
   scheduler::TaskSpec odometry{"odometry", 100, 1, 100, 40, 80, 10, 50, -1};
   scheduler::TaskSpec mapping{"mapping", 100, 2, 100, 30, 90, 10, 0, -1};
   scheduler::TaskSpec housekeeping{"housekeeping", 20, 5, 1000, 1, 0, 0, 0, -1};
+  scheduler::TaskSpec saving{"saving", 10, 7, 1000, 5, 0, 0, 0, -1};
 
   [[nodiscard]] std::vector<scheduler::TaskSpec> tasks() const {
-    return {safety, drive, receive, odometry, mapping, housekeeping};
+    return {safety, drive, receive, odometry, mapping, housekeeping, saving};
   }
 };
 

@@ -45,6 +45,11 @@ void Mapper::set_up() {
   for (std::vector<TileKey>* tiles : {&changed_, &changed_now_, &merged_}) tiles->reserve(kTiles);
 }
 
+void Mapper::clear() {
+  tree_.clear();
+  changed_.clear();
+}
+
 Result<InsertReport> Mapper::insert(std::span<const Eigen::Vector3f> points_map, const Eigen::Vector3f& origin_map) {
   if (tree_.memoryUsage() > std::max(megabytes(config_.max_mb), megabytes(config_.reserve_mb) + kMegabyte))
     return Error{Errc::kLimit, "the map is as large as allowed", {}, {}, std::to_string(config_.max_mb) + " MB"};

@@ -45,6 +45,9 @@ class Mapper {
   /// the map, scan or map beyond its memory) the map is as before.
   Result<InsertReport> insert(std::span<const Eigen::Vector3f> points_map, const Eigen::Vector3f& origin_map);
 
+  /// Forgets the map and what changed in it; keeps the memory.
+  void clear();
+
   [[nodiscard]] const SemanticOcTree& tree() const { return tree_; }
   [[nodiscard]] const MappingConfig& config() const { return config_; }
 

@@ -19,6 +19,10 @@ constexpr double kGuessGate = 0.5;
 // Standard deviation [rad] of the predicted heading above which the neighbourhood is searched: after two lost scans.
 constexpr double kHeadingUnknown = 0.12;
 constexpr double kGapGate = 0.2;
+// A robot whose core has died comes to rest: a longer gap does not take it farther.
+constexpr double kMostMoved = 1.0;
+// So many times the matches that odometry needs; a scan of fewer points does not tell where a restarted robot is.
+constexpr std::size_t kTelling = 4;
 // A scan that follows a gap and is shorter than this share of a revolution says too little to find the way back with.
 constexpr double kGapPeriods = 1.8, kWholeShare = 0.6;
 
@@ -47,7 +51,8 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget) {
   choose_keypoints();
   if (!last_stamp_) return start(scan.valid.end);
 
-  const double dt = to_seconds(scan.valid.end - *last_stamp_);
+  double dt = to_seconds(scan.valid.end - *last_stamp_);
+  if (resumed_) dt = std::min(dt, kMostMoved);
   if (dt > kGapPeriods * revolution_s_ && duration_s_ < kWholeShare * revolution_s_)
     return Error{Errc::kTruncated, "the first scan after a gap is less than a revolution"};
   revolution_s_ = std::max(duration_s_, 0.9 * revolution_s_);
@@ -55,6 +60,10 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget) {
   T_odom_previous_ = filter_.state().T_odom_base;
   filter_.predict(dt, {config_.linear_acceleration, config_.angular_acceleration});
   const Fit found = fit(first_guess(dt), budget);
+  if (resumed_ && keypoints_.size() > kTelling * static_cast<std::size_t>(config_.min_matches)) {
+    if (!found_again(found)) return start(scan.valid.end);
+    resumed_.reset();
+  }
 
   OdometryUpdate update;
   update.stamp = scan.valid.end;
@@ -126,17 +135,21 @@ void LidarOdometry::choose_keypoints() {
 
 OdometryUpdate LidarOdometry::start(Time stamp) {
   last_stamp_ = stamp;
+  resumed_.reset();
   Vector6 speed;
   speed << Eigen::Vector3d::Constant(config_.initial_speed), Eigen::Vector3d::Constant(config_.initial_angular_speed);
   MotionFilter::Uncertainty uncertainty;
   uncertainty.local.bottomRightCorner<6, 6>() = speed.cwiseAbs2().asDiagonal();
   uncertainty.total = uncertainty.local;
   filter_.reset({}, uncertainty);
+  T_odom_previous_ = {};
+  lost_in_a_row_ = 0;
   begin_map();
   deskew_all(filter_.state().twist);
   insert();
   OdometryUpdate update;
   update.stamp = stamp;
+  update.began = true;
   update.converged = true;
   fill(update);
   return update;
@@ -253,11 +266,10 @@ void LidarOdometry::insert() {
   map_points_.reserve(dense_points_.size());
   for (const std::uint32_t i : dense_points_)
     map_points_.push_back(R * points_base_[i].cast<double>() + T.translation());
-  insert_points();
+  insert_points(T);
 }
 
-void LidarOdometry::insert_points() {
-  const SE3& T = filter_.state().T_odom_base;
+void LidarOdometry::insert_points(const SE3& T) {
   if ((T.translation() - T_odom_pruned_.translation()).norm() > 0.1 * config_.window_m) {
     map_.keep_within(T.translation(), config_.window_m);
     T_odom_pruned_ = T;
@@ -270,6 +282,7 @@ void LidarOdometry::insert_points() {
 void LidarOdometry::fill(OdometryUpdate& update) const {
   const SE3& T = filter_.state().T_odom_base;
   update.T_odom_base = {T, filter_.uncertainty().total.topLeftCorner<6, 6>()};
+  update.twist = filter_.state().twist;
   update.T_previous_base = {T_odom_previous_.inverse() * T, filter_.step_covariance()};
   update.points_base = points_base_;
 }

@@ -18,15 +18,17 @@
 #include "onboard/odometry/motion_filter.hpp"
 #include "onboard/odometry/normal_equations.hpp"
 #include "onboard/odometry/patch_map.hpp"
+#include "onboard/odometry/recent_scans.hpp"
 #include "onboard/odometry/subsample.hpp"
 
 namespace cairn {
 
 /// What one scan told about the robot's motion.
 struct OdometryUpdate {
-  Time stamp{};                   ///< = scan.valid.end; all poses are of this instant
-  UncertainPose T_odom_base;      ///< since the start, where T_odom_base was the identity
-  UncertainPose T_previous_base;  ///< since the scan before
+  Time stamp{};                     ///< = scan.valid.end; all poses are of this instant
+  UncertainPose T_odom_base;        ///< since the start, where T_odom_base was the identity
+  UncertainPose T_previous_base;    ///< since the scan before
+  Vector6 twist = Vector6::Zero();  ///< of base_link in base_link: m/s, rad/s
   /// The scan's finite points (all of them, as a rule) in the scan's order, deskewed, in base_link at `stamp`. Owned by
   /// the odometry and valid until the next update.
   std::span<const Eigen::Vector3f> points_base;
@@ -41,6 +43,7 @@ struct OdometryUpdate {
   std::array<Vector6, 6> degenerate{};
   double degenerate_length_m = 1;  ///< the lever arm at which rotations were compared with translations
 
+  bool began = false;          ///< the first scan: T_odom_base is the identity, odom has nothing in common with before
   bool lost = false;           ///< the scan did not fit: the pose is predicted, the map was left alone
   bool reinitialised = false;  ///< lost for too long: this scan began a new map at the predicted pose
 };
@@ -59,11 +62,14 @@ class LidarOdometry {
   /// points.
   Result<OdometryUpdate> update(const Scan& scan, Budget& budget);
 
-  /// Goes on from where a run ended: `points_odom` is what its map says is occupied, `T_odom_base` where the base was
-  /// at `stamp`. The base may have moved since, by some metres; the first scan looks for it there. Points that are not
-  /// finite or farther than the window are left out. Where the map is small or its walls are far, the base may be
-  /// placed metres off without `lost` being set: voxels tell less than scans. To be called before the first scan.
-  void resume(const UncertainPose& T_odom_base, Time stamp, std::span<const Eigen::Vector3f> points_odom);
+  /// Goes on from where a run ended: `scans` are the last ones it placed (finite points), `T_odom_base` where the base
+  /// was at `stamp`, and how fast (`twist`). It has come to rest since, or nearly, some metres farther on; the first
+  /// scan looks for it there. If that scan does not fit, the robot is somewhere else, and the scan begins anew:
+  /// `began`. To be called before the first scan.
+  void resume(const UncertainPose& T_odom_base, const Vector6& twist, Time stamp, std::span<const PlacedScan> scans);
+
+  /// The first scan after resume() is still to come: it is worth every iteration.
+  [[nodiscard]] bool resuming() const { return resumed_.has_value(); }
 
   /// Blocks the map holds, for figures and tests.
   [[nodiscard]] std::size_t map_blocks() const { return map_.blocks(); }
@@ -90,12 +96,14 @@ class LidarOdometry {
   [[nodiscard]] double inliers(const MotionState& at, double gate);
   Fit fit(const MotionState& guess, Budget& budget);
   [[nodiscard]] bool plausible(const Fit& fit, double dt) const;
+  [[nodiscard]] double known_share(const PlacedScan& scan);
+  [[nodiscard]] bool found_again(const Fit& fit) const;
   void accept(const Fit& fit);
   OdometryUpdate start(Time stamp);
   void lose_track(OdometryUpdate& update);
   void begin_map();
   void insert();
-  void insert_points();
+  void insert_points(const SE3& T_odom_base);
   void deskew_all(const Vector6& twist);
   [[nodiscard]] Matrix6 odom_covariance() const;
   void fill(OdometryUpdate& update) const;
@@ -112,6 +120,12 @@ class LidarOdometry {
   float keypoint_spacing_m_;
 
   std::optional<Time> last_stamp_;
+  struct Resumed {
+    SE3 T_odom_base;         // when the run ended
+    double farthest_m;       // that the base may have come since
+    double known_share = 0;  // of a saved scan's keypoints those on known surfaces
+  };
+  std::optional<Resumed> resumed_;  // as long as the first scan after resume() is still to come
   SE3 T_odom_previous_;
   int lost_in_a_row_ = 0;
   // In a corridor the speed stays unknown for ever; what the first scans cannot tell, later ones cannot either.

@@ -1,66 +1,89 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kills a core that saves its map, at random instants, again and again. CAIRN_KILLS: how often (10 without);
-// CAIRN_RESTART_LIMIT_S: how long a restart may take (without: it is only said).
+// Kills the real program at random instants while it drives, maps and saves, again and again. CAIRN_KILLS: how often (3
+// without); CAIRN_RESTART_LIMIT_S: how long a restart may take until the first new pose is saved (without: it is only
+// said).
+#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <poll.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
+#include <atomic>
 #include <csignal>
 #include <cstdlib>
+#include <fstream>
 #include <iostream>
+#include <memory>
 #include <random>
-#include <stdexcept>
 #include <string>
 #include <vector>
 
+#include "drivers/velodyne/udp_sender.hpp"
+#include "drivers/velodyne/udp_source.hpp"
 #include "hal/clock.hpp"
+#include "hal/file.hpp"
+#include "hal/workers.hpp"
 #include "onboard/app/generations.hpp"
+#include "tests/support/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
+#include "tests/support/vlp16_drive.hpp"
 
 namespace cairn::faults {
 namespace {
 
-/// The map saver as a child, and what it says.
-class Saver {
- public:
-  explicit Saver(const std::string& folder) {
-    std::array<int, 2> ends{};
-    if (::pipe(ends.data()) != 0) throw std::runtime_error("no pipe");
-    pid_ = ::fork();
-    if (pid_ == 0) {
-      ::dup2(ends[1], STDOUT_FILENO);
-      ::close(ends[0]);
-      ::execl(CAIRN_MAP_SAVER, "map_saver", folder.c_str(), nullptr);
-      ::_exit(127);
-    }
-    ::close(ends[1]);
-    out_ = ends[0];
-  }
-  Saver(const Saver&) = delete;
-  Saver& operator=(const Saver&) = delete;
-  ~Saver() {
-    if (pid_ > 0) (void)kill();
-    ::close(out_);
-  }
+using namespace std::chrono_literals;
 
-  /// The next line that comes within the time; empty: none did, or the child has ended.
-  std::string line(int timeout_ms) {
-    for (;;) {
-      if (const std::size_t end = text_.find('\n'); end != std::string::npos) {
-        const std::string line = text_.substr(0, end);
-        text_.erase(0, end + 1);
-        return line;
+/// A robot's LiDAR: drives the same few seconds over and over.
+class Lidar {
+ public:
+  Lidar() {
+    velodyne::Config any;
+    any.data_port = any.position_port = 0;
+    const auto source = velodyne::UdpSource::open(any, SourceId{0}, clock_).value();
+    data_port = source->data_port();
+    position_port = source->position_port();
+  }
+  void send_until(const std::atomic<bool>& stop) {
+    const auto wire = velodyne::UdpSender::open("127.0.0.1").value();
+    while (!stop) {
+      const Duration offset = clock_.now() - drive_.packets().front().arrival;
+      for (const Packet& packet : drive_.packets()) {
+        if (stop) return;
+        LiveClock::wait_until(packet.arrival + offset);
+        (void)wire->send(packet.payload(), static_cast<std::uint16_t>(data_port));  // nobody may listen just now
       }
-      pollfd waiting{out_, POLLIN, 0};
-      std::array<char, 512> bytes{};
-      if (::poll(&waiting, 1, timeout_ms) <= 0) return {};
-      const ssize_t n = ::read(out_, bytes.data(), bytes.size());
-      if (n <= 0) return {};
-      text_.append(bytes.data(), static_cast<std::size_t>(n));
     }
+  }
+  int data_port = 0, position_port = 0;
+
+ private:
+  LiveClock clock_;
+  support::Vlp16Drive drive_{support::lobby(), SE3::from_xyz_rpy((Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished()), 5, 1};
+};
+
+/// `cairn run` as a child.
+class Core {
+ public:
+  explicit Core(const std::filesystem::path& folder) : pid_(::fork()) {
+    if (pid_ != 0) return;
+    const std::string config = folder / "robot.yaml", state = folder / "state", out = folder / "out";
+    const int said = ::open((folder / "said.txt").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    ::dup2(said, STDOUT_FILENO);
+    ::dup2(said, STDERR_FILENO);
+    ::execl(CAIRN_PROGRAM, "cairn", "run", "--config", config.c_str(), "--state", state.c_str(), "--out", out.c_str(),
+            nullptr);
+    ::_exit(127);
+  }
+  Core(const Core&) = delete;
+  Core& operator=(const Core&) = delete;
+  ~Core() {
+    if (pid_ > 0) (void)kill();
+  }
+  /// Ends it in good order: it says what happened to it.
+  void stop() {
+    ::kill(pid_, SIGTERM);
+    ::waitpid(pid_, nullptr, 0);
+    pid_ = -1;
   }
   /// Whether it was still running until then.
   bool kill() {
@@ -68,13 +91,11 @@ class Saver {
     ::kill(pid_, SIGKILL);
     ::waitpid(pid_, &status, 0);
     pid_ = -1;
-    return WIFSIGNALED(status);
+    return WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
   }
 
  private:
-  pid_t pid_ = -1;
-  int out_ = -1;
-  std::string text_;
+  pid_t pid_;
 };
 
 long from_environment(const char* name, long otherwise) {
@@ -82,41 +103,85 @@ long from_environment(const char* name, long otherwise) {
   return text != nullptr ? std::strtol(text, nullptr, 10) : otherwise;
 }
 
-/// The number behind a word; −1: another line.
-long number(const std::string& line, const std::string& word) {
-  return line.starts_with(word + " ") ? std::strtol(line.c_str() + word.size(), nullptr, 10) : -1;
+std::vector<std::byte> bytes_of(const std::filesystem::path& file) {
+  auto bytes = read_file(file, 1 << 20);
+  return bytes ? std::move(*bytes) : std::vector<std::byte>();
+}
+
+/// Until the pose on disk is another one; false after 20 s.
+bool wait_for_a_pose(const std::filesystem::path& state) {
+  const LiveClock clock;
+  const auto before = bytes_of(state / Generations::kStateFile);
+  for (const Time begin = clock.now(); clock.now() - begin < 20s; LiveClock::wait_until(clock.now() + 5ms))
+    if (const auto now = bytes_of(state / Generations::kStateFile); !now.empty() && now != before) return true;
+  return false;
+}
+
+std::string said(const std::filesystem::path& folder) {
+  const auto bytes = bytes_of(folder / "said.txt");
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+void write_profile(const std::filesystem::path& file, const Lidar& lidar) {
+  std::ofstream(file) << "lidar:\n  data_port: " << lidar.data_port << "\n  position_port: " << lidar.position_port
+                      << "\n  T_base_lidar: [0.2, 0, 0.6, 0, 0, 0]\nmapping:\n  reserve_mb: 16\n"
+                         "restart:\n  save_map_every_s: 1\n";
+}
+
+/// Kills a core at a random instant after its first new pose. Returns how long that one took.
+Duration kill_one(const std::filesystem::path& folder, std::mt19937_64& random) {
+  const LiveClock clock;
+  const Time begin = clock.now();
+  Core core(folder);
+  if (!wait_for_a_pose(folder / "state")) {
+    core.stop();
+    ADD_FAILURE() << "no pose. " << said(folder);
+    return {};
+  }
+  const Duration restart = clock.now() - begin;
+  LiveClock::wait_until(clock.now() + std::chrono::microseconds(random() % 1'200'000));
+  EXPECT_TRUE(core.kill()) << "it ended by itself: " << said(folder);
+  return restart;
+}
+
+/// The newest map after a kill; `least`: the one before.
+std::uint64_t newest_map(const std::filesystem::path& state, std::uint64_t least) {
+  const auto monitor = std::make_unique<Monitor>();
+  const auto newest = Generations(state, *monitor).load(Time{});
+  for (const Event& e : monitor->events()) ADD_FAILURE() << e.what;
+  const std::uint64_t sequence = newest ? newest->state.sequence : 0;
+  EXPECT_GE(sequence, least) << "an older map than before";
+  return sequence;
+}
+
+void kill_again_and_again(const std::filesystem::path& folder) {
+  const long kills = from_environment("CAIRN_KILLS", 3), limit_s = from_environment("CAIRN_RESTART_LIMIT_S", 0);
+  std::mt19937_64 random(1);
+  std::uint64_t sequence = 0;
+  std::vector<Duration> restarts;
+  for (long i = 0; i < kills && !testing::Test::HasFailure(); ++i) {
+    restarts.push_back(kill_one(folder, random));
+    sequence = newest_map(folder / "state", sequence);
+  }
+  EXPECT_GT(sequence, 0U);
+  std::sort(restarts.begin(), restarts.end());
+  std::cout << kills << " kills, " << sequence << " generations; from the start until a new pose is saved: median "
+            << to_milliseconds(restarts[restarts.size() / 2]) << " ms, worst " << to_milliseconds(restarts.back())
+            << " ms\n";
+  EXPECT_TRUE(limit_s == 0 || restarts.back() <= std::chrono::seconds(limit_s));
 }
 
 TEST(KillCampaign, AWholeMapIsThereAfterEveryKill) {
   const support::TemporaryFolder folder;
-  const LiveClock clock;
-  std::mt19937_64 random(1);
-  const long kills = from_environment("CAIRN_KILLS", 10), limit_s = from_environment("CAIRN_RESTART_LIMIT_S", 0);
-  long confirmed = 0;
-  std::vector<Duration> restarts;
-  for (long i = 0; i < kills; ++i) {
-    const Time begin = clock.now();
-    Saver saver(folder.path());
-    const std::string first = saver.line(20'000);
-    ASSERT_GE(number(first, "ready"), confirmed)
-        << "kill " << i << ": " << first << ": an older map than was confirmed";
-    restarts.push_back(clock.now() - begin);
-    const auto more = static_cast<long>(random() % 6);
-    for (long k = 0; k < more; ++k) confirmed = std::max(confirmed, number(saver.line(20'000), "saved"));
-    // And somewhere in what follows: within a save, as a rule.
-    const std::string last = saver.line(static_cast<int>(random() % 12));
-    confirmed = std::max(confirmed, number(last, "saved"));
-    ASSERT_TRUE(saver.kill()) << "it ended by itself after " << last;
-  }
-  Monitor monitor;
-  const auto newest = Generations(folder.path(), monitor).load(Time{});
-  EXPECT_TRUE(monitor.events().empty());
-  EXPECT_TRUE(newest || confirmed == 0);
-  std::sort(restarts.begin(), restarts.end());
-  std::cout << kills << " kills, " << confirmed << " generations confirmed; restart until ready: median "
-            << to_milliseconds(restarts[restarts.size() / 2]) << " ms, worst " << to_milliseconds(restarts.back())
-            << " ms\n";
-  EXPECT_TRUE(limit_s == 0 || restarts.back() <= std::chrono::seconds(limit_s));
+  Lidar lidar;
+  write_profile(folder / "robot.yaml", lidar);
+  std::atomic<bool> done{false};
+  Workers both(2);
+  both.for_each(2, [&](std::size_t side) {
+    if (side == 1) return lidar.send_until(done);
+    kill_again_and_again(folder.path());
+    done = true;
+  });
 }
 
 }  // namespace

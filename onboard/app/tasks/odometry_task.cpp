@@ -29,9 +29,11 @@ void OdometryTask::tick(Tick& tick) {
 
 void OdometryTask::locate(const ArrivedScan& arrived, Tick& tick) {
   ArrivedMotion* out = motions_.back(tick);
-  Budget budget = tick.budget(kStepsSlot, arrived.scan.valid.end + deadline_, max_iterations_);
+  const Time deadline = robot_.resuming() ? Time::max() : arrived.scan.valid.end + deadline_;
+  Budget budget = tick.budget(kStepsSlot, deadline, max_iterations_);
   const auto located = robot_.locate(arrived.scan, budget, out != nullptr ? out->scan : dropped_);
   tick.settle(kStepsSlot, budget);
+  if (located && told_ != nullptr) told_->publish(*located);
   if (!located) {
     monitor_.event(arrived.scan.valid.end, "odometry", to_string(located.error()));
   } else if (out == nullptr) {
@@ -54,6 +56,7 @@ MappingTask::MappingTask(const OverloadConfig& overload, Duration deadline, Moti
       latency_(monitor.stage("packet_to_map")) {}
 
 void MappingTask::tick(Tick& tick) {
+  if (copier_ && motions_.size() == 0) copier_->idle(tick.release(), robot_.map());
   while (const ArrivedMotion* motion = motions_.take(tick)) {
     extend(*motion, tick);
     if (tick.regime() != Regime::kDrain) break;
@@ -70,6 +73,8 @@ void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
   if (count_++ % static_cast<std::uint64_t>(plan.scan_stride) != 0) return;
   if (const auto extended = robot_.extend_map(motion.scan, {plan.point_stride}); !extended)
     monitor_.event(motion.scan.stamp, "mapping", to_string(extended.error()));
+  else if (copier_)
+    copier_->mapped(motion.scan);
   if (tick.takes_time()) latency_.wall.record(tick.figure_now() - motion.arrival);
 }
 

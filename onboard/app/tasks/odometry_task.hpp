@@ -7,6 +7,7 @@
 
 #include "hal/monitor.hpp"
 #include "onboard/app/robot_profile.hpp"
+#include "onboard/app/tasks/map_copier.hpp"
 #include "onboard/app/tasks/messages.hpp"
 #include "onboard/scheduler/overload.hpp"
 #include "onboard/scheduler/tick.hpp"
@@ -23,6 +24,9 @@ class OdometryTask final : public scheduler::Task {
   OdometryTask(const RobotProfile& profile, ScanChannel& scans, MotionChannel& motions, Robot& robot, Monitor& monitor,
                Progress progress);
 
+  /// Live: where every pose goes, besides. To be called before the run; `pose` must outlive the task.
+  void tell(LatestValue<TrackPoint>& pose) { told_ = &pose; }
+
   void tick(scheduler::Tick& tick) override;
 
  private:
@@ -36,6 +40,7 @@ class OdometryTask final : public scheduler::Task {
   Monitor& monitor_;
   StageStats& latency_;
   Progress progress_;
+  LatestValue<TrackPoint>* told_ = nullptr;
   LocatedScan dropped_;  // filled when the channel is full
   std::size_t count_ = 0;
 };
@@ -49,6 +54,9 @@ class MappingTask final : public scheduler::Task {
   /// All must outlive the task. `deadline`: from a scan's last byte to its being in the map.
   MappingTask(const OverloadConfig& overload, Duration deadline, MotionChannel& motions, Robot& robot,
               Monitor& monitor);
+
+  /// Live: hands on copies of the map and scans. To be called before the run.
+  void keep_copies(MapCopier copier) { copier_.emplace(std::move(copier)); }
 
   void tick(scheduler::Tick& tick) override;
 
@@ -70,6 +78,7 @@ class MappingTask final : public scheduler::Task {
   Robot& robot_;
   Monitor& monitor_;
   StageStats& latency_;
+  std::optional<MapCopier> copier_;
 };
 
 }  // namespace cairn

@@ -56,10 +56,12 @@ Result<Recorder> make_recorder(const std::filesystem::path& folder, const record
 
 }  // namespace
 
-RobotTasks::RobotTasks(Door& door, const RobotProfile& profile, const RunOptions& options, Monitor& monitor)
+RobotTasks::RobotTasks(Door& door, const RobotProfile& profile, const RunOptions& options, const Before& before,
+                       Monitor& monitor)
     : door_(door),
       profile_(profile),
       options_(options),
+      before_(before),
       monitor_(monitor),
       safety_line_(executive_.add(profile.schedule.safety)),
       drive_line_(executive_.add(profile.schedule.drive)),
@@ -78,7 +80,9 @@ RobotTasks::RobotTasks(Door& door, const RobotProfile& profile, const RunOptions
                odometry_line_.progress, mapping_line_.progress),
       odometry_workers_(static_cast<unsigned>(profile.threads), like(profile.schedule.odometry)),
       mapping_workers_(static_cast<unsigned>(profile.threads), like(profile.schedule.mapping)),
-      robot_(profile.robot(), odometry_workers_, mapping_workers_, monitor),
+      robot_(before.resumed
+                 ? Robot(profile.robot(), odometry_workers_, mapping_workers_, monitor, resume(*before.resumed))
+                 : Robot(profile.robot(), odometry_workers_, mapping_workers_, monitor)),
       safety_(profile.failsafe, fitted(door, profile), {seen_, drive_news_, decisions_}),
       drive_(decisions_, drive_news_),
       receive_(scans_, seen_, monitor),
@@ -145,6 +149,7 @@ void RobotTasks::tell(Telling& telling, Time now) {
   FaultSet faults;
   faults.set(Fault::kTaskHung, !telling.tick(now));
   faults.set(Fault::kBestEffort, best_effort_);
+  faults.set(Fault::kCrashLoop, before_.crash_loop);
   faults.set(Fault::kOverload, mapping_.shed() != Shed::kNothing);
   safety_.report(faults);
 }
@@ -163,12 +168,28 @@ Time RobotTasks::first_arrival() {
   return std::min({safety_.first_arrival(), drive_.first_arrival(), receive_.first_arrival()});
 }
 
-Result<void> RobotTasks::run_live(const Clock& clock) {
+void RobotTasks::add_saving(SavingTask& saving) {
+  scheduler::Line& line = executive_.add(profile_.schedule.saving);
+  line.task = &saving;
+  line.live_only = true;
+  odometry_.tell(to_save_.pose);
+  ScanSelection selection;
+  if (before_.resumed) {
+    saving.go_on_with(before_.resumed->scans);
+    selection = ScanSelection(before_.resumed->scans.back().T_odom_base);
+  }
+  mapping_.keep_copies({profile_.odometry, from_seconds(profile_.restart.save_map_every_s), selection, to_save_});
+}
+
+Result<void> RobotTasks::run_live(const Clock& clock, Generations* generations) {
   std::optional<Recorder> recorder;
   if (!options_.record.empty()) {
     auto made = make_recorder(options_.record, door_.recording, monitor_);
     if (!made) return made.error();
     recorder.emplace(std::move(*made));
+    if (before_.resumed)
+      if (const auto kept = keep_with_recording(options_.record, *before_.resumed, monitor_); !kept)
+        return kept.error();
   }
   if (const auto connected = connect(recorder ? &*recorder : nullptr); !connected) return connected.error();
   HousekeepingTask housekeeping(executive_, (recorder ? options_.record : options_.out) / "schedule.log",
@@ -179,11 +200,14 @@ Result<void> RobotTasks::run_live(const Clock& clock) {
   scheduler::Line& line = executive_.add(profile_.schedule.housekeeping);
   line.task = &housekeeping;
   line.live_only = true;
+  std::optional<SavingTask> saving;
+  if (generations != nullptr) add_saving(saving.emplace(*generations, to_save_, before_.epoch, boot_id(), monitor_));
   become_real_time();
   const Time start = clock.now() + kStartIn;
   const Duration length = options_.seconds ? from_seconds(*options_.seconds) : Duration::max();
   executive_.run_live({start, [&] { return stop_requested() || clock.now() - start > length; }}, clock);
   note_changes();
+  if (saving) saving->close(clock.now());
   for (const scheduler::Line& l : executive_.lines())
     if (l.unlogged > 0)
       monitor_.event(clock.now(), "schedule",

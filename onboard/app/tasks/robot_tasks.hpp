@@ -6,6 +6,7 @@
 
 #include "hal/workers.hpp"
 #include "onboard/app/door.hpp"
+#include "onboard/app/restart.hpp"
 #include "onboard/app/run.hpp"
 #include "onboard/app/tasks/drive_task.hpp"
 #include "onboard/app/tasks/housekeeping_task.hpp"
@@ -13,6 +14,7 @@
 #include "onboard/app/tasks/receive_task.hpp"
 #include "onboard/app/tasks/recorder.hpp"
 #include "onboard/app/tasks/safety_task.hpp"
+#include "onboard/app/tasks/saving_task.hpp"
 #include "onboard/app/tasks/telling.hpp"
 #include "onboard/scheduler/executive.hpp"
 
@@ -27,14 +29,17 @@ class IdleTask final : public scheduler::Task {
 /// A robot's tasks, joined by their channels, ready to be run by their executive.
 class RobotTasks {
  public:
-  /// All must outlive the tasks.
-  RobotTasks(Door& door, const RobotProfile& profile, const RunOptions& options, Monitor& monitor);
+  /// All must outlive the tasks. `before`: of an earlier run that this one goes on from, or that it must not be
+  /// confused with.
+  RobotTasks(Door& door, const RobotProfile& profile, const RunOptions& options, const Before& before,
+             Monitor& monitor);
   RobotTasks(const RobotTasks&) = delete;
   RobotTasks& operator=(const RobotTasks&) = delete;
   ~RobotTasks() = default;
 
   /// Live, until `stop`; leaves schedule.log and, where it is asked for, a recording. Error: they could not be made.
-  Result<void> run_live(const Clock& clock);
+  /// `generations`: where the map is saved; null: nowhere.
+  Result<void> run_live(const Clock& clock, Generations* generations);
   /// The recording behind the door, at its pace.
   Result<void> replay();
 
@@ -47,6 +52,7 @@ class RobotTasks {
 
  private:
   Result<void> connect(Recorder* recorder);
+  void add_saving(SavingTask& saving);
   void note_changes();
   void become_real_time();
   void tell(Telling& telling, Time now);
@@ -55,6 +61,7 @@ class RobotTasks {
   Door& door_;
   const RobotProfile& profile_;
   const RunOptions& options_;
+  const Before& before_;
   Monitor& monitor_;
 
   scheduler::Executive executive_;
@@ -72,6 +79,7 @@ class RobotTasks {
   OdometryTask odometry_;
   MappingTask mapping_;
   IdleTask reference_;
+  ToSave to_save_;
   bool best_effort_ = false;
   FailsafeDecision noted_;  // as far as note_changes() has read
 };

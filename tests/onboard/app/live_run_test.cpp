@@ -78,5 +78,57 @@ TEST(LiveRun, IsRepeatedToTheBitFromWhatItRecorded) {
   }
 }
 
+/// Sends the packets that come in these seconds of the drive.
+std::vector<Packet> part(const support::Vlp16Drive& drive, double from_s, double to_s) {
+  std::vector<Packet> packets;
+  const Time begin = drive.packets().front().arrival;
+  for (const Packet& packet : drive.packets())
+    if (const double t = to_seconds(packet.arrival - begin); t >= from_s && t < to_s) packets.push_back(packet);
+  return packets;
+}
+
+TEST(LiveRun, AStartAfterAnotherGoesOnInItsMapAndIsRepeatedToTheBit) {
+  const support::TemporaryFolder folder;
+  const auto ports = ports_for_now();
+  std::ofstream(folder / "robot.yaml") << "lidar:\n  data_port: " << ports.first
+                                       << "\n  position_port: " << ports.second
+                                       << "\n  T_base_lidar: [0.2, 0, 0.6, 0, 0, 0]\n";
+  const support::Vlp16Drive drive(support::lobby(), SE3::from_xyz_rpy(kMountOfLidar), 2 * kLiveSeconds, 1);
+  RunOptions options;
+  options.config = folder / "robot.yaml";
+  options.state = folder / "state";
+  options.seconds = kLiveSeconds;
+  options.pace = Pace::kLive;
+  std::vector<std::string> hashes;
+  for (const int turn : {0, 1}) {
+    options.out = folder / ("live" + std::to_string(turn));
+    options.record = folder / ("recording" + std::to_string(turn));
+    Result<std::unique_ptr<RunResult>> result = Error{Errc::kNotFound, "the run has not begun"};
+    Workers both(2);
+    both.for_each(2, [&](std::size_t side) {
+      if (side == 0)
+        result = run(options);
+      else
+        send(part(drive, turn * kLiveSeconds, (turn + 1) * kLiveSeconds), ports.first);
+    });
+    ASSERT_TRUE(result) << to_string(result.error());
+    for (const Event& e : (*result)->monitor.events()) EXPECT_NE(e.stage, "restart") << e.what;
+    hashes.push_back((*result)->report.output_sha256);
+    // Odom begins once.
+    const auto first = (*result)->report.trajectory.front().T_odom_base.mean.log().norm();
+    EXPECT_EQ(first > 0, turn == 1);
+  }
+  RunOptions again = options;
+  again.state.clear();
+  again.seconds.reset();
+  again.recording = options.record;
+  again.record.clear();
+  again.pace = Pace::kMaximum;
+  again.out = folder / "again";
+  const auto repeated = run(again);
+  ASSERT_TRUE(repeated) << to_string(repeated.error());
+  EXPECT_EQ((*repeated)->report.output_sha256, hashes.back());
+}
+
 }  // namespace
 }  // namespace cairn

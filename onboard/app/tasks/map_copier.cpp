@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/tasks/map_copier.hpp"
+
+namespace cairn {
+namespace {
+
+// Some 50 ns each: a millisecond.
+constexpr std::size_t kSlice = 20'000;
+
+}  // namespace
+
+void MapCopier::mapped(const LocatedScan& scan) {
+  if (scan.lost) return;
+  if (scan.epoch != epoch_) {  // half a copy of another map is worth nothing
+    copy_.reset();
+    selection_ = {};
+    epoch_ = scan.epoch;
+  }
+  newest_ = scan.stamp;
+  const SE3& T_odom_base = scan.T_odom_base.mean;
+  if (!selection_.wants(T_odom_base)) return;
+  ToSave::Scan* out = out_.scans.back();
+  if (out == nullptr) return;  // a later one will do
+  selection_.take(T_odom_base);
+  out->epoch = scan.epoch;
+  out->scan.stamp = scan.stamp;
+  out->scan.T_odom_base = T_odom_base;
+  thin_(scan.points_base, out->scan.points_base);
+  out_.scans.push();
+}
+
+void MapCopier::idle(Time now, const SemanticOcTree& map) {
+  if (!copy_) {
+    if ((begun_ && now - *begun_ < every_) || out_.maps.back() == nullptr || newest_ == Time{}) return;
+    begun_ = now;
+    copy_.emplace(map);
+  }
+  if (!copy_->step(map, kSlice)) return;
+  *out_.maps.back() = {copy_->take(), newest_, epoch_};
+  out_.maps.push();
+  copy_.reset();
+}
+
+}  // namespace cairn

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+
+#include "hal/latest_value.hpp"
+#include "hal/spsc_queue.hpp"
+#include "onboard/mapping/tree_copy.hpp"
+#include "onboard/robot.hpp"
+
+namespace cairn {
+
+/// What odometry and mapping hand to the task that saves; neither ever waits for it.
+struct ToSave {
+  struct Map {
+    std::unique_ptr<SemanticOcTree> tree;
+    Time stamp{};  ///< of the last scan in it
+    std::uint32_t epoch = 0;
+  };
+  struct Scan {
+    PlacedScan scan;
+    std::uint32_t epoch = 0;
+  };
+  LatestValue<TrackPoint> pose;  ///< from odometry
+  SpscQueue<Scan> scans{16};     ///< from mapping
+  SpscQueue<Map> maps{1};        ///< likewise
+};
+
+/// The part of the saving that is mapping's, live: scans that a restart needs, and from time to time a copy of the map.
+class MapCopier {
+ public:
+  /// `out` must outlive the copier. `selection`: of the scans in epoch 0, which is that of a run that goes on.
+  MapCopier(const OdometryConfig& odometry, Duration every, const ScanSelection& selection, ToSave& out)
+      : every_(every), out_(out), thin_(odometry), selection_(selection) {}
+
+  /// After every scan that is in the map.
+  void mapped(const LocatedScan& scan);
+  /// When there is no scan to be mapped: a millisecond of copying, if a copy is due and the one before was taken.
+  void idle(Time now, const SemanticOcTree& map);
+
+ private:
+  Duration every_;
+  ToSave& out_;
+  ScanThinning thin_;
+  ScanSelection selection_;
+  std::optional<TreeCopy> copy_;
+  std::optional<Time> begun_;  // the last copy
+  Time newest_{};              // scan in the map
+  std::uint32_t epoch_ = 0;
+};
+
+}  // namespace cairn

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <string>
+
+#include "hal/monitor.hpp"
+#include "onboard/app/generations.hpp"
+#include "onboard/app/tasks/map_copier.hpp"
+#include "onboard/scheduler/tick.hpp"
+
+namespace cairn {
+
+/// Keeps on disk what a core that starts again needs: the pose with every tick, the scans when there are new ones, the
+/// map when a copy of it is there. Live only; a slow or full disk holds up nobody but this task.
+class SavingTask final : public scheduler::Task {
+ public:
+  /// All but `boot` must outlive the task. `first_epoch`: what a robot's epoch 0 is on disk.
+  SavingTask(Generations& generations, ToSave& in, std::uint32_t first_epoch, std::string boot, Monitor& monitor)
+      : generations_(generations), in_(in), first_epoch_(first_epoch), boot_(std::move(boot)), monitor_(monitor) {}
+
+  /// The scans that the run goes on with: they are of its epoch 0.
+  void go_on_with(std::span<const PlacedScan> scans) {
+    for (const PlacedScan& scan : scans) scans_.add(scan);
+  }
+
+  void tick(scheduler::Tick& tick) override;
+  /// After the last tick of all tasks: what is still waiting.
+  void close(Time now);
+
+  [[nodiscard]] std::uint64_t maps_saved() const { return maps_saved_; }
+
+ private:
+  void save(Time now);
+  void save_pose(Time now);
+  void save_scans(Time now);
+  void save_map(Time now);
+  void complain(Time now, const Result<void>& saved);
+
+  Generations& generations_;
+  ToSave& in_;
+  std::uint32_t first_epoch_;
+  std::string boot_;
+  Monitor& monitor_;
+  RecentScans scans_;
+  std::uint32_t scans_epoch_ = 0;
+  std::uint64_t maps_saved_ = 0;
+};
+
+}  // namespace cairn

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hal/se3.hpp"
+#include "hal/time.hpp"
+#include "onboard/odometry/config.hpp"
+#include "onboard/odometry/subsample.hpp"
+
+namespace cairn {
+
+/// A scan as it was placed: enough to see its surroundings again.
+struct PlacedScan {
+  Time stamp{};
+  SE3 T_odom_base;
+  std::vector<Eigen::Vector3f> points_base;  ///< deskewed, thinned, in base_link at `stamp`, in metres
+};
+
+/// Which scans are worth keeping for a restart: the first ones, until the surroundings are dense, then one per stretch
+/// of way or turn.
+class ScanSelection {
+ public:
+  ScanSelection() = default;
+  /// Of a run that goes on where the surroundings are dense already.
+  explicit ScanSelection(const SE3& T_odom_last) : T_odom_last_(T_odom_last), taken_(kFirst) {}
+
+  [[nodiscard]] bool wants(const SE3& T_odom_base) const;
+  void take(const SE3& T_odom_base);
+
+ private:
+  static constexpr int kFirst = 8;
+  static constexpr double kStretch_m = 0.4, kTurn_rad = 0.2;
+  SE3 T_odom_last_;
+  int taken_ = 0;
+};
+
+/// Thins a scan as odometry does before it learns from it. Keeps its memory between calls.
+class ScanThinning {
+ public:
+  explicit ScanThinning(const OdometryConfig& config)
+      : edge_m_(config.insert_spacing_m), range_m_(config.max_range_m) {}
+  /// `out` gets what is left of the points, in their order.
+  void operator()(std::span<const Eigen::Vector3f> points_base, std::vector<Eigen::Vector3f>& out);
+
+ private:
+  double edge_m_, range_m_;
+  Subsample subsample_;
+  std::vector<std::uint32_t> near_;
+};
+
+/// The scans of the way's last metres. What odometry knows of its surroundings, it knows from scans like these.
+class RecentScans {
+ public:
+  static constexpr std::size_t kScans = 40;
+
+  /// Drops the oldest when there are more than kScans.
+  void add(PlacedScan scan);
+  /// In the order of their stamps.
+  [[nodiscard]] const std::deque<PlacedScan>& scans() const { return scans_; }
+
+ private:
+  std::deque<PlacedScan> scans_;
+};
+
+}  // namespace cairn
