@@ -66,6 +66,7 @@ RunReport make_report(const RunFacts& facts) {
   report.peak_rss_mb = peak_rss_mb();
   add_tasks(facts.tasks.executive(), report);
   report.mode = to_string(facts.tasks.decision().mode);
+  if (const auto cause = facts.tasks.decision().cause) report.mode_cause = to_string(*cause);
   for (int level = 0; level < kShedLevels; ++level)
     report.shed.emplace_back(to_string(static_cast<Shed>(level)),
                              facts.tasks.mapping().scans_at()[static_cast<std::size_t>(level)]);

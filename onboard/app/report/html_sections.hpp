@@ -25,6 +25,7 @@ struct Figures {
 [[nodiscard]] std::string map_section(const RunReport& report, const std::string& svg);
 [[nodiscard]] std::string accuracy_section(const RunReport& report, const Figures& figures);
 [[nodiscard]] std::string timing_section(const RunReport& report);
+[[nodiscard]] std::string schedule_section(const RunReport& report);
 [[nodiscard]] std::string events_section(const RunReport& report);
 [[nodiscard]] std::string peers_section(const RunReport& report);
 [[nodiscard]] std::string details_section(const RunReport& report);

@@ -43,7 +43,8 @@ Result<std::string> to_html(const RunReport& report) {
   const html::Figures figures = figures_of(report);
   return head(report) + html::header(report) + html::tiles(report, figures) + html::notes(report, figures) +
          html::map_section(report, *map) + html::accuracy_section(report, figures) + html::timing_section(report) +
-         html::events_section(report) + html::peers_section(report) + html::details_section(report) + foot(report);
+         html::schedule_section(report) + html::events_section(report) + html::peers_section(report) +
+         html::details_section(report) + foot(report);
 }
 
 }  // namespace cairn

@@ -220,6 +220,7 @@ Json to_json(const RunReport& report) {
             {"max_lateness_us", 1e-3 * static_cast<double>(report.ticks.max_lateness.count())}}},
           {"tasks", tasks_json(report)},
           {"mode", report.mode},
+          {"mode_cause", report.mode_cause},
           {"shed", shed_json(report)},
           {"odometry",
            {{"degenerate_scans", report.odometry.degenerate_scans},

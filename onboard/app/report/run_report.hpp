@@ -65,6 +65,7 @@ struct RunReport {
   TickStats ticks;  ///< of the control task
   std::vector<TaskFigures> tasks;
   std::string mode;                                         ///< at the end
+  std::string mode_cause;                                   ///< the fault's code; empty: none
   std::vector<std::pair<std::string, std::uint64_t>> shed;  ///< scans mapped at each level of shedding
   OdometryStats odometry;
   double peak_rss_mb = 0;

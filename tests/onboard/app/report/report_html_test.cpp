@@ -40,9 +40,10 @@ TEST(ReportHtml, IsOneWellFormedPageOfAllParts) {
   const auto run = sample_run(200);
   const std::string page = to_html(run->report).value();
   EXPECT_EQ(structure_fault(page), "");
-  for (const char* part : {"Worth a look", "data:image/png;base64,iVBORw0KGgo", "class=\"trajectory\"",
-                           "class=\"truth\"", "Accuracy", "Timing", "class=\"bars\"", "Events and faults",
-                           "3 packets lost", "Peers", "robot_3", "max_range_m", "9f86d081884c7d65"})
+  for (const char* part :
+       {"Worth a look", "data:image/png;base64,iVBORw0KGgo", "class=\"trajectory\"", "class=\"truth\"", "Accuracy",
+        "Timing", "class=\"bars\"", "Schedule", "hold: lidar_silent", "nothing 560, peer tiles 40", "Events and faults",
+        "3 packets lost", "Peers", "robot_3", "max_range_m", "9f86d081884c7d65"})
     EXPECT_THAT(page, HasSubstr(part));
 }
 
@@ -75,6 +76,44 @@ TEST(ReportHtml, OfOnePoseOrALostTrajectoryIsStillAPage) {
   EXPECT_EQ(structure_fault(to_html(run->report).value()), "");
   run->report.trajectory[0].T_odom_base.mean = SE3(Eigen::Quaterniond::Identity(), {NAN, 0, 0});
   EXPECT_EQ(structure_fault(to_html(run->report).value()), "");
+}
+
+/// The row of a task, tags left out.
+std::string row_of(const std::string& page, const std::string& task) {
+  const std::size_t begin = page.find("<tr><td class=\"l\">" + task + "</td>", page.find("<h2>Schedule"));
+  std::string text;
+  bool tag = false;
+  for (const char c : page.substr(begin, page.find("</tr>", begin) - begin)) {
+    if (c == '<') text += text.empty() || text.back() == ' ' ? "" : " ";
+    tag = c == '<' || (tag && c != '>');
+    if (!tag && c != '>') text += c;
+  }
+  return text;
+}
+
+TEST(ReportHtml, ShowsEveryTaskAgainstItsDeadline) {
+  RunReport report;
+  TaskFigures& task = report.tasks.emplace_back();
+  task.spec.name = "drive", task.spec.rate_hz = 500, task.spec.deadline_ms = 2;
+  for (int i = 0; i < 1000; ++i) task.stats.response.record(std::chrono::milliseconds(i == 999 ? 3 : 1));
+  task.stats.wake.record(std::chrono::microseconds(500));
+  task.stats.ticks = 1000, task.stats.misses = 1, task.stats.slips = 4, task.stats.soft_overruns = 5;
+  task.stats.hard_overruns = 6, task.stats.demotions = 7, task.stats.allocations = 8, task.stats.major_faults = 9;
+  task.stats.minor_faults = 10, task.stats.involuntary_switches = 11;
+  const std::string page = to_html(report).value();
+  EXPECT_THAT(row_of(page, "drive"),
+              testing::MatchesRegex(" ?drive 500 1.{1,8}000 1.0. 1.0. 1.0. 3.0. 2.00 0.50. 1 4 5 6 7 8 9 10 11 ?"));
+  EXPECT_THAT(page, HasSubstr("<td class=\"bad\">3.0")) << "above the deadline";
+  EXPECT_THAT(page, Not(HasSubstr("<td class=\"bad\">1.0")));
+}
+
+TEST(ReportHtml, InVirtualTimeTasksHaveNoResponse) {
+  RunReport report;
+  report.tasks.emplace_back().spec.name = "drive";
+  report.tasks.back().stats.ticks = 12;
+  const std::string page = to_html(report).value();
+  EXPECT_THAT(row_of(page, "drive"), HasSubstr("12 – – – –"));
+  EXPECT_THAT(page, HasSubstr("virtual time"));
 }
 
 TEST(ReportHtml, PointsOutClaimsThatDoNotHold) {
