@@ -62,6 +62,7 @@ struct Scan {
   PointCloud cloud;                ///< sensor frame
   bool incomplete = false;         ///< packets were lost, or the scan was closed by a time-out or the end of the data
   std::uint32_t lost_packets = 0;  ///< noticed inside this scan
+  bool partial = false;            ///< shows less than half of what a whole one does; then it is incomplete, too
   bool deskewed = false;           ///< already motion-compensated by whoever recorded it: offsets carry no motion
   TimeQuality time_quality = TimeQuality::kArrival;
 };

@@ -25,6 +25,12 @@ std::size_t points_per_scan(const Config& config, const Model& model) {
   return static_cast<std::size_t>(firings + kBlockChannels) * static_cast<std::size_t>(model.channel_count) * 2;
 }
 
+/// How much of a turn it looks at.
+double view_deg(const Config& config) {
+  const double view = wrap_360(config.field_of_view_deg[1] - config.field_of_view_deg[0]);
+  return view > 0 ? view : 360.0;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<Lidar>> Lidar::create(const Config& config, SourceId source, Monitor& monitor) {
@@ -37,7 +43,8 @@ Lidar::Lidar(const Config& config, const Model& model, SourceId source, Monitor&
       model_(model),
       monitor_(monitor),
       decoder_(model, gates(config)),
-      assembler_({source, config.cut_angle_deg, config.timeout_turns, points_per_scan(config, model)}),
+      assembler_(
+          {source, config.cut_angle_deg, config.timeout_turns, points_per_scan(config, model), view_deg(config)}),
       period_(from_seconds(60.0 / config.rpm)) {
   decoder_.set_rate(config.rpm * 6.0);
 }
@@ -136,8 +143,8 @@ void Lidar::note_jump(Time arrival) {
 void Lidar::count_lost(Duration step, double azimuth_deg) {
   if (2 * step <= 3 * nominal_step_) return;
   // A sensor with a limited field of view is silent over the rest of the turn.
-  const double from = config_.field_of_view_deg[0], to = config_.field_of_view_deg[1];
-  const bool has_blank_sector = wrap_360(from - to) > 0;
+  const double to = config_.field_of_view_deg[1];
+  const bool has_blank_sector = view_deg(config_) < 360;
   constexpr double kSlack = 3.0;  // the last firing before the sector is up to some degrees short of it
   const double before = last_azimuth_deg_ - kSlack;
   if (has_blank_sector && wrap_360(to - before) <= wrap_360(azimuth_deg - before)) return;
@@ -149,7 +156,7 @@ void Lidar::count_lost(Duration step, double azimuth_deg) {
 void Lidar::update_rotation(const DataPacket& data) {
   constexpr double kSlowestTurn = 4 * 360.0;  // below that the motor starts, stops or stands
   const auto rate = rotation_rate_deg_s(data, model_);
-  const bool all_around = wrap_360(config_.field_of_view_deg[0] - config_.field_of_view_deg[1]) == 0;
+  const bool all_around = view_deg(config_) == 360;
   const bool turns = rate ? *rate >= kSlowestTurn : !all_around;
   if (!turns) assembler_.mark_incomplete();
   if (rate) {

@@ -26,9 +26,18 @@ void ScanAssembler::begin_firing(Time time, double azimuth_deg, Duration last_la
       last_cut_ = time;
     }
   }
+  sweep(azimuth_deg);
   if (firings_++ == 0) running_.valid.start = time;
   running_.valid.end = time + last_laser;
   since_cut_deg_ = since_cut_deg;
+}
+
+/// Two firings in a row of an even turn are less than a degree apart; more is a gap, or a step back.
+void ScanAssembler::sweep(double azimuth_deg) {
+  constexpr double kMaxStep = 1.0;
+  const double step = wrap_360(azimuth_deg - azimuth_deg_);
+  if (firings_ > 0 && step < kMaxStep) swept_deg_ += step;
+  azimuth_deg_ = azimuth_deg;
 }
 
 /// The angle since the cut falls back. Less than half a turn after the last cut that is the encoder's jitter.
@@ -48,6 +57,7 @@ void ScanAssembler::add_lost(std::uint64_t packets) {
 
 void ScanAssembler::close(bool at_cut) {
   running_.incomplete = incomplete_ || !at_cut;
+  running_.partial = running_.incomplete && swept_deg_ < options_.field_of_view_deg / 2;
   running_.time_quality = quality_;
   std::swap(running_, finished_);
   finished_now_ = true;
@@ -55,6 +65,7 @@ void ScanAssembler::close(bool at_cut) {
   running_.cloud.clear();
   running_.lost_packets = 0;
   firings_ = 0;
+  swept_deg_ = 0;
   incomplete_ = !at_cut;
 }
 
@@ -63,6 +74,7 @@ bool ScanAssembler::discard() {
   running_.cloud.clear();
   running_.lost_packets = 0;
   firings_ = 0;
+  swept_deg_ = 0;
   incomplete_ = true;
   last_cut_.reset();
   return had_one;

@@ -20,6 +20,7 @@ class ScanAssembler {
     double cut_angle_deg = 0;    ///< sensor azimuth, clockwise, 0 = forward
     double timeout_turns = 1.5;  ///< a scan that is older, in periods of the rotation, is closed
     std::size_t reserve_points = 0;
+    double field_of_view_deg = 360;  ///< of a whole scan
   };
   explicit ScanAssembler(const Options& options);
 
@@ -50,6 +51,7 @@ class ScanAssembler {
 
  private:
   [[nodiscard]] bool crosses_cut(Time time, double since_cut_deg, Duration period) const;
+  void sweep(double azimuth_deg);
   [[nodiscard]] Duration timeout(Duration period) const;
   void close(bool at_cut);
 
@@ -60,6 +62,8 @@ class ScanAssembler {
   TimeQuality quality_ = TimeQuality::kArrival;
   std::uint64_t firings_ = 0;  // in the running scan
   double since_cut_deg_ = 0;   // of the last firing, [0, 360)
+  double azimuth_deg_ = 0;     // likewise
+  double swept_deg_ = 0;       // by the running scan, gaps left out
   std::optional<Time> last_cut_;
   std::uint64_t revolutions_ = 0;
 };

@@ -44,7 +44,8 @@ inline Config config_for(const Model& model) {
 inline bool same(const Scan& a, const Scan& b) {
   return a.valid == b.valid && a.cloud.xyz == b.cloud.xyz && a.cloud.intensity == b.cloud.intensity &&
          a.cloud.offset_ns == b.cloud.offset_ns && a.cloud.ring == b.cloud.ring &&
-         a.cloud.return_type == b.cloud.return_type && a.incomplete == b.incomplete && a.lost_packets == b.lost_packets;
+         a.cloud.return_type == b.cloud.return_type && a.incomplete == b.incomplete && a.partial == b.partial &&
+         a.lost_packets == b.lost_packets;
 }
 
 }  // namespace cairn::velodyne::test

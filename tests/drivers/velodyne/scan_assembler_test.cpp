@@ -91,6 +91,30 @@ TEST(ScanAssembler, FirstScanBeginsAnywhereAndIsIncomplete) {
 }
 
 // A limited field of view: 90° on either side of the cut angle, or all of it away from the cut.
+// Whatever is missing, and wherever: less than half of the turn is a part, more is not, and a whole one never is.
+TEST(ScanAssembler, AScanOfLessThanHalfATurnIsPartial) {
+  for (const double seen : {10.0, 100.0, 178.0, 182.0, 300.0, 350.0}) {
+    Turntable t(0);
+    t.turn(360);
+    t.turn(seen / 2);
+    t.azimuth += 360 - seen;  // a gap in the middle
+    t.time += from_seconds(to_seconds(kPeriod) * (360 - seen) / 360);
+    t.assembler.add_lost(1);
+    t.turn(seen / 2);
+    t.azimuth = 0;
+    t.turn(360);
+    t.turn(1);
+    ASSERT_EQ(t.scans.size(), 3U);
+    EXPECT_EQ(t.scans[1].partial, seen < 180) << seen;
+    EXPECT_TRUE(t.scans[1].incomplete);
+    EXPECT_FALSE(t.scans[0].partial || t.scans[2].partial) << seen;
+  }
+  Turntable standing(0);
+  for (int i = 0; i < 10'000; ++i) standing.fire(77);
+  ASSERT_FALSE(standing.scans.empty());
+  for (const Scan& scan : standing.scans) EXPECT_TRUE(scan.partial) << "many points, but of one direction";
+}
+
 TEST(ScanAssembler, LimitedFieldOfViewIsCutWithoutEverShowingTheAngle) {
   for (const double cut : {0.0, 180.0, 60.0}) {
     Turntable t(cut);
