@@ -10,8 +10,8 @@
 
 namespace cairn {
 
-/// A local socket that tells whoever listens how the run goes. Served by housekeeping, never by a real-time thread; no
-/// call blocks. A client that cannot take a whole line at once is dropped, and so is one beyond kMaxClients.
+/// A local socket that tells whoever listens how the run goes. Served by the watch task, never by a real-time thread;
+/// no call blocks. A client that cannot take a whole line at once is dropped, and so is one beyond kMaxClients.
 class LiveServer {
  public:
   static constexpr std::size_t kMaxClients = 8;

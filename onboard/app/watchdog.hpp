@@ -12,8 +12,8 @@
 namespace cairn {
 
 /// The chain from the tasks to the service manager: it hears a sign of life only while every task is within its limit,
-/// and otherwise the name of the one that is not, before it ends the process. Stepped by housekeeping, every 100 ms or
-/// so; it says something four times within `timeout`.
+/// and otherwise the name of the one that is not, before it ends the process. Stepped by the watch task, every 100 ms
+/// or so; it says something four times within `timeout`.
 class Watchdog {
  public:
   /// `timeout`: as of watchdog_timeout(); none: only events and status. `monitor` must outlive the watchdog.

@@ -69,6 +69,7 @@ void note(Line& line, const OverrunPolicy::Verdict& v) {
   if (v.soft) ++line.stats.soft_overruns;
   if (v.hard) ++line.stats.hard_overruns;
   if (v.newly_demoted) ++line.stats.demotions;
+  line.stats.demoted = line.overrun.demoted() ? 1 : 0;
 }
 
 void hand_to_log(Line& line, const TickRecord& record) {

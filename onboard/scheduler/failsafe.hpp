@@ -16,7 +16,7 @@ namespace cairn {
 enum class Watched : std::uint8_t { kLidar, kCamera, kThermal, kDepth, kFeedback };
 inline constexpr std::size_t kWatched = 5;
 
-/// The last good piece of a source: a whole scan, a picture, a set of wheel readings.
+/// The last good piece of a source: a scan of half a turn at least, a picture, a set of wheel readings.
 struct Seen {
   Time last{};
   std::uint64_t count = 0;  ///< of good pieces so far

@@ -20,10 +20,15 @@ class Feed {
   using Complain = std::function<void(Time, const Error&)>;
   /// A flood cannot hold a live task for longer.
   static constexpr int kMaxPackets = 2000;
+  /// Bytes of a packet up to which none is ever allocated for: an edge, a CAN frame.
+  static constexpr std::size_t kSmall = 128;
 
   /// `source` must outlive the feed. Packets get `id`. `slot` is a place in the records of the task.
   Feed(Source& source, SourceId id, std::size_t slot, Complain complain, Tap tap = {})
-      : source_(source), id_(id), slot_(slot), complain_(std::move(complain)), tap_(std::move(tap)) {}
+      : source_(source), id_(id), slot_(slot), complain_(std::move(complain)), tap_(std::move(tap)) {
+    packet_.bytes.reserve(kSmall);
+    next_.bytes.reserve(kSmall);
+  }
 
   /// The next packet of this tick, or null; it stays valid until the next call.
   const Packet* take(Tick& tick);

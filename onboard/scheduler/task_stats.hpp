@@ -14,6 +14,7 @@ struct TaskStats {
   RelaxedCounter soft_overruns;  ///< execution above soft_ms
   RelaxedCounter hard_overruns;  ///< execution above hard_ms: the next release was skipped
   RelaxedCounter demotions;      ///< three hard overruns in a row: every second release only, until it keeps its budget
+  RelaxedCounter demoted;        ///< 1 while it is
   RelaxedCounter allocations;    ///< by operator new, after the warm-up
   RelaxedCounter major_faults, minor_faults, involuntary_switches;  ///< of the thread, after the warm-up
   Histogram wake;                                                   ///< start − release

@@ -32,6 +32,7 @@ struct Row {
 };
 
 [[nodiscard]] std::vector<Row> sensor_rows();
+[[nodiscard]] std::vector<Row> odometry_rows();
 [[nodiscard]] std::vector<Row> drive_rows();
 [[nodiscard]] std::vector<Row> computer_rows();
 /// Of the matrix, but not automated here.

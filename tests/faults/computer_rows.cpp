@@ -3,9 +3,11 @@
 
 #include "onboard/app/generations.hpp"
 #include "onboard/app/start_log.hpp"
+#include "onboard/app/tasks/odometry_task.hpp"
 #include "onboard/scheduler/failsafe.hpp"
 #include "onboard/scheduler/health.hpp"
 #include "onboard/scheduler/overload.hpp"
+#include "onboard/scheduler/overrun.hpp"
 #include "tests/faults/campaign.hpp"
 #include "tests/support/failing_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -37,6 +39,84 @@ Measured overload() {
   return m;
 }
 
+/// The first sign within the fault's time, and the first of normal operation after it.
+void note(Measured& m, Mode mode, Time now, Time begin, Time end) {
+  m.worst = std::max(m.worst, mode);
+  if (mode != Mode::kNormal && !m.detect) m.detect = now - begin;
+  if (mode == Mode::kNormal && m.detect && now >= end && !m.recover) m.recover = now - end;
+}
+
+Mode step(Failsafe& failsafe, Time now, Fault fault, bool active) {
+  FailsafeInputs in;
+  in.now = now;
+  in.faults.set(fault, active);
+  return failsafe.step(in).mode;
+}
+
+/// The real mapping task, given scans as late as the test says.
+struct LateMapping {
+  static constexpr Duration kDeadline = std::chrono::milliseconds(100);
+
+  Shed map_scan(Time arrival, Duration late) {
+    clock.advance_to(arrival + late);
+    scheduler::TickRecord record;
+    record.index = scans++;
+    scheduler::Tick tick(scheduler::Regime::kLive, arrival, record, nullptr, &clock);
+    ArrivedMotion* motion = motions.back(tick);
+    motion->arrival = motion->scan.stamp = arrival;
+    motion->scan.points_base.assign(8, {5, 0, 1});
+    motions.push(tick);
+    task.tick(tick);
+    logged = logged && record.slots[MappingTask::kShedSlot] == static_cast<std::int32_t>(task.shed());
+    return task.shed();
+  }
+
+  Monitor monitor;
+  Workers one{1}, other{1};
+  Robot robot{{}, one, other, monitor};
+  scheduler::Progress odometry, mapping;
+  MotionChannel motions{{4, 0, OdometryTask::kMotionsSlot, MappingTask::kMotionsSlot}, odometry, mapping};
+  MappingTask task{{}, kDeadline, motions, robot, monitor};
+  VirtualClock clock;
+  std::uint64_t scans = 0;
+  bool logged = true;
+};
+
+/// Another process takes the CPU for ten seconds: each scan is mapped 1.5 deadlines after its last byte.
+Measured hog() {
+  LateMapping late;
+  Failsafe failsafe({}, {});
+  Measured m;
+  int before = 0, worst_level = 0;
+  for (Time now{}; now < Time{20s}; now += 100ms) {
+    const bool hogged = now >= Time{5s} && now < Time{15s};
+    const int level = static_cast<int>(late.map_scan(now, (hogged ? 3 : 1) * LateMapping::kDeadline / 2));
+    m.held = m.held && std::abs(level - before) <= 1;
+    before = level;
+    worst_level = std::max(worst_level, level);
+    note(m, step(failsafe, now, Fault::kOverload, level > 0), now, Time{5s}, Time{15s});
+  }
+  std::uint64_t mapped = 0;
+  for (const RelaxedCounter& scans : late.task.scans_at()) m.held = m.held && scans > 0, mapped += scans;
+  m.held = m.held && worst_level == kShedLevels - 1 && mapped == late.scans && late.logged;
+  return m;
+}
+
+/// A stage of 10 Hz that needs more than its hard budget for three seconds.
+Measured overruns() {
+  scheduler::OverrunPolicy policy(40ms, 80ms);
+  Failsafe failsafe({}, {});
+  Measured m;
+  std::uint64_t skip = 0;
+  for (Time now{}; now < Time{15s}; now += 100ms * (1 + skip)) {
+    const bool heavy = now >= Time{5s} && now < Time{8s};
+    skip = policy.tick(heavy ? 90ms : 20ms, true).skip;
+    m.held = m.held && (!heavy || skip == 1);
+    note(m, step(failsafe, now, Fault::kStageDemoted, policy.demoted()), now, Time{5s}, Time{8s});
+  }
+  return m;
+}
+
 /// A task of 10 Hz with a limit of 300 ms under a supervisor that looks every 100 ms.
 Measured hang() {
   RelaxedCounter beats;
@@ -46,13 +126,7 @@ Measured hang() {
   for (Time now{}; now < Time{10s}; now += 100ms) {
     const bool hangs = now >= Time{4s} && now < Time{6s};
     beats += hangs ? 0U : 1U;
-    FailsafeInputs in;
-    in.now = now;
-    in.faults.set(Fault::kTaskHung, supervisor.step(now).has_value());
-    const Mode mode = failsafe.step(in).mode;
-    m.worst = std::max(m.worst, mode);
-    if (mode != Mode::kNormal && !m.detect) m.detect = now - Time{4s};
-    if (mode == Mode::kNormal && m.detect && !m.recover) m.recover = now - Time{6s};
+    note(m, step(failsafe, now, Fault::kTaskHung, supervisor.step(now).has_value()), now, Time{4s}, Time{6s});
   }
   return m;
 }
@@ -123,7 +197,7 @@ std::vector<Row> computer_rows() {
       {"C8", "saved map damaged in any byte or cut anywhere", "the generation before, with an event", 0ms, 0ms, N,
        "generations/GenerationsTest.EveryDamagedByteGivesTheGenerationBeforeWithAnEvent"},
       {"C9", "memory refused at any allocation of a map's save", "an error; a whole generation always", 0ms, 0ms, N,
-       "faults/FailingMalloc.ASaveThatGetsNoMemoryIsAnErrorAndKeepsTheGenerationBefore"},
+       "failing_malloc/FailingMalloc.ASaveThatGetsNoMemoryIsAnErrorAndKeepsTheGenerationBefore"},
       {"C10", "kill -9 at random instants while maps are saved",
        "a whole generation, never an older one than was confirmed", 0ms, 0ms, S,
        "faults/KillCampaign.AWholeMapIsThereAfterEveryKill"},
@@ -136,6 +210,21 @@ std::vector<Row> computer_rows() {
        "generations/GenerationsTest.ADamagedPoseIsAnEventAndTheMapsOwnIsTaken"},
       {"C14", "restart in the middle of a drive", "the trajectory goes on within a voxel", 0ms, 0ms, N,
        "robot/Scenes/Resumed.TheTrajectoryGoesOn"},
+      {"C15", "a stage needs more than its hard budget for 3 s",
+       "every overrun costs it the next release, three in a row half its rate, until ten runs in a row keep the budget",
+       600ms, 2100ms, D, "", overruns},
+      {"C16", "another process takes the CPU for 10 s: scans are mapped 1.5 deadlines after they came",
+       "the mapping task sheds in its order; all back within 1 s", 500ms, 1s, D, "", hog},
+      {"C17", "disk that does not answer",
+       "safety goes on without an allocation, signs of life too; what waits is bounded, the rest counted; the disk is "
+       "named",
+       0ms, 0ms, N, "faults/SlowDiskTest.CostsTheRealTimeTasksNothing"},
+      {"C18", "a task does not return (real threads)", "named, no sign of life to systemd; the others go on; forgiven",
+       0ms, 0ms, H, "faults/HungTask.IsNamedAndTheOthersGoOn"},
+      {"C19", "SIGSTOP of a stage's helper thread in the middle of its part", "the stage is named, likewise", 0ms, 0ms,
+       H, "faults/HungTask.IsTheStageWhoseHelperIsStopped"},
+      {"C20", "the safety task misses a deadline", "hold until it keeps them again", 0ms, 0ms, H,
+       "app/ScheduleFaults.AMissOfTheSafetyTaskIsAFaultUntilTheNextLook"},
   };
 }
 
@@ -155,7 +244,7 @@ std::vector<Row> rows_left_out() {
       row("X5", "hardware watchdog", "needs softdog in a guest"),
       row("X6", "cgroup memory limit, order of the OOM killer's victims",
           "needs cgroups; config/systemd sets the order"),
-      row("X7", "CPU overload by stress-ng", "not deterministic; C1 is its logic in virtual time"),
+      row("X7", "CPU overload by stress-ng", "not deterministic; C1, C15 and C16 are its logic in virtual time"),
       row("X8", "bad update, A/B slots", "there is no updater yet"),
   };
 }

@@ -1,121 +1,121 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <functional>
 #include <optional>
 
 #include "drivers/drive/canopen.hpp"
 #include "drivers/drive/cia402.hpp"
-#include "drivers/gpio/estop.hpp"
-#include "onboard/scheduler/failsafe.hpp"
+#include "onboard/app/tasks/drive_task.hpp"
+#include "onboard/app/tasks/odometry_task.hpp"
+#include "onboard/app/tasks/receive_task.hpp"
+#include "onboard/app/tasks/safety_task.hpp"
 #include "tests/drivers/drive/virtual_bus.hpp"
 #include "tests/faults/campaign.hpp"
+#include "tests/support/estop_line.hpp"
 
 namespace cairn::faults {
 
-/// A driving robot: simulated motor controllers on a CAN bus, the real drive, the real e-stop and the real failsafe,
-/// all ticked every 5 ms of virtual time, as the safety task does it.
+/// A driving robot: the robot's own safety and drive tasks, ticked as live every 2 ms of virtual time, an e-stop's line
+/// and simulated motor controllers on a CAN bus.
 class CoreRig {
  public:
-  static constexpr Duration kTick = std::chrono::milliseconds(5);
+  static constexpr Duration kTick = std::chrono::milliseconds(2);
 
   CoreRig() {
-    robot.every_tick = [this] { tick(); };
-    robot.bus.power_on();
-    robot.run(std::chrono::seconds(1));
-    request();
-    robot.run(std::chrono::seconds(1));
-    moves_ = decision().mode == Mode::kNormal && robot.left_speed() > 0.4;
+    Fitted fitted;
+    fitted.drive = fitted.estop = fitted.watched[static_cast<std::size_t>(Watched::kFeedback)] = true;
+    safety_.emplace(FailsafeConfig{}, fitted, SafetyTask::Parts{seen_, news_, decisions_, odometry_});
+    safety_->watch_estop({}, line, SourceId{1}, &line, {});
+    moves_ = drive_.attach(drive::test::two_nodes(), bus, SourceId{0}, &bus, {}).has_value();
+    drive_.set_planner([](Time) { return DriveCommand{0.5, 0, 0}; });
+    bus.power_on();
+    go(std::chrono::seconds(1));
+    safety_->request_rearm(decision().epoch);
+    go(std::chrono::seconds(1));
+    moves_ = moves_ && drives();
   }
+  CoreRig(const CoreRig&) = delete;
+  CoreRig& operator=(const CoreRig&) = delete;
 
   /// Strikes, waits, mends, and waits again; then asks to be re-armed where it has to.
   Measured run(const std::function<void(CoreRig&)>& strike, const std::function<void(CoreRig&)>& mend,
                Duration lasts = std::chrono::seconds(1)) {
     using std::chrono::seconds;
-    robot.bus.sent.clear();
-    struck_ = robot.bus.now;
+    struck_ = bus.now;
     strike(*this);
-    robot.run(lasts);
+    go(lasts);
     Measured m{detected_, {}, worst_, moves_};
     mend(*this);
-    const Time mended = robot.bus.now;
+    const Time mended = bus.now;
     well_.reset();
-    robot.run(seconds(2));
+    go(seconds(2));
     if (worst_ < Mode::kStop) {
       if (well_) m.recover = *well_ - mended;
       return m;
     }
     // Latched: two seconds after the mending nothing has moved, whatever was commanded; a request brings it back.
-    m.held = m.held && !well_ && std::abs(robot.left_speed()) < 1e-9;
+    m.held = m.held && !well_ && left_speed() < 1e-9;
     for (int i = 0; i < 20 && decision().mode == Mode::kStop; ++i) {
-      request();
-      robot.run(std::chrono::milliseconds(200));
+      safety_->request_rearm(decision().epoch);
+      go(std::chrono::milliseconds(200));
     }
-    robot.run(seconds(1));
-    m.held = m.held && decision().mode == Mode::kNormal && robot.left_speed() > 0.4;
+    go(seconds(1));
+    m.held = m.held && drives();
     return m;
   }
 
-  /// Ticks from the strike to the first frame that disables a motor.
+  /// From the strike to the first frame that disables a motor.
   [[nodiscard]] std::optional<Duration> stop_frame_after() const {
     if (!stop_frame_) return std::nullopt;
     return *stop_frame_ - struck_;
   }
-  [[nodiscard]] const FailsafeDecision& decision() const { return failsafe_.decision(); }
+  [[nodiscard]] const FailsafeDecision& decision() const { return safety_->decision(); }
 
-  drive::test::Robot robot;
-  bool contact_closed = true, chip_there = true;
-  gpio::EStop estop{gpio::Config{}};
+  drive::test::VirtualBus bus;
+  support::EStopLine line;
 
  private:
-  static Fitted fitted() {
-    Fitted f;
-    f.drive = f.estop = f.watched[static_cast<std::size_t>(Watched::kFeedback)] = true;
-    return f;
-  }
-  void request() { request_ = decision().epoch; }
+  [[nodiscard]] double left_speed() const { return std::abs(bus.nodes[0].speed()) * 0.16; }  // m/s at the rim
+  [[nodiscard]] bool drives() const { return decision().mode == Mode::kNormal && left_speed() > 0.4; }
 
-  void tick() {
-    const Time now = robot.bus.now;
-    if (chip_there)
-      estop.level(now, contact_closed);
-    else
-      estop.lost(now);
-    Drive& motors = *robot.drive;
-    if (estop.stopped(now)) motors.stop(DriveCause::kEmergencyStop, now);
-    FailsafeInputs in;
-    in.now = now;
-    in.drive = motors.status();
-    in.estop = {estop.released(now), !chip_there, estop.stopped(now)};
-    if (robot.newest && robot.newest->stamp != seen_.last) seen_ = {robot.newest->stamp, seen_.count + 1};
-    in.seen[static_cast<std::size_t>(Watched::kFeedback)] = seen_;
-    in.rearm = std::exchange(request_, std::nullopt);
-    const FailsafeDecision& d = failsafe_.step(in);
-    if (d.mode == Mode::kStop && !d.arm && motors.status().level != DriveLevel::kStop && !arming_)
-      motors.stop(DriveCause::kRequested, now);
-    arming_ = d.arm;
-    if (d.arm && estop.rearm(now)) robot.arm();
-    const DriveCommand allowed = limited({0.5, 0, robot.epoch}, d);
-    robot.go(allowed.v, allowed.w);
-    note(now, d.mode);
+  void go(Duration length) {
+    for (const Time end = bus.now + length; bus.now < end; ++index_) {
+      bus.advance(kTick);
+      for (scheduler::Task* task : {static_cast<scheduler::Task*>(&*safety_), static_cast<scheduler::Task*>(&drive_)}) {
+        scheduler::TickRecord record;
+        record.index = index_;
+        scheduler::Tick tick(scheduler::Regime::kLive, bus.now, record);
+        task->tick(tick);
+      }
+      note(bus.now, decision().mode);
+    }
   }
   void note(Time now, Mode mode) {
-    if (struck_ == Time{}) return;
-    worst_ = std::max(worst_, mode);
-    if (mode != Mode::kNormal && !detected_) detected_ = now - struck_;
-    if (mode == Mode::kNormal && !well_) well_ = now;
-    if (mode != Mode::kNormal) well_.reset();
-    for (const drive::CanFrame& frame : robot.bus.sent)
-      if (frame.is(drive::canopen::kRpdo1 + 1) && !stop_frame_ &&
-          (frame.data[0] & 0x0FU) != drive::cia402::kEnableOperation)
-        stop_frame_ = now;
-    robot.bus.sent.clear();
+    if (struck_ != Time{}) {
+      worst_ = std::max(worst_, mode);
+      if (mode != Mode::kNormal && !detected_) detected_ = now - struck_;
+      if (mode == Mode::kNormal && !well_) well_ = now;
+      if (mode != Mode::kNormal) well_.reset();
+      for (const drive::CanFrame& frame : bus.sent)
+        if (frame.is(drive::canopen::kRpdo1 + 1) && !stop_frame_ &&
+            (frame.data[0] & 0x0FU) != drive::cia402::kEnableOperation)
+          stop_frame_ = now;
+    }
+    bus.sent.clear();
   }
 
-  Failsafe failsafe_{FailsafeConfig{}, fitted()};
-  Seen seen_;
-  std::optional<std::uint32_t> request_;
-  bool arming_ = false, moves_ = false;
+  scheduler::Progress nobody_;
+  SeenChannel seen_{{8, 0, ReceiveTask::kSeenSlot, SafetyTask::kSensorsSlot}, nobody_, nobody_};
+  DriveChannel news_{{64, 0, DriveTask::kNewsSlot, SafetyTask::kDriveSlot}, nobody_, nobody_};
+  DecisionChannel decisions_{{64, 0, SafetyTask::kDecisionSlot, DriveTask::kDecisionSlot}, nobody_, nobody_};
+  OdometryChannel odometry_{{8, 0, OdometryTask::kNewsSlot, SafetyTask::kOdometrySlot}, nobody_, nobody_};
+  std::optional<SafetyTask> safety_;
+  DriveTask drive_{decisions_, news_};
+  std::uint64_t index_ = 0;
+  bool moves_ = false;
   Time struck_{};
   std::optional<Time> well_, stop_frame_;
   std::optional<Duration> detected_;

@@ -22,38 +22,38 @@ Measured until_stop_frame(const Act& strike, const Act& mend) {
 }
 
 void error_frame(CoreRig& rig, std::uint32_t classes, std::uint8_t detail) {
-  rig.robot.bus.inject(drive::make_frame(drive::kErrorFrame | classes, {0, detail, 0, 0, 0, 0, 0, 0}));
+  rig.bus.inject(drive::make_frame(drive::kErrorFrame | classes, {0, detail, 0, 0, 0, 0, 0, 0}));
 }
 void mute(CoreRig& rig, bool silent) {
-  for (auto& node : rig.robot.bus.nodes) node.mute(silent);
+  for (auto& node : rig.bus.nodes) node.mute(silent);
 }
 
 std::vector<Row> estop_rows() {
   constexpr Mode S = Mode::kStop;
-  const Act closed = [](CoreRig& r) { r.contact_closed = true; };
+  const Act closed = [](CoreRig& r) { r.line.move(true, r.bus.now); };
   return {
       {"E1", "e-stop pressed",
-       "the frame that disables is on the bus within two ticks; latched; no motion without a request", 10ms, 0ms, S, "",
-       [closed] { return until_stop_frame([](CoreRig& r) { r.contact_closed = false; }, closed); }},
-      {"E2", "e-stop pressed and released within a tick (edges alone)", "likewise", 10ms, 0ms, S, "",
+       "the frame that disables is on the bus within two ticks of 2 ms; latched; no motion without a request", 4ms, 0ms,
+       S, "", [closed] { return until_stop_frame([](CoreRig& r) { r.line.move(false, r.bus.now); }, closed); }},
+      {"E2", "e-stop pressed and released within a tick (edges alone)", "likewise", 4ms, 0ms, S, "",
        [] {
          return until_stop_frame(
              [](CoreRig& r) {
-               r.estop.edge(r.robot.bus.now, false, 1);
-               r.estop.edge(r.robot.bus.now, true, 2);
+               r.line.see_edge(false, r.bus.now, 1);
+               r.line.see_edge(true, r.bus.now, 2);
              },
              [](CoreRig&) {});
        }},
-      {"E3", "e-stop's GPIO chip unplugged", "as pressed", 10ms, 0ms, S, "",
+      {"E3", "e-stop's GPIO chip unplugged", "as pressed", 4ms, 0ms, S, "",
        [] {
-         return until_stop_frame([](CoreRig& r) { r.chip_there = false; }, [](CoreRig& r) { r.chip_there = true; });
+         return until_stop_frame([](CoreRig& r) { r.line.there = false; }, [](CoreRig& r) { r.line.there = true; });
        }},
-      {"E4", "edges of the e-stop lost (a gap in their numbers)", "as pressed", 10ms, 0ms, S, "",
+      {"E4", "edges of the e-stop lost (a gap in their numbers)", "as pressed", 4ms, 0ms, S, "",
        [] {
          return until_stop_frame(
              [](CoreRig& r) {
-               r.estop.edge(r.robot.bus.now, true, 1);
-               r.estop.edge(r.robot.bus.now, true, 7);
+               r.line.see_edge(true, r.bus.now, 1);
+               r.line.see_edge(true, r.bus.now, 7);
              },
              [](CoreRig&) {});
        }},
@@ -78,36 +78,32 @@ std::vector<Row> drive_rows() {
        [nothing] {
          return drive(
              [](CoreRig& r) {
-               auto& bus = r.robot.bus;
+               auto& bus = r.bus;
                bus.deliver([&](auto& out) { bus.nodes[0].power_on(bus.now, out); });
              },
              nothing);
        }},
       {"D4", "motor controller reports a fault", "stop; reset by a request", 50ms, 0ms, S, "",
        [nothing] {
-         return drive(
-             [](CoreRig& r) { r.robot.bus.deliver([&](auto& out) { r.robot.bus.nodes[0].fail(0x3210, out); }); },
-             nothing);
+         return drive([](CoreRig& r) { r.bus.deliver([&](auto& out) { r.bus.nodes[0].fail(0x3210, out); }); }, nothing);
        }},
       {"D5", "feedback silent", "hold after 100 ms, stop after 250 ms", 110ms, 0ms, S, "",
        [] { return drive([](CoreRig& r) { mute(r, true); }, [](CoreRig& r) { mute(r, false); }); }},
       {"D6", "send queue full for 60 ms: nobody acknowledges",
        "never blocks; hold after three refusals, ends with its cause", 60ms, 1s, H, "",
        [] {
-         return CoreRig().run([](CoreRig& r) { r.robot.bus.full = true; }, [](CoreRig& r) { r.robot.bus.full = false; },
-                              60ms);
+         return CoreRig().run([](CoreRig& r) { r.bus.full = true; }, [](CoreRig& r) { r.bus.full = false; }, 60ms);
        }},
       {"D11", "send queue full for 1 s", "hold, then stop: the motor controllers' own watchdogs end it", 60ms, 0ms, S,
-       "",
-       [] { return drive([](CoreRig& r) { r.robot.bus.full = true; }, [](CoreRig& r) { r.robot.bus.full = false; }); }},
+       "", [] { return drive([](CoreRig& r) { r.bus.full = true; }, [](CoreRig& r) { r.bus.full = false; }); }},
       {"D7", "CAN interface down", "stop", 50ms, 0ms, S, "",
-       [] { return drive([](CoreRig& r) { r.robot.bus.down = true; }, [](CoreRig& r) { r.robot.bus.down = false; }); }},
+       [] { return drive([](CoreRig& r) { r.bus.down = true; }, [](CoreRig& r) { r.bus.down = false; }); }},
       {"D8", "stale, duplicated, reordered feedback; random faults at random times",
        "no motion after a stop without arming", 0ms, 0ms, S, "drive/FaultSchedule.NoMotionAfterAStopWithoutArming"},
       {"D9", "the commanding process dies", "the motor controllers' own watchdog (100 ms) stops them", 0ms, 0ms, S,
        "drive/CanDrive.ADeadHostStopsTheNodes"},
       {"D10", "e-stop pressed, on a real kernel", "from the wire through GPIO and CAN to the motors", 0ms, 0ms, S,
-       "vm/EStopStopsDrive.AnOpenedContactStopsTheMotorsUntilBothAreArmedAgain"},
+       "vm/EStopStopsDrive.ThroughTheRobotsOwnTasksWithinOneControlPeriod"},
   };
   for (Row& row : estop_rows()) rows.push_back(std::move(row));
   return rows;

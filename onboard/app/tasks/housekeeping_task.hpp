@@ -11,8 +11,8 @@
 
 namespace cairn {
 
-/// Everything that may wait, on a thread of its own: the schedule log and the recording go to the disk, and whatever
-/// else is add()ed gets its turn. Live only.
+/// Everything that may wait for a disk, on a thread of its own: the schedule log and the recording, and whatever else
+/// is add()ed gets its turn. Live only.
 class HousekeepingTask final : public scheduler::Task {
  public:
   /// `executive` must outlive the task; `recorder` too, or be null. The log's file is made at once.

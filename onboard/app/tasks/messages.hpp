@@ -24,9 +24,15 @@ struct ArrivedMotion {
   Time arrival{};
 };
 
-/// When each kind of sensor last gave something good.
+/// When each kind of sensor last gave something good, and what is wrong with what they give.
 struct SensorsSeen {
   std::array<Seen, kWatched> seen{};
+  FaultSet faults;
+};
+
+/// What odometry says of itself.
+struct OdometryNews {
+  bool lost = false;  ///< the last scan did not fit: the pose is only a prediction
 };
 
 /// What the drive says of itself.
@@ -38,6 +44,7 @@ struct DriveNews {
 using ScanChannel = scheduler::Channel<ArrivedScan>;
 using MotionChannel = scheduler::Channel<ArrivedMotion>;
 using SeenChannel = scheduler::Channel<SensorsSeen>;
+using OdometryChannel = scheduler::Channel<OdometryNews>;
 using DecisionChannel = scheduler::Channel<FailsafeDecision>;
 using DriveChannel = scheduler::Channel<DriveNews>;
 

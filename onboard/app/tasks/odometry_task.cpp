@@ -8,42 +8,52 @@ namespace cairn {
 using scheduler::Regime;
 using scheduler::Tick;
 
-OdometryTask::OdometryTask(const RobotProfile& profile, ScanChannel& scans, MotionChannel& motions, Robot& robot,
-                           Monitor& monitor, Progress progress)
+OdometryTask::OdometryTask(const RobotProfile& profile, const Parts& parts, Robot& robot, Monitor& monitor,
+                           Progress progress)
     : deadline_(from_seconds(profile.odometry_deadline_s)),
       max_iterations_(profile.odometry.max_iterations),
-      scans_(scans),
-      motions_(motions),
+      parts_(parts),
       robot_(robot),
       monitor_(monitor),
       latency_(monitor.stage("packet_to_pose")),
       progress_(std::move(progress)) {}
 
 void OdometryTask::tick(Tick& tick) {
-  while (const ArrivedScan* arrived = scans_.take(tick)) {
+  while (const ArrivedScan* arrived = parts_.scans.take(tick)) {
     locate(*arrived, tick);
     if (tick.regime() != Regime::kDrain) break;
   }
-  scans_.give_back(tick);
+  parts_.scans.give_back(tick);
+  tell(tick);
 }
 
 void OdometryTask::locate(const ArrivedScan& arrived, Tick& tick) {
-  ArrivedMotion* out = motions_.back(tick);
+  ArrivedMotion* out = parts_.motions.back(tick);
   const Time deadline = robot_.resuming() ? Time::max() : arrived.scan.valid.end + deadline_;
   Budget budget = tick.budget(kStepsSlot, deadline, max_iterations_);
   const auto located = robot_.locate(arrived.scan, budget, out != nullptr ? out->scan : dropped_);
   tick.settle(kStepsSlot, budget);
   if (located && told_ != nullptr) told_->publish(*located);
+  lost_ = !located || located->lost;
   if (!located) {
     monitor_.event(arrived.scan.valid.end, "odometry", to_string(located.error()));
   } else if (out == nullptr) {
     monitor_.event(arrived.scan.valid.end, "odometry", "a scan did not get into the map: mapping is behind");
   } else {
     out->arrival = arrived.arrival;
-    motions_.push(tick);
+    parts_.motions.push(tick);
   }
   if (tick.takes_time()) latency_.wall.record(tick.figure_now() - arrived.arrival);
   if (progress_) progress_(arrived.scan.valid.end, ++count_);
+}
+
+/// The safety task hears of changes alone.
+void OdometryTask::tell(Tick& tick) {
+  if (lost_ == told_ || tick.regime() == Regime::kDrain) return;
+  OdometryNews* out = parts_.news.back(tick);
+  if (out == nullptr) return;  // with the next tick
+  out->lost = told_ = lost_;
+  parts_.news.push(tick);
 }
 
 MappingTask::MappingTask(const OverloadConfig& overload, Duration deadline, MotionChannel& motions, Robot& robot,
@@ -71,10 +81,12 @@ void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
   ++scans_at_[static_cast<std::size_t>(level)];
   const ShedPlan plan = plan_of(level);
   if (count_++ % static_cast<std::uint64_t>(plan.scan_stride) != 0) return;
-  if (const auto extended = robot_.extend_map(motion.scan, {plan.point_stride}); !extended)
+  const auto extended = robot_.extend_map(motion.scan, {plan.point_stride});
+  if (!extended)
     monitor_.event(motion.scan.stamp, "mapping", to_string(extended.error()));
   else if (copier_)
     copier_->mapped(motion.scan);
+  memory_short_.store(!extended && extended.error().code == Errc::kLimit, std::memory_order_relaxed);
   if (tick.takes_time()) latency_.wall.record(tick.figure_now() - motion.arrival);
 }
 

@@ -14,15 +14,20 @@
 
 namespace cairn {
 
-/// Scan in, pose out, one in a tick. Slots: 0 scans taken, 1 iterations granted, 2 located scans accepted.
+/// Scan in, pose out, one in a tick. Slots: 0 scans taken, 1 iterations granted, 2 located scans and 3 news accepted.
 class OdometryTask final : public scheduler::Task {
  public:
-  static constexpr std::size_t kScansSlot = 0, kStepsSlot = 1, kMotionsSlot = 2;
+  static constexpr std::size_t kScansSlot = 0, kStepsSlot = 1, kMotionsSlot = 2, kNewsSlot = 3;
   using Progress = std::function<void(Time, std::size_t scans)>;
 
+  struct Parts {
+    ScanChannel& scans;
+    MotionChannel& motions;
+    OdometryChannel& news;
+  };
+
   /// All must outlive the task. `progress` is called after every scan, on the task's thread; may be empty.
-  OdometryTask(const RobotProfile& profile, ScanChannel& scans, MotionChannel& motions, Robot& robot, Monitor& monitor,
-               Progress progress);
+  OdometryTask(const RobotProfile& profile, const Parts& parts, Robot& robot, Monitor& monitor, Progress progress);
 
   /// Live: where every pose goes, besides. To be called before the run; `pose` must outlive the task.
   void tell(LatestValue<TrackPoint>& pose) { told_ = &pose; }
@@ -31,11 +36,11 @@ class OdometryTask final : public scheduler::Task {
 
  private:
   void locate(const ArrivedScan& arrived, scheduler::Tick& tick);
+  void tell(scheduler::Tick& tick);
 
   Duration deadline_;
   int max_iterations_;
-  ScanChannel& scans_;
-  MotionChannel& motions_;
+  Parts parts_;
   Robot& robot_;
   Monitor& monitor_;
   StageStats& latency_;
@@ -43,6 +48,7 @@ class OdometryTask final : public scheduler::Task {
   LatestValue<TrackPoint>* told_ = nullptr;
   LocatedScan dropped_;  // filled when the channel is full
   std::size_t count_ = 0;
+  bool lost_ = false, told_ = false;
 };
 
 /// Located scans in, map out, one in a tick. When its scans come too late it sheds work, in the order of Shed. Slots:
@@ -62,6 +68,8 @@ class MappingTask final : public scheduler::Task {
 
   /// Any thread.
   [[nodiscard]] Shed shed() const { return level_.load(std::memory_order_relaxed); }
+  /// Any thread: the last scan found no memory in the map.
+  [[nodiscard]] bool memory_short() const { return memory_short_.load(std::memory_order_relaxed); }
   /// Scans that were mapped at each level.
   [[nodiscard]] const std::array<RelaxedCounter, kShedLevels>& scans_at() const { return scans_at_; }
 
@@ -72,6 +80,7 @@ class MappingTask final : public scheduler::Task {
   Duration deadline_;
   OverloadController overload_;
   std::atomic<Shed> level_{Shed::kNothing};
+  std::atomic<bool> memory_short_{false};
   std::array<RelaxedCounter, kShedLevels> scans_at_{};
   std::uint64_t count_ = 0;
   MotionChannel& motions_;

@@ -37,6 +37,7 @@ void ReceiveTask::tick(Tick& tick) {
       hand_on(way.decoder->expire(tick.release()), tick, false);
     ended = ended && way.feed.ended();
   }
+  judge(tick.release());
   tell(tick);
   if (ended) tick.end_of_input();
 }
@@ -53,21 +54,42 @@ void ReceiveTask::receive(const Packet& packet, Way& way, Tick& tick) {
     if (way.watched) note(*way.watched, packet.arrival);
     return;
   }
+  if (way.stuck.step(packet.channel, packet.payload())) {
+    ++way.refused;
+    monitor_.event(packet.arrival, "lidar", "stuck: the same packet again and again");
+    return;
+  }
+  decode(packet, way, tick);
+}
+
+void ReceiveTask::decode(const Packet& packet, Way& way, Tick& tick) {
   const auto scan = [&] {
     const StageTimer timing(decode_stage_);
     return way.decoder->decode(packet);
   }();
+  ++(scan ? way.accepted : way.refused);
   if (!scan)
     monitor_.event(packet.arrival, "decode", scan.error().cause);
   else
     hand_on(*scan, tick, false);
 }
 
+void ReceiveTask::judge(Time now) {
+  FaultSet faults;
+  for (Way& way : ways_) {
+    if (way.decoder == nullptr) continue;
+    if (way.stuck.stuck()) faults.set(Fault::kLidarStuck);
+    if (way.rejection.step(now, way.accepted, way.refused)) faults.set(Fault::kLidarRejected);
+  }
+  news_ = news_ || faults != seen_.faults;
+  seen_.faults = faults;
+}
+
 void ReceiveTask::hand_on(const Scan* scan, Tick& tick, bool at_the_end) {
   if (scan == nullptr) return;
   ++figures_.scans;
   figures_.lost_packets += scan->lost_packets;
-  if (!scan->incomplete) note(Watched::kLidar, figures_.end);
+  if (!scan->partial) note(Watched::kLidar, figures_.end);
   // The first and the last revolution are cut by where the data begins and ends: nothing is wrong with the sensor.
   if (scan->incomplete && figures_.scans > 1 && !at_the_end)
     monitor_.event(scan->valid.end, "lidar", "incomplete scan: packets were lost or late, or the motor stood");

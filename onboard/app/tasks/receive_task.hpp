@@ -9,12 +9,14 @@
 #include "onboard/app/door.hpp"
 #include "onboard/app/tasks/messages.hpp"
 #include "onboard/scheduler/feed.hpp"
+#include "onboard/scheduler/rejection.hpp"
+#include "onboard/scheduler/stuck.hpp"
 #include "onboard/scheduler/tick.hpp"
 
 namespace cairn {
 
-/// Reads what the sensors sent, and hands on every scan that became whole. Slots: 0 … kMaxInputs − 1 packets of its
-/// inputs in their order, then scans and news accepted.
+/// Reads what the sensors sent, hands on every scan that became whole, and says what is wrong with a LiDAR. Slots: 0 …
+/// kMaxInputs − 1 packets of its inputs in their order, then scans and news accepted.
 class ReceiveTask final : public scheduler::Task {
  public:
   static constexpr std::size_t kMaxInputs = 8, kScansSlot = 8, kSeenSlot = 9;
@@ -43,8 +45,13 @@ class ReceiveTask final : public scheduler::Task {
     scheduler::Feed feed;
     ScanDecoder* decoder;  // null: only counted and recorded
     std::optional<Watched> watched;
+    StuckWatch stuck{};
+    RejectionWatch rejection{};
+    std::uint64_t accepted = 0, refused = 0;  // packets of a decoder
   };
   void receive(const Packet& packet, Way& way, scheduler::Tick& tick);
+  void decode(const Packet& packet, Way& way, scheduler::Tick& tick);
+  void judge(Time now);
   void hand_on(const Scan* scan, scheduler::Tick& tick, bool at_the_end);
   void note(Watched what, Time when);
   void tell(scheduler::Tick& tick);

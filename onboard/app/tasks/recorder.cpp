@@ -3,8 +3,16 @@
 
 namespace cairn {
 
-scheduler::Feed::Tap Recorder::tap(std::size_t packets) {
-  Queue& queue = queues_.emplace_back(packets);
+Recorder::Queue::Queue(std::size_t capacity, std::size_t bytes) : packets(capacity) {
+  for (std::size_t place = 0; place <= capacity; ++place) {  // one more than it holds
+    packets.back()->bytes.reserve(bytes);
+    packets.push();
+    packets.pop();
+  }
+}
+
+scheduler::Feed::Tap Recorder::tap(std::size_t packets, std::size_t bytes) {
+  Queue& queue = queues_.emplace_back(packets, bytes);
   return [&queue](const Packet& packet) {
     Packet* place = queue.packets.back();
     if (place == nullptr) {
@@ -17,17 +25,17 @@ scheduler::Feed::Tap Recorder::tap(std::size_t packets) {
 }
 
 void Recorder::fail(Time now, const Error& error) {
-  failed_ = true;
+  ++failures_;
   monitor_.event(now, "recording", "ended: " + to_string(error));
 }
 
 void Recorder::write_waiting(Time now) {
   for (Queue& queue : queues_)
     for (; const Packet* packet = queue.packets.front(); queue.packets.pop()) {
-      if (failed_) continue;
+      if (failed()) continue;
       if (const auto written = writer_.write(*packet); !written) fail(now, written.error());
     }
-  if (failed_) return;
+  if (failed()) return;
   if (const auto flushed = writer_.flush(); !flushed) fail(now, flushed.error());
 }
 
@@ -37,7 +45,7 @@ void Recorder::close(Time now) {
     monitor_.event(now, "recording",
                    "packets were lost to the recording: the disk was too slow. It cannot be replayed "
                    "to the bit");
-  if (const auto closed = writer_.close(); !closed && !failed_) fail(now, closed.error());
+  if (const auto closed = writer_.close(); !closed && !failed()) fail(now, closed.error());
 }
 
 std::uint64_t Recorder::lost() const {

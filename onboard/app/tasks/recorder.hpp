@@ -18,18 +18,21 @@ class Recorder {
   /// `monitor` must outlive the recorder.
   Recorder(recording::RecordingWriter writer, Monitor& monitor) : writer_(std::move(writer)), monitor_(monitor) {}
 
-  /// For one task: its packets go into a queue of their own. The recorder must outlive the tap.
-  [[nodiscard]] scheduler::Feed::Tap tap(std::size_t packets);
+  /// For one task: its packets go into a queue of their own. Those of up to `bytes` are kept without an allocation. The
+  /// recorder must outlive the tap.
+  [[nodiscard]] scheduler::Feed::Tap tap(std::size_t packets, std::size_t bytes);
 
   /// On the housekeeping thread. An error of the disk ends the recording and nothing else.
   void write_waiting(Time now);
   /// After the last tick.
   void close(Time now);
   [[nodiscard]] std::uint64_t lost() const;
+  /// Any thread: an error has ended it.
+  [[nodiscard]] bool failed() const { return failures_ > 0; }
 
  private:
   struct Queue {
-    explicit Queue(std::size_t capacity) : packets(capacity) {}
+    Queue(std::size_t capacity, std::size_t bytes);
     SpscQueue<Packet> packets;
     RelaxedCounter lost;
   };
@@ -38,7 +41,7 @@ class Recorder {
   recording::RecordingWriter writer_;
   Monitor& monitor_;
   std::deque<Queue> queues_;
-  bool failed_ = false;
+  RelaxedCounter failures_;
 };
 
 }  // namespace cairn

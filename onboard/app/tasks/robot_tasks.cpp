@@ -72,6 +72,9 @@ RobotTasks::RobotTasks(Door& door, const RobotProfile& profile, const RunOptions
             safety_line_.progress),
       drive_news_({kNews, 0, DriveTask::kNewsSlot, SafetyTask::kDriveSlot, kNextTick}, drive_line_.progress,
                   safety_line_.progress),
+      odometry_news_(
+          {kNews, 0, OdometryTask::kNewsSlot, SafetyTask::kOdometrySlot, 2 * profile.schedule.odometry.deadline()},
+          odometry_line_.progress, safety_line_.progress),
       decisions_({kNews, 0, SafetyTask::kDecisionSlot, DriveTask::kDecisionSlot}, safety_line_.progress,
                  drive_line_.progress),
       scans_({kWaitingScans, reserve(options), ReceiveTask::kScansSlot, OdometryTask::kScansSlot},
@@ -83,10 +86,10 @@ RobotTasks::RobotTasks(Door& door, const RobotProfile& profile, const RunOptions
       robot_(before.resumed
                  ? Robot(profile.robot(), odometry_workers_, mapping_workers_, monitor, resume(*before.resumed))
                  : Robot(profile.robot(), odometry_workers_, mapping_workers_, monitor)),
-      safety_(profile.failsafe, fitted(door, profile), {seen_, drive_news_, decisions_}),
+      safety_(profile.failsafe, fitted(door, profile), {seen_, drive_news_, decisions_, odometry_news_}),
       drive_(decisions_, drive_news_),
       receive_(scans_, seen_, monitor),
-      odometry_(profile, scans_, motions_, robot_, monitor, options.progress),
+      odometry_(profile, {scans_, motions_, odometry_news_}, robot_, monitor, options.progress),
       mapping_(profile.overload, profile.schedule.mapping.deadline(), motions_, robot_, monitor) {
   safety_line_.task = &safety_;
   drive_line_.task = &drive_;
@@ -94,31 +97,35 @@ RobotTasks::RobotTasks(Door& door, const RobotProfile& profile, const RunOptions
   odometry_line_.task = &odometry_;
   mapping_line_.task = &mapping_;
   safety_line_.input = drive_line_.input = receive_line_.input = true;
-  safety_line_.from = {&seen_, &drive_news_};
+  safety_line_.from = {&seen_, &drive_news_, &odometry_news_};
   drive_line_.from = {&decisions_};
   odometry_line_.from = {&scans_};
   mapping_line_.from = {&motions_};
   executive_.count_allocations(allocations_of_this_thread);
-  if (!options.reference) return;
-  scheduler::Line& reference = executive_.add(profile.schedule.safety);
-  reference.spec.name = "reference";
-  reference.task = &reference_;
-  reference.live_only = true;
+  if (options.reference) add_live_only(profile.schedule.safety, reference_).spec.name = "reference";
+}
+
+scheduler::Line& RobotTasks::add_live_only(const scheduler::TaskSpec& spec, scheduler::Task& task) {
+  scheduler::Line& line = executive_.add(spec);
+  line.task = &task;
+  line.live_only = true;
+  return line;
 }
 
 Result<void> RobotTasks::connect(Recorder* recorder) {
-  const auto tap = [recorder](std::size_t packets) {
-    return recorder != nullptr ? recorder->tap(packets) : scheduler::Feed::Tap{};
+  const auto tap = [recorder](std::size_t packets, std::size_t bytes) {
+    return recorder != nullptr ? recorder->tap(packets, bytes) : scheduler::Feed::Tap{};
   };
-  const auto received = tap(kWaitingPackets);
+  const auto received = tap(kWaitingPackets, 0);
   for (std::size_t i = 0; i < door_.inputs.size(); ++i) {
     Input& input = door_.inputs[i];
     const auto id = static_cast<SourceId>(i);
     if (input.entry.kind == recording::kGpio && has_estop(door_, profile_)) {
-      safety_.watch_estop(profile_.gpio.driver, *input.source, id, input.lines, tap(kWaitingEdges));
+      safety_.watch_estop(profile_.gpio.driver, *input.source, id, input.lines,
+                          tap(kWaitingEdges, scheduler::Feed::kSmall));
     } else if (input.entry.kind == recording::kDrive) {
-      if (const auto attached =
-              drive_.attach(profile_.drive.driver, *input.source, id, input.can, tap(kWaitingPackets));
+      if (const auto attached = drive_.attach(profile_.drive.driver, *input.source, id, input.can,
+                                              tap(kWaitingPackets, scheduler::Feed::kSmall));
           !attached)
         return attached.error();
     } else if (!receive_.add(input, id, received)) {
@@ -143,14 +150,15 @@ void RobotTasks::note_changes() {
   }
 }
 
-void RobotTasks::tell(Telling& telling, Time now) {
+void RobotTasks::tell(Telling& telling, FaultSet faults, Time now) {
   telling.set_decision(noted_);
   telling.set_shed(mapping_.shed());
-  FaultSet faults;
+  faults = faults | schedule_faults_.look();
   faults.set(Fault::kTaskHung, !telling.tick(now));
   faults.set(Fault::kBestEffort, best_effort_);
   faults.set(Fault::kCrashLoop, before_.crash_loop);
   faults.set(Fault::kOverload, mapping_.shed() != Shed::kNothing);
+  faults.set(Fault::kMemoryShort, mapping_.memory_short());
   safety_.report(faults);
 }
 
@@ -169,9 +177,7 @@ Time RobotTasks::first_arrival() {
 }
 
 void RobotTasks::add_saving(SavingTask& saving) {
-  scheduler::Line& line = executive_.add(profile_.schedule.saving);
-  line.task = &saving;
-  line.live_only = true;
+  add_live_only(profile_.schedule.saving, saving);
   odometry_.tell(to_save_.pose);
   ScanSelection selection;
   if (before_.resumed) {
@@ -194,14 +200,14 @@ Result<void> RobotTasks::run_live(const Clock& clock, Generations* generations) 
   if (const auto connected = connect(recorder ? &*recorder : nullptr); !connected) return connected.error();
   HousekeepingTask housekeeping(executive_, (recorder ? options_.record : options_.out) / "schedule.log",
                                 recorder ? &*recorder : nullptr);
-  housekeeping.add([this](Time) { note_changes(); });
+  WatchTask watch(add_live_only(profile_.schedule.housekeeping, housekeeping).stats.ticks,
+                  recorder ? &*recorder : nullptr);
+  add_live_only(profile_.schedule.watch, watch);
   Telling telling(executive_, monitor_, Telling::from_environment(profile_.name, options_.live_view), clock.now());
-  housekeeping.add([&](Time now) { tell(telling, now); });
-  scheduler::Line& line = executive_.add(profile_.schedule.housekeeping);
-  line.task = &housekeeping;
-  line.live_only = true;
   std::optional<SavingTask> saving;
   if (generations != nullptr) add_saving(saving.emplace(*generations, to_save_, before_.epoch, boot_id(), monitor_));
+  watch.add([this](Time) { note_changes(); });
+  watch.add([&](Time now) { tell(telling, watch.faults(), now); });
   become_real_time();
   const Time start = clock.now() + kStartIn;
   const Duration length = options_.seconds ? from_seconds(*options_.seconds) : Duration::max();

@@ -15,7 +15,9 @@
 #include "onboard/app/tasks/recorder.hpp"
 #include "onboard/app/tasks/safety_task.hpp"
 #include "onboard/app/tasks/saving_task.hpp"
+#include "onboard/app/tasks/schedule_faults.hpp"
 #include "onboard/app/tasks/telling.hpp"
+#include "onboard/app/tasks/watch_task.hpp"
 #include "onboard/scheduler/executive.hpp"
 
 namespace cairn {
@@ -55,7 +57,8 @@ class RobotTasks {
   void add_saving(SavingTask& saving);
   void note_changes();
   void become_real_time();
-  void tell(Telling& telling, Time now);
+  scheduler::Line& add_live_only(const scheduler::TaskSpec& spec, scheduler::Task& task);
+  void tell(Telling& telling, FaultSet faults, Time now);
   [[nodiscard]] Time first_arrival();
 
   Door& door_;
@@ -68,6 +71,7 @@ class RobotTasks {
   scheduler::Line &safety_line_, &drive_line_, &receive_line_, &odometry_line_, &mapping_line_;
   SeenChannel seen_;
   DriveChannel drive_news_;
+  OdometryChannel odometry_news_;
   DecisionChannel decisions_;
   ScanChannel scans_;
   MotionChannel motions_;
@@ -80,6 +84,7 @@ class RobotTasks {
   MappingTask mapping_;
   IdleTask reference_;
   ToSave to_save_;
+  ScheduleFaults schedule_faults_{executive_, safety_line_};
   bool best_effort_ = false;
   FailsafeDecision noted_;  // as far as note_changes() has read
 };

@@ -30,21 +30,15 @@ void SafetyTask::watch_estop(const gpio::Config& config, Source& source, SourceI
 void SafetyTask::tick(Tick& tick) {
   if (tick.regime() == scheduler::Regime::kDrain) return;  // the run is over: nothing is late any more
   inputs_.now = tick.release();
-  while (const SensorsSeen* news = parts_.sensors.take(tick))
-    for (std::size_t i = 0; i < kWatched; ++i)
-      if (i != static_cast<std::size_t>(Watched::kFeedback)) inputs_.seen[i] = news->seen[i];
-  while (const DriveNews* news = parts_.drive.take(tick)) {
-    inputs_.drive = news->status;
-    arming_until_ = {};
-    inputs_.seen[static_cast<std::size_t>(Watched::kFeedback)] = news->feedback;
-  }
+  read_news(tick);
   if (tick.release() < arming_until_) inputs_.drive.level = DriveLevel::kHold;
   if (estop_) read_estop(tick);
   const std::int32_t rearm = tick.decide(
       kRearmSlot, [this] { return rearm_.exchange(0); }, 0);
   inputs_.rearm = rearm > 0 ? std::optional(static_cast<std::uint32_t>(rearm - 1)) : std::nullopt;
-  inputs_.faults = FaultSet(static_cast<std::uint32_t>(tick.decide(
-      kFaultsSlot, [this] { return faults_.load(); }, 0)));
+  const std::int32_t reported = tick.decide(
+      kFaultsSlot, [this] { return faults_.load(); }, 0);
+  inputs_.faults = FaultSet(static_cast<std::uint32_t>(reported)) | sensor_faults_ | odometry_faults_;
 
   const FailsafeDecision before = failsafe_.decision();
   if (failsafe_.step(inputs_).arm) {
@@ -53,6 +47,20 @@ void SafetyTask::tick(Tick& tick) {
   }
   if (!same(before, failsafe_.decision())) tell(before, tick);
   if (input_ended()) tick.end_of_input();
+}
+
+void SafetyTask::read_news(Tick& tick) {
+  while (const SensorsSeen* news = parts_.sensors.take(tick)) {
+    for (std::size_t i = 0; i < kWatched; ++i)
+      if (i != static_cast<std::size_t>(Watched::kFeedback)) inputs_.seen[i] = news->seen[i];
+    sensor_faults_ = news->faults;
+  }
+  while (const DriveNews* news = parts_.drive.take(tick)) {
+    inputs_.drive = news->status;
+    arming_until_ = {};
+    inputs_.seen[static_cast<std::size_t>(Watched::kFeedback)] = news->feedback;
+  }
+  while (const OdometryNews* news = parts_.odometry.take(tick)) odometry_faults_.set(Fault::kOdometryLost, news->lost);
 }
 
 void SafetyTask::read_estop(Tick& tick) {

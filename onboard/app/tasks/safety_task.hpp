@@ -14,15 +14,17 @@ namespace cairn {
 
 /// The safety task reads the e-stop, knows who was heard last, and decides what the robot may do. It allocates nothing,
 /// locks nothing and never waits. Slots: 0 edges taken, 1 the level where the edges did not tell it, 2 news of sensors
-/// and 3 of the drive taken, 4 decisions accepted, 5 re-arm request, 6 faults found elsewhere.
+/// and 3 of the drive taken, 4 decisions accepted, 5 re-arm request, 6 faults that only the machine shows, 7 news of
+/// odometry taken.
 class SafetyTask final : public scheduler::Task {
  public:
   static constexpr std::size_t kEdgesSlot = 0, kLevelSlot = 1, kSensorsSlot = 2, kDriveSlot = 3, kDecisionSlot = 4,
-                               kRearmSlot = 5, kFaultsSlot = 6;
+                               kRearmSlot = 5, kFaultsSlot = 6, kOdometrySlot = 7;
   struct Parts {
     SeenChannel& sensors;
     DriveChannel& drive;
     DecisionChannel& decisions;
+    OdometryChannel& odometry;
   };
   /// What changed, for whoever may lock and allocate.
   struct Change {
@@ -45,7 +47,7 @@ class SafetyTask final : public scheduler::Task {
 
   /// Any thread: the operator wants to move again; `epoch` is the one of the stop that he saw.
   void request_rearm(std::uint32_t epoch) { rearm_.store(static_cast<std::int32_t>(epoch) + 1); }
-  /// Any one thread: faults that only it can see.
+  /// Any one thread: faults that the machine shows and the data does not: a hung task, say.
   void report(FaultSet faults) { faults_.store(static_cast<std::int32_t>(faults.bits())); }
 
   /// One other thread.
@@ -57,6 +59,7 @@ class SafetyTask final : public scheduler::Task {
   [[nodiscard]] bool input_ended() const { return !edges_ || edges_->ended(); }
 
  private:
+  void read_news(scheduler::Tick& tick);
   void read_estop(scheduler::Tick& tick);
   void read_level(scheduler::Tick& tick);
   void tell(const FailsafeDecision& before, scheduler::Tick& tick);
@@ -64,6 +67,7 @@ class SafetyTask final : public scheduler::Task {
   Failsafe failsafe_;
   Parts parts_;
   FailsafeInputs inputs_;
+  FaultSet sensor_faults_, odometry_faults_;
   Time arming_until_{};
   std::optional<gpio::EStop> estop_;
   std::optional<scheduler::Feed> edges_;

@@ -16,7 +16,7 @@
 namespace cairn {
 
 /// Tells the outside how a live run goes: signs of life to the service manager, the live view to whoever watches. A
-/// chore of housekeeping; reads figures that their tasks write without a lock.
+/// chore of the watch task; reads figures that their tasks write without a lock.
 class Telling {
  public:
   struct Options {

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <chrono>
+#include <functional>
+#include <vector>
+
+#include "onboard/app/tasks/recorder.hpp"
+#include "onboard/scheduler/fault.hpp"
+#include "onboard/scheduler/health.hpp"
+#include "onboard/scheduler/tick.hpp"
+
+namespace cairn {
+
+/// Looks after the others and tells of them: what may lock and allocate, but waits for no disk. Live only, on a thread
+/// of its own: a disk that takes its time must not look like a core that hangs.
+class WatchTask final : public scheduler::Task {
+ public:
+  /// Housekeeping that does not come back for so long waits for the disk.
+  static constexpr Duration kDiskLimit = std::chrono::milliseconds(500);
+  using Chore = std::function<void(Time now)>;
+
+  /// `housekeeping`: its ticks; must outlive the task, as must `recorder`, which may be null.
+  WatchTask(const RelaxedCounter& housekeeping, const Recorder* recorder)
+      : disk_({{"housekeeping", kDiskLimit, &housekeeping}}), recorder_(recorder) {}
+
+  /// A chore is done in every tick, after those added before it.
+  void add(Chore chore) { chores_.push_back(std::move(chore)); }
+
+  void tick(scheduler::Tick& tick) override {
+    faults_.set(Fault::kDiskFailing,
+                disk_.step(tick.release()).has_value() || (recorder_ != nullptr && recorder_->failed()));
+    for (const Chore& chore : chores_) chore(tick.release());
+  }
+  /// Of the task's thread: what it has seen itself.
+  [[nodiscard]] FaultSet faults() const { return faults_; }
+
+ private:
+  Supervisor disk_;
+  const Recorder* recorder_;
+  FaultSet faults_;
+  std::vector<Chore> chores_;
+};
+
+}  // namespace cairn

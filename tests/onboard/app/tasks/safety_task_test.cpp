@@ -1,0 +1,236 @@
+// SPDX-License-Identifier: Apache-2.0
+// The safety task by itself: what it makes of its line, of the news and of the operator, tick by tick.
+#include "onboard/app/tasks/safety_task.hpp"
+
+#include <gtest/gtest.h>
+
+#include "onboard/app/allocations.hpp"
+#include "tests/support/estop_line.hpp"
+
+namespace cairn {
+namespace {
+
+using namespace std::chrono_literals;
+using scheduler::Regime;
+using scheduler::Tick;
+using scheduler::TickRecord;
+
+using support::EStopLine;
+
+/// A robot with an e-stop and a drive whose motors do what they are told, under the safety task at 500 Hz.
+class SafetyTaskTest : public testing::Test {
+ protected:
+  static constexpr Duration kPeriod = 2ms;
+
+  SafetyTaskTest() {
+    fitted_.drive = fitted_.estop = true;
+    make(&line_);
+  }
+  void make(EStopLine* line) {
+    task_.emplace(FailsafeConfig{}, fitted_, SafetyTask::Parts{sensors_, drive_, decisions_, odometry_});
+    task_->watch_estop({}, line_, SourceId{0}, line, {});
+  }
+
+  void tick(Regime regime, TickRecord& record) {
+    Tick tick(regime, now_, record);
+    const std::uint64_t before = allocations_of_this_thread();
+    task_->tick(tick);
+    allocated_ += allocations_of_this_thread() - before;
+  }
+  /// Live, for so long; every tick is kept for a replay.
+  void run(Duration length) {
+    for (const Time end = now_ + length; now_ < end; now_ += kPeriod) {
+      TickRecord record;
+      record.index = log_.size();
+      tick(Regime::kLive, record);
+      log_.push_back(record);
+      decisions_made_.push_back(task_->decision());
+      serve_motors(record.index);
+    }
+  }
+  /// The motors are told by decisions and tell of themselves a tick later.
+  void serve_motors(std::uint64_t index) {
+    TickRecord record;
+    record.index = index;
+    Tick drive_tick(Regime::kLive, now_, record);
+    bool armed = false, stopped = false;
+    while (const FailsafeDecision* decision = decisions_.take(drive_tick)) {
+      armed = armed || decision->arm;
+      stopped = decision->mode == Mode::kStop && !decision->arm;
+    }
+    if (!armed && !stopped) return;
+    DriveNews* news = drive_.back(drive_tick);
+    news->status.level = armed ? DriveLevel::kNormal : DriveLevel::kStop;
+    news->status.cause = armed ? DriveCause::kNone : DriveCause::kRequested;
+    drive_.push(drive_tick);
+  }
+  template <class News, class Fill>
+  void send(scheduler::Channel<News>& channel, Fill fill) {
+    TickRecord record;
+    record.index = log_.size();
+    Tick tick(Regime::kLive, now_, record);
+    News* news = channel.back(tick);
+    fill(*news);
+    channel.push(tick);
+  }
+  void arm() {
+    run(600ms);  // closed for long enough
+    task_->request_rearm(task_->decision().epoch);
+    run(50ms);
+  }
+  [[nodiscard]] Mode mode() const { return task_->decision().mode; }
+
+  scheduler::Progress anyone_;
+  SeenChannel sensors_{{8, 0, 0, SafetyTask::kSensorsSlot}, anyone_, anyone_};
+  DriveChannel drive_{{8, 0, 0, SafetyTask::kDriveSlot}, anyone_, anyone_};
+  DecisionChannel decisions_{{8, 0, SafetyTask::kDecisionSlot, 0}, anyone_, anyone_};
+  OdometryChannel odometry_{{8, 0, 0, SafetyTask::kOdometrySlot}, anyone_, anyone_};
+  EStopLine line_;
+  Fitted fitted_;
+  std::optional<SafetyTask> task_;
+  Time now_{10s};
+  std::vector<TickRecord> log_;
+  std::vector<FailsafeDecision> decisions_made_;
+  std::uint64_t allocated_ = 0;
+};
+
+TEST_F(SafetyTaskTest, ARobotIsStoppedUntilItIsAskedFor) {
+  run(1s);
+  EXPECT_EQ(mode(), Mode::kStop);
+  arm();
+  EXPECT_EQ(mode(), Mode::kNormal);
+  EXPECT_EQ(allocated_, 0U);
+}
+
+TEST_F(SafetyTaskTest, ALostEStopThatIsClosedAgainObeysTheNextRequest) {
+  arm();
+  ASSERT_EQ(mode(), Mode::kNormal);
+  line_.there = false;
+  run(kPeriod);
+  EXPECT_EQ(mode(), Mode::kStop) << "within the tick";
+  EXPECT_EQ(task_->decision().cause, Fault::kEStopLost);
+  task_->request_rearm(task_->decision().epoch);
+  run(1s);
+  EXPECT_EQ(mode(), Mode::kStop) << "nobody moves with an e-stop that cannot be read";
+  line_.there = true;
+  run(2s);
+  EXPECT_EQ(mode(), Mode::kStop) << "not by itself";
+  EXPECT_FALSE(task_->decision().active.has(Fault::kEStopLost)) << "that is over";
+  task_->request_rearm(task_->decision().epoch);
+  run(50ms);
+  EXPECT_EQ(mode(), Mode::kNormal);
+}
+
+TEST_F(SafetyTaskTest, ARequestBeforeTheContactWasClosedForLongEnoughIsLost) {
+  arm();
+  line_.move(false, now_);
+  run(1s);
+  ASSERT_EQ(task_->decision().cause, Fault::kEStopOpen);
+  line_.move(true, now_);
+  run(200ms);  // of estop_rearm_ms
+  task_->request_rearm(task_->decision().epoch);
+  run(2s);
+  EXPECT_EQ(mode(), Mode::kStop) << "a refused request is not kept for later";
+  task_->request_rearm(task_->decision().epoch);
+  run(50ms);
+  EXPECT_EQ(mode(), Mode::kNormal);
+}
+
+TEST_F(SafetyTaskTest, AnOldRequestEndsNoLaterStop) {
+  run(600ms);
+  const std::uint32_t first = task_->decision().epoch;
+  arm();
+  line_.move(false, now_);
+  line_.move(true, now_ + 1ms);
+  run(2s);
+  ASSERT_EQ(mode(), Mode::kStop) << "two edges between two ticks";
+  task_->request_rearm(first);
+  run(1s);
+  EXPECT_EQ(mode(), Mode::kStop);
+}
+
+TEST_F(SafetyTaskTest, ALostTrackDegradesUntilAScanFitsAgain) {
+  arm();
+  send(odometry_, [](OdometryNews& news) { news.lost = true; });
+  run(kPeriod);
+  EXPECT_EQ(mode(), Mode::kDegraded);
+  EXPECT_EQ(task_->decision().cause, Fault::kOdometryLost);
+  run(1s);
+  EXPECT_EQ(mode(), Mode::kDegraded) << "until there is other news";
+  send(odometry_, [](OdometryNews& news) { news.lost = false; });
+  run(kPeriod);
+  EXPECT_EQ(mode(), Mode::kNormal);
+}
+
+TEST_F(SafetyTaskTest, FaultsFromAllSidesAreActiveTogether) {
+  arm();
+  send(sensors_, [](SensorsSeen& news) { news.faults = {Fault::kLidarStuck}; });
+  send(odometry_, [](OdometryNews& news) { news.lost = true; });
+  task_->report({Fault::kStageDemoted});
+  run(kPeriod);
+  EXPECT_EQ(task_->decision().active, (FaultSet{Fault::kLidarStuck, Fault::kOdometryLost, Fault::kStageDemoted}));
+  EXPECT_EQ(mode(), Mode::kHold);
+  send(sensors_, [](SensorsSeen& news) { news.faults = {}; });
+  run(kPeriod);
+  EXPECT_EQ(task_->decision().active, (FaultSet{Fault::kOdometryLost, Fault::kStageDemoted}));
+  EXPECT_EQ(allocated_, 0U);
+}
+
+/// Everything at once; then the log alone, without a line, an operator or housekeeping.
+TEST_F(SafetyTaskTest, TheLogRepeatsEveryDecision) {
+  struct Sent {
+    std::size_t before;  // the tick
+    bool lost;
+  };
+  std::vector<Sent> news;
+  const auto lose = [&](bool lost) {
+    news.push_back({log_.size(), lost});
+    send(odometry_, [lost](OdometryNews& n) { n.lost = lost; });
+  };
+  std::deque<Packet> edges;
+  const auto move = [&](bool closed) {
+    line_.move(closed, now_);
+    edges.push_back(line_.edges.back());
+  };
+  arm();
+  lose(true);
+  run(20ms);
+  task_->report({Fault::kStageDemoted});
+  run(20ms);
+  line_.there = false;
+  run(20ms);
+  line_.there = true;
+  lose(false);
+  arm();
+  move(false);
+  run(20ms);
+  move(true);
+  task_->report({});
+  arm();
+  ASSERT_EQ(mode(), Mode::kNormal);
+
+  EStopLine recorded;
+  recorded.edges = edges;
+  SafetyTask again({}, fitted_, {sensors_, drive_, decisions_, odometry_});
+  again.watch_estop({}, recorded, SourceId{0}, nullptr, {});
+  now_ = Time{10s};
+  auto next = news.begin();
+  std::uint64_t arms = 0;
+  for (std::size_t i = 0; i < log_.size(); ++i, now_ += kPeriod) {
+    for (; next != news.end() && next->before == i; ++next)
+      send(odometry_, [&](OdometryNews& n) { n.lost = next->lost; });
+    TickRecord record = log_[i];
+    Tick tick(Regime::kLogged, now_, record);
+    again.tick(tick);
+    const FailsafeDecision &then = decisions_made_[i], &now = again.decision();
+    ASSERT_TRUE(then.mode == now.mode && then.cause == now.cause && then.active == now.active &&
+                then.epoch == now.epoch && then.arm == now.arm)
+        << "tick " << i;
+    arms += now.arm ? 1 : 0;
+    serve_motors(i);
+  }
+  EXPECT_EQ(arms, 3U);
+}
+
+}  // namespace
+}  // namespace cairn
