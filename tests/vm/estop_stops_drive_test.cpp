@@ -1,141 +1,173 @@
 // SPDX-License-Identifier: Apache-2.0
-// The e-stop's wire through the kernel to the motors: a simulated GPIO chip (CAIRN_TEST_GPIOCHIP, CAIRN_TEST_GPIOSIM),
-// our drivers, a CAN interface (CAIRN_TEST_CAN) and simulated CiA 402 controllers behind it.
+// The e-stop's wire through the kernel and the robot's own safety and drive tasks to the motors: a simulated GPIO chip
+// (CAIRN_TEST_GPIOCHIP, CAIRN_TEST_GPIOSIM), a CAN interface (CAIRN_TEST_CAN) and simulated CiA 402 controllers.
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-#include <fstream>
+#include <algorithm>
+#include <cstdio>
+#include <map>
 
-#include "drivers/drive/can_drive.hpp"
-#include "drivers/drive/canopen.hpp"
-#include "drivers/drive/cia402.hpp"
-#include "drivers/drive/socketcan_link.hpp"
-#include "drivers/gpio/estop.hpp"
-#include "drivers/gpio/gpio_lines.hpp"
-#include "tests/drivers/drive/virtual_bus.hpp"
-#include "tools/simulator/drive_model.hpp"
+#include "tests/vm/estop_rig.hpp"
 
-namespace cairn {
+namespace cairn::vm {
 namespace {
 
 using namespace std::chrono_literals;
-using drive::CanFrame;
+using scheduler::Line;
 
-class EStopStopsDrive : public testing::Test {
- protected:
-  void SetUp() override {
-    const char* can = std::getenv("CAIRN_TEST_CAN");
-    const char* chip = std::getenv("CAIRN_TEST_GPIOCHIP");
-    const char* world = std::getenv("CAIRN_TEST_GPIOSIM");
-    if (can == nullptr || chip == nullptr || world == nullptr)
-      GTEST_SKIP() << "no CAN interface or no GPIO chip is named";
-    world_ = world;
-    gpio_config.chip = chip;
-    gpio_config.estop_line = "0";
-    pull(true);
-    link = drive::SocketCanLink::open(can, SourceId{0}, clock).value();
-    peer = drive::SocketCanLink::open(can, SourceId{1}, clock).value();
-    motors = drive::CanDrive::create(drive::test::two_nodes(), *link).value();
-    lines = gpio::open_lines(gpio_config, SourceId{2}, clock).value();
-    estop.emplace(gpio_config);
-    simulator::DriveModelConfig left, right;
-    right.node = 2;
-    nodes = {simulator::DriveModel(left), simulator::DriveModel(right)};
-    serve([&](auto& node, auto& out) { node.power_on(clock.now(), out); });
-  }
+constexpr int kPresses = 16;
 
-  void pull(bool closed) const { std::ofstream(world_ + "/sim_gpio0/pull") << (closed ? "pull-up" : "pull-down"); }
+/// An operator: presses while the robot drives, releases, waits whether it moves by itself, and asks for it again.
+class Operator {
+ public:
+  explicit Operator(EStopRig& rig) : rig_(rig) {}
 
-  template <class Act>
-  void serve(Act act) {
-    simulator::DriveModel::Frames out;
-    for (auto& node : nodes) act(node, out);
-    for (const CanFrame& frame : out) (void)peer->send(frame);
-  }
-
-  void serve_bus() {
-    while (*peer->next(packet, 1ms) == Poll::kPacket) {
-      if (packet.channel == static_cast<std::uint16_t>(drive::Direction::kSent)) continue;
-      const auto frame = drive::decode_frame(packet.payload());
-      if (!frame) continue;
-      quick_stops += frame->is(drive::canopen::kRpdo1 + 1) && frame->data[0] == drive::cia402::kQuickStop ? 1 : 0;
-      serve([&](auto& node, auto& out) { node.receive(*frame, clock.now(), out); });
+  /// A look every 20 ms; true when all is done or nothing happens any more.
+  bool look() {
+    const Time now = rig_.clock.now();
+    for (; const auto* change = rig_.safety->changes().front(); rig_.safety->changes().pop())
+      mode_ = change->mode, cause_ = change->cause, epoch_ = change->epoch;
+    if (now > changed_ + 20s) return true;
+    const std::uint64_t speed = rig_.far_end->speed_mrad_s;
+    const bool driving = speed > 3000, standing = speed < 10;  // 0.5 m/s: 3.1 rad/s
+    switch (doing_) {
+      case kAsking:
+        if (driving && mode_ == Mode::kNormal) return press(), false;
+        if (mode_ == Mode::kStop && now > asked_ + 200ms) rig_.safety->request_rearm(epoch_), asked_ = now;
+        break;
+      case kPressing:
+        if (standing && mode_ == Mode::kStop) release(now);
+        break;
+      case kReleased:
+        moved_by_itself = moved_by_itself || !standing;
+        if (now > changed_ + 1s) next(now);
+        break;
+      case kDone:
+        break;
     }
-    serve([&](auto& node, auto& out) { node.step(clock.now(), out); });
+    return doing_ == kDone;
   }
 
-  /// What a control loop does in a tick: edges, the level, and then the motors.
-  void tick() {
-    serve_bus();
-    while (*lines->next(packet, 0ms) == Poll::kPacket) {
-      const auto event = gpio::decode_event(packet).value();
-      estop->edge(packet.arrival, event.level, event.sequence);
-    }
-    const Time now = clock.now();
-    if (const auto level = lines->level(gpio::Line::kEStop))
-      estop->level(now, *level);
-    else
-      estop->lost(now);
-    if (estop->stopped(now)) motors->stop(DriveCause::kEmergencyStop, now);
-    if (epoch) (void)motors->command({0.5, 0, *epoch}, now);
-    if (const auto state = motors->tick(now); state && *state != nullptr) speed = (*state)->v;
-  }
-
-  template <class Condition>
-  bool tick_until(Condition met) {
-    for (const Time end = clock.now() + 30s; clock.now() < end;) {
-      tick();
-      if (met()) return true;
-    }
-    return false;
-  }
-
-  /// Re-arms the e-stop and the drive as soon as both allow it.
-  bool try_to_arm() {
-    const Time now = clock.now();
-    if (estop->stopped(now) && !estop->rearm(now)) return false;
-    if (const auto armed = motors->arm(now)) epoch = *armed;
-    return epoch.has_value();
-  }
-
-  LiveClock clock;
-  gpio::Config gpio_config;
-  std::unique_ptr<drive::SocketCanLink> link, peer;
-  std::unique_ptr<drive::CanDrive> motors;
-  std::unique_ptr<gpio::GpioLines> lines;
-  std::optional<gpio::EStop> estop;
-  std::vector<simulator::DriveModel> nodes;
-  std::optional<std::uint32_t> epoch;
-  Packet packet;
-  double speed = 0;
-  int quick_stops = 0;
+  int presses = 0, causes_right = 0;
+  bool moved_by_itself = false;
+  [[nodiscard]] bool done() const { return doing_ == kDone; }
 
  private:
-  std::string world_;
+  void press() {
+    // At another place of the period each time.
+    LiveClock::wait_until(rig_.clock.now() + presses * 270us);
+    rig_.pull(false);
+    ++presses;
+    become(kPressing);
+  }
+  void release(Time) {
+    causes_right += cause_ == Fault::kEStopOpen ? 1 : 0;
+    rig_.pull(true);
+    become(kReleased);
+  }
+  void next(Time) { become(presses == kPresses ? kDone : kAsking); }
+
+  enum Doing { kAsking, kPressing, kReleased, kDone };
+  void become(Doing doing) {
+    doing_ = doing;
+    changed_ = rig_.clock.now();
+  }
+
+  EStopRig& rig_;
+  Doing doing_ = kAsking;
+  Time changed_ = rig_.clock.now(), asked_{};
+  Mode mode_ = Mode::kStop;
+  std::optional<Fault> cause_;
+  std::uint32_t epoch_ = 0;
 };
 
-TEST_F(EStopStopsDrive, AnOpenedContactStopsTheMotorsUntilBothAreArmedAgain) {
-  ASSERT_TRUE(tick_until([this] { return try_to_arm(); }));
-  ASSERT_TRUE(tick_until([this] { return speed > 0.49; }));
-  const int before = quick_stops;
+/// Which releases of a line were served, and in which any of the slots says that there was news.
+struct History {
+  History(const FarEnd& far_end, const Line& line, std::initializer_list<std::size_t> slots) : releases(line.releases) {
+    for (const auto& done : far_end.ticks) {
+      if (done.line != &line) continue;
+      for (std::uint64_t k = done.record.index - done.record.skipped; k < done.record.index; ++k) passed.push_back(k);
+      const auto news = [&](std::size_t slot) { return done.record.slots[slot] > 0; };
+      if (std::any_of(slots.begin(), slots.end(), news)) took.push_back(done.record.index);
+    }
+  }
+  /// The first tick from `from` on that took something; the number of ticks served from there up to it.
+  [[nodiscard]] std::pair<std::uint64_t, int> first_taking(std::uint64_t from) const {
+    const auto it = std::lower_bound(took.begin(), took.end(), from);
+    if (it == took.end()) return {from, 0};
+    const auto skipped = std::count_if(passed.begin(), passed.end(), [&](auto k) { return k >= from && k < *it; });
+    return {*it, static_cast<int>(*it - from + 1) - static_cast<int>(skipped)};
+  }
+  scheduler::Releases releases;
+  std::vector<std::uint64_t> passed, took;
+};
 
-  pull(false);
-  ASSERT_TRUE(tick_until([this] { return estop->stopped(clock.now()); }));
-  EXPECT_EQ(motors->status().cause, DriveCause::kEmergencyStop);
-  ASSERT_TRUE(tick_until([this] { return speed < 0.01 && nodes[0].speed() < 0.01; }));
-  EXPECT_GT(quick_stops, before) << "the stop frame was on the bus";
+/// One press, from the wire to the bus.
+struct Reaction {
+  int safety_ticks = 0, drive_ticks = 0;  ///< served until the edge, then the decision, was taken
+  int orders_to_move = 0;                 ///< on the bus after the edge
+  Duration measured = Duration::max();    ///< from the kernel's stamp of the edge to that of the stop frame
+};
 
-  pull(true);  // the contact closes: nothing may move by itself
-  const Time closed = clock.now();
-  ASSERT_TRUE(tick_until([&] { return clock.now() > closed + 1s; }));
-  EXPECT_LT(speed, 0.01);
-  EXPECT_EQ(motors->status().level, DriveLevel::kStop);
+Reaction reaction(const EStopRig& rig, Time pressed, const History& safety, const History& drive) {
+  Reaction r;
+  // A tick that was released before the edge but had not looked yet may see it, too.
+  std::uint64_t from = safety.releases.not_before(pressed);
+  if (const auto before = safety.first_taking(from == 0 ? 0 : from - 1); before.first + 1 == from) --from;
+  const auto [seen, safety_ticks] = safety.first_taking(from);
+  r.safety_ticks = safety_ticks;
+  r.drive_ticks = drive.first_taking(drive.releases.not_before(safety.releases.at(seen))).second;
+  for (const FarEnd::Order& order : rig.far_end->orders) {
+    if (order.on_bus < pressed) continue;
+    if (!order.motion) {
+      r.measured = order.on_bus - pressed;
+      break;
+    }
+    ++r.orders_to_move;
+  }
+  return r;
+}
 
-  epoch.reset();
-  ASSERT_TRUE(tick_until([this] { return try_to_arm(); }));
-  EXPECT_TRUE(tick_until([this] { return speed > 0.49; }));
-  motors->stop(DriveCause::kRequested, clock.now());
+std::string microseconds(Duration d) { return std::to_string(d / 1us); }
+
+TEST(EStopStopsDrive, ThroughTheRobotsOwnTasksWithinOneControlPeriod) {
+  const char* can = std::getenv("CAIRN_TEST_CAN");
+  const char* chip = std::getenv("CAIRN_TEST_GPIOCHIP");
+  const char* world = std::getenv("CAIRN_TEST_GPIOSIM");
+  if (can == nullptr || chip == nullptr || world == nullptr)
+    GTEST_SKIP() << "no CAN interface or no GPIO chip is named";
+  EStopRig rig(can, chip, world);
+  Operator someone(rig);
+  rig.run([&] { return someone.look(); });
+  ASSERT_TRUE(someone.done()) << "after " << someone.presses << " presses nothing happened any more";
+  EXPECT_EQ(someone.causes_right, kPresses);
+  EXPECT_FALSE(someone.moved_by_itself) << "the contact was closed again, and nobody had asked";
+
+  const History safety(*rig.far_end, rig.safety_line, {SafetyTask::kEdgesSlot, SafetyTask::kLevelSlot});
+  const History drive(*rig.far_end, rig.drive_line, {DriveTask::kDecisionSlot});
+  std::vector<Duration> times;
+  std::map<int, int> ticks;
+  for (const EStopRig::Edge& edge : rig.edges) {
+    if (edge.closed) continue;
+    const Reaction r = reaction(rig, edge.at, safety, drive);
+    EXPECT_EQ(r.safety_ticks, 1) << "the first tick after the edge sees it";
+    EXPECT_GE(r.drive_ticks, 1);
+    EXPECT_LE(r.drive_ticks, 2) << "this tick's drive task, or the next where the decision came while it ran";
+    EXPECT_LE(r.orders_to_move, 2) << "as many as the drive had ticks before it heard of it";
+    ASSERT_LT(r.measured, Duration::max()) << "the stop frame was on the bus";
+    ++ticks[r.drive_ticks];
+    times.push_back(r.measured);
+  }
+  ASSERT_EQ(times.size(), static_cast<std::size_t>(kPresses));
+  std::sort(times.begin(), times.end());
+  std::printf(
+      "vm: e-stop, %d presses: seen by the next safety tick; frame in the first drive tick after it %d times,"
+      " in the second %d times; edge to frame p50 %s us, max %s us; period %s us; slips %llu + %llu\n",
+      kPresses, ticks[1], ticks[2], microseconds(times[times.size() / 2]).c_str(), microseconds(times.back()).c_str(),
+      microseconds(rig.safety_line.releases.period).c_str(),
+      static_cast<unsigned long long>(rig.safety_line.stats.slips.get()),
+      static_cast<unsigned long long>(rig.drive_line.stats.slips.get()));
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::vm

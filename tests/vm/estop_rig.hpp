@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "drivers/drive/canopen.hpp"
+#include "drivers/drive/cia402.hpp"
+#include "drivers/drive/socketcan_link.hpp"
+#include "onboard/app/schedule_profile.hpp"
+#include "onboard/app/tasks/drive_task.hpp"
+#include "onboard/app/tasks/odometry_task.hpp"
+#include "onboard/app/tasks/receive_task.hpp"
+#include "onboard/app/tasks/safety_task.hpp"
+#include "onboard/scheduler/executive.hpp"
+#include "tests/drivers/drive/virtual_bus.hpp"
+#include "tools/simulator/drive_model.hpp"
+
+namespace cairn::vm {
+
+/// What is behind the bus: two CiA 402 controllers with their motors, and someone who writes down every order to one of
+/// them, and what the tasks did in which tick.
+class FarEnd final : public scheduler::Task {
+ public:
+  /// Of a command to the first controller: when it was on the bus, and whether the motor may go on turning.
+  struct Order {
+    Time on_bus{};
+    bool motion = false;
+  };
+  struct TickDone {
+    scheduler::TickRecord record;
+    const scheduler::Line* line = nullptr;
+  };
+
+  FarEnd(drive::SocketCanLink& bus, const Clock& clock) : bus_(bus), clock_(clock) {
+    simulator::DriveModelConfig left, right;
+    right.node = 2;
+    nodes_ = {simulator::DriveModel(left), simulator::DriveModel(right)};
+  }
+  void power_on() {
+    serve([&](auto& node, auto& out) { node.power_on(clock_.now(), out); });
+  }
+  void keep_log_of(scheduler::Line& line) { lines_.push_back(&line); }
+
+  void tick(scheduler::Tick& /*tick*/) override {
+    while (*bus_.next(packet_, Duration{0}) == Poll::kPacket) {
+      if (packet_.channel == static_cast<std::uint16_t>(drive::Direction::kSent)) continue;
+      const auto frame = drive::decode_frame(packet_.payload());
+      if (!frame) continue;
+      if (frame->is(drive::canopen::kRpdo1 + 1))
+        orders.push_back({packet_.arrival, (frame->data[0] & 0x0FU) == drive::cia402::kEnableOperation});
+      serve([&](auto& node, auto& out) { node.receive(*frame, clock_.now(), out); });
+    }
+    serve([&](auto& node, auto& out) { node.step(clock_.now(), out); });
+    speed_mrad_s = static_cast<std::uint64_t>(1000 * std::abs(nodes_[0].speed()));
+    for (scheduler::Line* line : lines_)
+      for (; line->log.front() != nullptr; line->log.pop()) ticks.push_back({*line->log.front(), line});
+  }
+
+  RelaxedCounter speed_mrad_s;  ///< of the first wheel
+  std::vector<Order> orders;    ///< after the run
+  std::vector<TickDone> ticks;  ///< likewise: those that were not idle
+
+ private:
+  template <class Act>
+  void serve(Act act) {
+    frames_.clear();
+    for (auto& node : nodes_) act(node, frames_);
+    for (const drive::CanFrame& frame : frames_) (void)bus_.send(frame);
+  }
+  drive::SocketCanLink& bus_;
+  const Clock& clock_;
+  std::vector<simulator::DriveModel> nodes_;
+  std::vector<scheduler::Line*> lines_;
+  simulator::DriveModel::Frames frames_;
+  Packet packet_;
+};
+
+/// The robot's own safety and drive tasks on real devices, as `cairn run` has them, and the far end of the bus.
+class EStopRig {
+ public:
+  EStopRig(const std::string& can, const std::string& chip, std::string world) : world_(std::move(world)) {
+    gpio_.chip = chip;
+    gpio_.estop_line = "0";
+    pull(true);
+    link_ = drive::SocketCanLink::open(can, SourceId{0}, clock).value();
+    peer_ = drive::SocketCanLink::open(can, SourceId{1}, clock).value();
+    lines_ = gpio::open_lines(gpio_, SourceId{2}, clock).value();
+    Fitted fitted;
+    fitted.drive = fitted.estop = fitted.watched[static_cast<std::size_t>(Watched::kFeedback)] = true;
+    safety.emplace(FailsafeConfig{}, fitted, SafetyTask::Parts{seen_, news_, decisions_, odometry_});
+    edges.reserve(1000);
+    safety->watch_estop(gpio_, *lines_, SourceId{2}, lines_.get(), [this](const Packet& p) { note(p); });
+    (void)drive_.attach(drive::test::two_nodes(), *link_, SourceId{0}, link_.get(), {});
+    drive_.set_planner([](Time) { return DriveCommand{0.5, 0, 0}; });
+    far_end.emplace(*peer_, clock);
+    far_end->keep_log_of(safety_line);
+    far_end->keep_log_of(drive_line);
+    far_end_line_.task = &*far_end;
+    far_end_line_.live_only = true;
+    safety_line.task = &*safety;
+    drive_line.task = &drive_;
+  }
+
+  void pull(bool closed) const { std::ofstream(world_ + "/sim_gpio0/pull") << (closed ? "pull-up" : "pull-down"); }
+  void run(const std::function<bool()>& over) {
+    far_end->power_on();
+    executive_.run_live({clock.now(), over}, clock);
+    scheduler::TickRecord rest;
+    scheduler::Tick last(scheduler::Regime::kDrain, clock.now(), rest);
+    far_end->tick(last);
+  }
+
+  /// When the kernel saw the contact move, and where to.
+  struct Edge {
+    Time at{};
+    bool closed = false;
+  };
+  LiveClock clock;
+  std::vector<Edge> edges;  ///< after the run
+  std::optional<SafetyTask> safety;
+  std::optional<FarEnd> far_end;
+
+ private:
+  void note(const Packet& packet) {
+    const auto event = gpio::decode_event(packet);
+    if (event && edges.size() < edges.capacity()) edges.push_back({packet.arrival, event->level});
+  }
+  static scheduler::TaskSpec at(const char* name, double rate_hz) {
+    scheduler::TaskSpec spec;
+    spec.name = name;
+    spec.rate_hz = rate_hz;
+    return spec;
+  }
+
+  std::string world_;
+  gpio::Config gpio_;
+  ScheduleProfile schedule_;
+  scheduler::Executive executive_;
+
+ public:
+  scheduler::Line &safety_line = executive_.add(schedule_.safety), &drive_line = executive_.add(schedule_.drive);
+
+ private:
+  scheduler::Line& far_end_line_ = executive_.add(at("far end", 500));
+  scheduler::Progress nobody_;
+  SeenChannel seen_{{8, 0, ReceiveTask::kSeenSlot, SafetyTask::kSensorsSlot}, nobody_, safety_line.progress};
+  DriveChannel news_{{64, 0, DriveTask::kNewsSlot, SafetyTask::kDriveSlot}, drive_line.progress, safety_line.progress};
+  DecisionChannel decisions_{
+      {64, 0, SafetyTask::kDecisionSlot, DriveTask::kDecisionSlot}, safety_line.progress, drive_line.progress};
+  OdometryChannel odometry_{{8, 0, OdometryTask::kNewsSlot, SafetyTask::kOdometrySlot}, nobody_, safety_line.progress};
+  std::unique_ptr<drive::SocketCanLink> link_, peer_;
+  std::unique_ptr<gpio::GpioLines> lines_;
+  DriveTask drive_{decisions_, news_};
+};
+
+}  // namespace cairn::vm
