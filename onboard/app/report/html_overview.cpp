@@ -70,6 +70,19 @@ void note_stages(Notes& notes, const Monitor& monitor) {
                             number(to_milliseconds(s.wall.max()))));
 }
 
+void note_schedule(Notes& notes, const RunReport& report) {
+  if (!report.mode.empty() && report.mode != "normal")
+    notes.add("warn", "The run ended in mode <b>" + escape(report.mode) + "</b>" +
+                          (report.mode_cause.empty() ? "." : ": " + escape(report.mode_cause) + "."));
+  for (const TaskFigures& task : report.tasks)
+    if (task.stats.demotions > 0)
+      notes.add("bad", fmt::format("Task <b>{}</b> kept overrunning its hard budget and was demoted {} times.",
+                                   escape(task.spec.name), count(task.stats.demotions)));
+  std::uint64_t shed = 0;
+  for (std::size_t level = 1; level < report.shed.size(); ++level) shed += report.shed[level].second;
+  notes.count(shed, "warn", "scans were mapped while work was shed.");
+}
+
 void note_covariance(Notes& notes, std::span<const PoseError> errors) {
   const auto inside = share_inside_3_sigma(errors);
   for (std::size_t i = 0; const char* axis : {"x", "y", "z", "roll", "pitch", "yaw"}) {
@@ -114,6 +127,7 @@ std::string tiles(const RunReport& report, const Figures& figures) {
 std::string notes(const RunReport& report, const Figures& figures) {
   Notes notes;
   notes.count(report.ticks.missed, "bad", "ticks were missed.");
+  note_schedule(notes, report);
   if (report.monitor != nullptr) note_stages(notes, *report.monitor);
   notes.count(report.odometry.lost_scans, "bad", "scans could not be registered; the motion was predicted.");
   notes.count(report.odometry.degenerate_scans, "warn",

@@ -59,7 +59,7 @@ figcaption span { font-weight: 400; color: var(--soft); margin-left: 4px; }
 table { border-collapse: collapse; width: 100%; font-variant-numeric: tabular-nums; font-size: 14px; }
 th, td { padding: 5px 10px 5px 0; text-align: right; border-bottom: 1px solid var(--line); white-space: nowrap; }
 th { color: var(--soft); font-weight: 500; font-size: 13px; } tr:last-child td { border-bottom: 0; }
-th.l, td.l { text-align: left; } td.w { white-space: normal; overflow-wrap: anywhere; min-width: 180px; }
+th[colspan] { text-align: center; } th.l, td.l { text-align: left; } td.w { white-space: normal; overflow-wrap: anywhere; min-width: 180px; }
 td.bad { color: var(--bad); font-weight: 600; } td.warn { color: var(--warn); } td.good { color: var(--good); }
 .charts + .key, .scroll + .charts, .key + .charts { margin-top: 14px; }
 .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 300px), 1fr)); gap: 0 34px; }

@@ -107,6 +107,21 @@ TEST(ReportHtml, ShowsEveryTaskAgainstItsDeadline) {
   EXPECT_THAT(page, Not(HasSubstr("<td class=\"bad\">1.0")));
 }
 
+TEST(ReportHtml, PointsOutModeDemotionsAndWhatWasShed) {
+  RunReport report;
+  report.mode = "normal";
+  report.tasks.emplace_back().spec.name = "mapping";
+  report.shed = {{"nothing", 7}, {"peer tiles", 0}};
+  EXPECT_THAT(to_html(report).value(), HasSubstr("Nothing to report"));
+  report.mode = "stop", report.mode_cause = "estop_open";
+  report.tasks.back().stats.demotions = 2;
+  report.shed[1].second = 3;
+  const std::string page = to_html(report).value();
+  for (const char* note : {"ended in mode <b>stop</b>: estop_open", "<b>mapping</b> kept overrunning its hard budget",
+                           "demoted 2 times", "3 scans were mapped while work was shed"})
+    EXPECT_THAT(page, HasSubstr(note));
+}
+
 TEST(ReportHtml, InVirtualTimeTasksHaveNoResponse) {
   RunReport report;
   report.tasks.emplace_back().spec.name = "drive";
