@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <algorithm>
 #include <cerrno>
+#include <string>
 
 #include "onboard/app/generations.hpp"
 #include "onboard/app/start_log.hpp"
@@ -177,27 +179,54 @@ Measured crash_loop() {
   return m;
 }
 
-}  // namespace
-
-std::vector<Row> computer_rows() {
-  constexpr Mode N = Mode::kNormal, D = Mode::kDegraded, H = Mode::kHold, S = Mode::kStop;
+std::vector<Row> late_rows() {
+  constexpr Mode D = Mode::kDegraded, H = Mode::kHold;
   return {
       {"C1", "the pipeline needs 1.5 times its budget for 10 s", "work shed in its order; all back within 1 s", 500ms,
        1s, D, "", overload},
       {"C2", "a task hangs", "found within its limit and a look; named before the process ends", 400ms, 100ms, H, "",
        hang},
+      {"C15", "a stage needs more than its hard budget for 3 s",
+       "every overrun costs it the next release, three in a row half its rate, until ten runs in a row keep the budget",
+       600ms, 2100ms, D, "", overruns},
+      {"C16", "another process takes the CPU for 10 s: scans are mapped 1.5 deadlines after they came",
+       "the mapping task sheds in its order; all back within 1 s", 500ms, 1s, D, "", hog},
+      {"C18", "a task does not return (real threads)", "named, no sign of life to systemd; the others go on; forgiven",
+       0ms, 0ms, H, "faults/HungTask.IsNamedAndTheOthersGoOn"},
+      {"C19", "a stage's helper thread is stopped in the middle of its part", "the stage is named, likewise", 0ms, 0ms,
+       H, "faults/HungTask.IsTheStageWhoseHelperIsStopped"},
+      {"C20", "the safety task misses a deadline", "hold until it keeps them again", 0ms, 0ms, H,
+       "app/ScheduleFaults.AMissOfTheSafetyTaskIsAFaultUntilTheNextLook"},
+  };
+}
+
+std::vector<Row> disk_rows() {
+  constexpr Mode N = Mode::kNormal;
+  return {
       {"C3", "disk full", "seen by the next save; a whole generation always; works again by itself", 1s, 1s, N, "",
        [] { return disk(ENOSPC); }},
       {"C4", "disk errors (EIO)", "likewise", 1s, 1s, N, "", [] { return disk(EIO); }},
       {"C5", "file system read-only", "likewise", 1s, 1s, N, "", [] { return disk(EROFS); }},
-      {"C6", "crash loop: a restart every 2 s", "the fourth restart in a minute: no drive, telemetry alone", 10s, 0ms,
-       S, "", crash_loop},
       {"C7", "any call of a map's save fails", "a whole generation always, the next save works", 0ms, 0ms, N,
        "generations/GenerationsTest.WhateverCallFailsThereIsAWholeGenerationAndTheNextSaveWorks"},
       {"C8", "saved map damaged in any byte or cut anywhere", "the generation before, with an event", 0ms, 0ms, N,
        "generations/GenerationsTest.EveryDamagedByteGivesTheGenerationBeforeWithAnEvent"},
       {"C9", "memory refused at any allocation of a map's save", "an error; a whole generation always", 0ms, 0ms, N,
        "failing_malloc/FailingMalloc.ASaveThatGetsNoMemoryIsAnErrorAndKeepsTheGenerationBefore"},
+      {"C13", "saved state with any damage", "the map's own pose, with an event", 0ms, 0ms, N,
+       "generations/GenerationsTest.ADamagedPoseIsAnEventAndTheMapsOwnIsTaken"},
+      {"C17", "disk that does not answer",
+       "safety goes on without an allocation, signs of life too; what waits is bounded, the rest counted; the disk is "
+       "named",
+       0ms, 0ms, N, "faults/SlowDiskTest.CostsTheRealTimeTasksNothing"},
+  };
+}
+
+std::vector<Row> process_rows() {
+  constexpr Mode N = Mode::kNormal, S = Mode::kStop;
+  return {
+      {"C6", "crash loop: a restart every 2 s", "the fourth restart in a minute: no drive, telemetry alone", 10s, 0ms,
+       S, "", crash_loop},
       {"C10", "kill -9 at random instants while maps are saved",
        "a whole generation, never an older one than was confirmed", 0ms, 0ms, S,
        "faults/KillCampaign.AWholeMapIsThereAfterEveryKill"},
@@ -206,26 +235,19 @@ std::vector<Row> computer_rows() {
        "watchdog/Supervisor.AMachineThatStoodAccusesNobody"},
       {"C12", "the viewer is slow, or dies", "dropped; nobody waits for it", 0ms, 0ms, N,
        "live/LiveServerTest.ASlowClientIsDroppedAndTheOthersAreServed"},
-      {"C13", "saved state with any damage", "the map's own pose, with an event", 0ms, 0ms, N,
-       "generations/GenerationsTest.ADamagedPoseIsAnEventAndTheMapsOwnIsTaken"},
       {"C14", "restart in the middle of a drive", "the trajectory goes on within a voxel", 0ms, 0ms, N,
        "robot/Scenes/Resumed.TheTrajectoryGoesOn"},
-      {"C15", "a stage needs more than its hard budget for 3 s",
-       "every overrun costs it the next release, three in a row half its rate, until ten runs in a row keep the budget",
-       600ms, 2100ms, D, "", overruns},
-      {"C16", "another process takes the CPU for 10 s: scans are mapped 1.5 deadlines after they came",
-       "the mapping task sheds in its order; all back within 1 s", 500ms, 1s, D, "", hog},
-      {"C17", "disk that does not answer",
-       "safety goes on without an allocation, signs of life too; what waits is bounded, the rest counted; the disk is "
-       "named",
-       0ms, 0ms, N, "faults/SlowDiskTest.CostsTheRealTimeTasksNothing"},
-      {"C18", "a task does not return (real threads)", "named, no sign of life to systemd; the others go on; forgiven",
-       0ms, 0ms, H, "faults/HungTask.IsNamedAndTheOthersGoOn"},
-      {"C19", "SIGSTOP of a stage's helper thread in the middle of its part", "the stage is named, likewise", 0ms, 0ms,
-       H, "faults/HungTask.IsTheStageWhoseHelperIsStopped"},
-      {"C20", "the safety task misses a deadline", "hold until it keeps them again", 0ms, 0ms, H,
-       "app/ScheduleFaults.AMissOfTheSafetyTaskIsAFaultUntilTheNextLook"},
   };
+}
+
+}  // namespace
+
+std::vector<Row> computer_rows() {
+  std::vector<Row> all;
+  for (auto& rows : {late_rows(), disk_rows(), process_rows()}) all.insert(all.end(), rows.begin(), rows.end());
+  const auto number = [](const Row& row) { return std::stoi(row.id.substr(1)); };
+  std::sort(all.begin(), all.end(), [&](const Row& a, const Row& b) { return number(a) < number(b); });
+  return all;
 }
 
 std::vector<Row> rows_left_out() {

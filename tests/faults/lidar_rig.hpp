@@ -21,8 +21,8 @@ class SickSource final : public Source {
   using Next = std::function<void(Packet&)>;
 
   /// `next` makes the packets, forever; those that arrive in [from, to) are struck.
-  SickSource(Next next, Time from, Time to, recording::Faults faults)
-      : device_(std::move(next), from, to), injector_(device_, struck(std::move(faults))) {}
+  SickSource(Next next, Time from, Time to, const recording::Faults& faults)
+      : device_(std::move(next), from, to), injector_(device_, struck(faults)) {}
   Result<Poll> next(Packet& packet, Duration timeout) override { return injector_.next(packet, timeout); }
 
  private:

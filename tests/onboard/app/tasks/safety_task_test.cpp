@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <deque>
+
 #include "onboard/app/allocations.hpp"
 #include "tests/support/estop_line.hpp"
 
@@ -176,49 +178,59 @@ TEST_F(SafetyTaskTest, FaultsFromAllSidesAreActiveTogether) {
   EXPECT_EQ(allocated_, 0U);
 }
 
-/// Everything at once; then the log alone, without a line, an operator or housekeeping.
-TEST_F(SafetyTaskTest, TheLogRepeatsEveryDecision) {
+/// A live run in which everything happens, and what of it comes from other tasks and from the line.
+class ReplayedSafetyTask : public SafetyTaskTest {
+ protected:
+  void live() {
+    arm();
+    lose(true);
+    run(20ms);
+    task_->report({Fault::kStageDemoted});
+    run(20ms);
+    line_.there = false;
+    run(20ms);
+    line_.there = true;
+    lose(false);
+    arm();
+    move(false);
+    run(20ms);
+    move(true);
+    task_->report({});
+    arm();
+  }
+  void lose(bool lost) {
+    news_.push_back({log_.size(), lost});
+    send(odometry_, [lost](OdometryNews& n) { n.lost = lost; });
+  }
+  void move(bool closed) {
+    line_.move(closed, now_);
+    edges_.push_back(line_.edges.back());
+  }
+  void send_news_before(std::size_t tick) {
+    for (; !news_.empty() && news_.front().before == tick; news_.pop_front())
+      send(odometry_, [this](OdometryNews& n) { n.lost = news_.front().lost; });
+  }
+
   struct Sent {
     std::size_t before;  // the tick
     bool lost;
   };
-  std::vector<Sent> news;
-  const auto lose = [&](bool lost) {
-    news.push_back({log_.size(), lost});
-    send(odometry_, [lost](OdometryNews& n) { n.lost = lost; });
-  };
-  std::deque<Packet> edges;
-  const auto move = [&](bool closed) {
-    line_.move(closed, now_);
-    edges.push_back(line_.edges.back());
-  };
-  arm();
-  lose(true);
-  run(20ms);
-  task_->report({Fault::kStageDemoted});
-  run(20ms);
-  line_.there = false;
-  run(20ms);
-  line_.there = true;
-  lose(false);
-  arm();
-  move(false);
-  run(20ms);
-  move(true);
-  task_->report({});
-  arm();
-  ASSERT_EQ(mode(), Mode::kNormal);
+  std::deque<Sent> news_;
+  std::deque<Packet> edges_;
+};
 
+/// The log alone, without a line, an operator or housekeeping.
+TEST_F(ReplayedSafetyTask, DecidesInEveryTickAsItDidLive) {
+  live();
+  ASSERT_EQ(mode(), Mode::kNormal);
   EStopLine recorded;
-  recorded.edges = edges;
+  recorded.edges = edges_;
   SafetyTask again({}, fitted_, {sensors_, drive_, decisions_, odometry_});
   again.watch_estop({}, recorded, SourceId{0}, nullptr, {});
   now_ = Time{10s};
-  auto next = news.begin();
   std::uint64_t arms = 0;
   for (std::size_t i = 0; i < log_.size(); ++i, now_ += kPeriod) {
-    for (; next != news.end() && next->before == i; ++next)
-      send(odometry_, [&](OdometryNews& n) { n.lost = next->lost; });
+    send_news_before(i);
     TickRecord record = log_[i];
     Tick tick(Regime::kLogged, now_, record);
     again.tick(tick);

@@ -9,7 +9,6 @@ namespace {
 using namespace std::chrono_literals;
 using scheduler::Executive;
 using scheduler::Line;
-using scheduler::Regime;
 using scheduler::TaskSpec;
 using scheduler::Tick;
 
