@@ -63,7 +63,7 @@ th[colspan] { text-align: center; } th.l, td.l { text-align: left; } td.w { whit
 td.bad { color: var(--bad); font-weight: 600; } td.warn { color: var(--warn); } td.good { color: var(--good); }
 .charts + .key, .scroll + .charts, .key + .charts { margin-top: 14px; }
 .pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 300px), 1fr)); gap: 0 34px; }
-.facts { margin-top: 10px; } .facts td { white-space: normal; } .facts td:last-child { text-align: left; }
+.facts { width: auto; margin-top: 10px; } .facts td { white-space: normal; padding-right: 28px; } .facts td:last-child { text-align: left; }
 .pair td:first-child, .facts td:first-child { text-align: left; color: var(--soft); } .pair td:last-child { padding-right: 0; }
 summary { cursor: pointer; font-weight: 600; } pre { overflow-x: auto; font: 12.5px/1.45 ui-monospace, "DejaVu Sans Mono", monospace; margin: 12px 0 0; }
 footer { color: var(--soft); font-size: 13px; overflow-wrap: anywhere; margin-top: 18px; }
