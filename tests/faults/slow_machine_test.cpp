@@ -136,7 +136,7 @@ class SlowDiskTest : public testing::Test {
   Line& reading_ = add(executive_, spec("safety", 500), reader_);
   HousekeepingTask housekeeping_{executive_, folder_ / "schedule.log", &recorder_};
   Line& keeping_ = add(executive_, spec("housekeeping", 100), housekeeping_, true);
-  WatchTask watch_{keeping_.stats.ticks, &recorder_};
+  WatchTask watch_{{{"housekeeping", WatchTask::kDiskLimit, &keeping_.stats.ticks}}, &recorder_};
   Line& watching_ = add(executive_, spec("watch", 100), watch_, true);
   Generations generations_{folder_ / "maps", monitor_, disk_};
   SemanticOcTree map_{0.1};

@@ -24,7 +24,7 @@ void OdometryTask::tick(Tick& tick) {
     if (tick.regime() != Regime::kDrain) break;
   }
   parts_.scans.give_back(tick);
-  tell(tick);
+  tell_safety(tick);
 }
 
 void OdometryTask::locate(const ArrivedScan& arrived, Tick& tick) {
@@ -48,11 +48,11 @@ void OdometryTask::locate(const ArrivedScan& arrived, Tick& tick) {
 }
 
 /// The safety task hears of changes alone.
-void OdometryTask::tell(Tick& tick) {
-  if (lost_ == told_ || tick.regime() == Regime::kDrain) return;
+void OdometryTask::tell_safety(Tick& tick) {
+  if (lost_ == told_lost_ || tick.regime() == Regime::kDrain) return;
   OdometryNews* out = parts_.news.back(tick);
   if (out == nullptr) return;  // with the next tick
-  out->lost = told_ = lost_;
+  out->lost = told_lost_ = lost_;
   parts_.news.push(tick);
 }
 

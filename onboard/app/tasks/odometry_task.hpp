@@ -36,7 +36,7 @@ class OdometryTask final : public scheduler::Task {
 
  private:
   void locate(const ArrivedScan& arrived, scheduler::Tick& tick);
-  void tell(scheduler::Tick& tick);
+  void tell_safety(scheduler::Tick& tick);
 
   Duration deadline_;
   int max_iterations_;
@@ -48,7 +48,7 @@ class OdometryTask final : public scheduler::Task {
   LatestValue<TrackPoint>* told_ = nullptr;
   LocatedScan dropped_;  // filled when the channel is full
   std::size_t count_ = 0;
-  bool lost_ = false, told_ = false;
+  bool lost_ = false, told_lost_ = false;
 };
 
 /// Located scans in, map out, one in a tick. When its scans come too late it sheds work, in the order of Shed. Slots:

@@ -200,8 +200,8 @@ Result<void> RobotTasks::run_live(const Clock& clock, Generations* generations) 
   if (const auto connected = connect(recorder ? &*recorder : nullptr); !connected) return connected.error();
   HousekeepingTask housekeeping(executive_, (recorder ? options_.record : options_.out) / "schedule.log",
                                 recorder ? &*recorder : nullptr);
-  WatchTask watch(add_live_only(profile_.schedule.housekeeping, housekeeping).stats.ticks,
-                  recorder ? &*recorder : nullptr);
+  const scheduler::Line& keeping = add_live_only(profile_.schedule.housekeeping, housekeeping);
+  WatchTask watch({{keeping.spec.name, WatchTask::kDiskLimit, &keeping.stats.ticks}}, recorder ? &*recorder : nullptr);
   add_live_only(profile_.schedule.watch, watch);
   Telling telling(executive_, monitor_, Telling::from_environment(profile_.name, options_.live_view), clock.now());
   std::optional<SavingTask> saving;

@@ -16,13 +16,12 @@ namespace cairn {
 /// of its own: a disk that takes its time must not look like a core that hangs.
 class WatchTask final : public scheduler::Task {
  public:
-  /// Housekeeping that does not come back for so long waits for the disk.
+  /// A task that writes a little at a time and does not come back for so long waits for the disk.
   static constexpr Duration kDiskLimit = std::chrono::milliseconds(500);
   using Chore = std::function<void(Time now)>;
 
-  /// `housekeeping`: its ticks; must outlive the task, as must `recorder`, which may be null.
-  WatchTask(const RelaxedCounter& housekeeping, const Recorder* recorder)
-      : disk_({{"housekeeping", kDiskLimit, &housekeeping}}), recorder_(recorder) {}
+  /// `writers`: the tasks that wait for disks, each with its limit. `recorder` must outlive the task; may be null.
+  WatchTask(std::vector<Pulse> writers, const Recorder* recorder) : disk_(std::move(writers)), recorder_(recorder) {}
 
   /// A chore is done in every tick, after those added before it.
   void add(Chore chore) { chores_.push_back(std::move(chore)); }
