@@ -18,6 +18,8 @@ constexpr std::size_t kWaitingPackets = 2048, kWaitingEdges = 256;
 constexpr std::size_t kNews = 64;
 // In virtual time: real ones are late by less, and a replay at real speed need not wait for them.
 constexpr Duration kNewsLag = std::chrono::milliseconds(20), kNextTick = std::chrono::microseconds(1);
+// A large map takes half a second to encode, and the disk its time.
+constexpr Duration kSaveLimit = std::chrono::seconds(5);
 constexpr Duration kStartIn = std::chrono::milliseconds(50);
 
 std::size_t reserve(const RunOptions& options) { return options.recording.empty() ? 0 : 3 * kWaitingScans; }
@@ -176,8 +178,8 @@ Time RobotTasks::first_arrival() {
   return std::min({safety_.first_arrival(), drive_.first_arrival(), receive_.first_arrival()});
 }
 
-void RobotTasks::add_saving(SavingTask& saving) {
-  add_live_only(profile_.schedule.saving, saving);
+Pulse RobotTasks::add_saving(SavingTask& saving) {
+  const scheduler::Line& line = add_live_only(profile_.schedule.saving, saving);
   odometry_.tell(to_save_.pose);
   ScanSelection selection;
   if (before_.resumed) {
@@ -185,40 +187,53 @@ void RobotTasks::add_saving(SavingTask& saving) {
     selection = ScanSelection(before_.resumed->scans.back().T_odom_base);
   }
   mapping_.keep_copies({profile_.odometry, from_seconds(profile_.restart.save_map_every_s), selection, to_save_});
+  return {line.spec.name, kSaveLimit, &line.stats.ticks};
+}
+
+Result<std::optional<Recorder>> RobotTasks::open_recorder() {
+  if (options_.record.empty()) return std::optional<Recorder>();
+  auto recorder = make_recorder(options_.record, door_.recording, monitor_);
+  if (!recorder) return recorder.error();
+  if (before_.resumed)
+    if (const auto kept = keep_with_recording(options_.record, *before_.resumed, monitor_); !kept) return kept.error();
+  return std::optional<Recorder>(std::move(*recorder));
 }
 
 Result<void> RobotTasks::run_live(const Clock& clock, Generations* generations) {
-  std::optional<Recorder> recorder;
-  if (!options_.record.empty()) {
-    auto made = make_recorder(options_.record, door_.recording, monitor_);
-    if (!made) return made.error();
-    recorder.emplace(std::move(*made));
-    if (before_.resumed)
-      if (const auto kept = keep_with_recording(options_.record, *before_.resumed, monitor_); !kept)
-        return kept.error();
-  }
-  if (const auto connected = connect(recorder ? &*recorder : nullptr); !connected) return connected.error();
-  HousekeepingTask housekeeping(executive_, (recorder ? options_.record : options_.out) / "schedule.log",
-                                recorder ? &*recorder : nullptr);
+  auto opened = open_recorder();
+  if (!opened) return opened.error();
+  Recorder* recorder = *opened ? &**opened : nullptr;
+  if (const auto connected = connect(recorder); !connected) return connected.error();
+  HousekeepingTask housekeeping(executive_, (recorder != nullptr ? options_.record : options_.out) / "schedule.log",
+                                recorder);
   const scheduler::Line& keeping = add_live_only(profile_.schedule.housekeeping, housekeeping);
-  WatchTask watch({{keeping.spec.name, WatchTask::kDiskLimit, &keeping.stats.ticks}}, recorder ? &*recorder : nullptr);
+  std::vector<Pulse> writers{{keeping.spec.name, WatchTask::kDiskLimit, &keeping.stats.ticks}};
+  std::optional<SavingTask> saving;
+  if (generations != nullptr)
+    writers.push_back(add_saving(saving.emplace(*generations, to_save_, before_.epoch, boot_id(), monitor_)));
+  WatchTask watch(std::move(writers), recorder);
   add_live_only(profile_.schedule.watch, watch);
   Telling telling(executive_, monitor_, Telling::from_environment(profile_.name, options_.live_view), clock.now());
-  std::optional<SavingTask> saving;
-  if (generations != nullptr) add_saving(saving.emplace(*generations, to_save_, before_.epoch, boot_id(), monitor_));
   watch.add([this](Time) { note_changes(); });
-  watch.add([&](Time now) { tell(telling, watch.faults(), now); });
+  watch.add([&](Time now) {
+    FaultSet faults = watch.faults();
+    if (saving && saving->failing()) faults.set(Fault::kDiskFailing, true);
+    tell(telling, faults, now);
+  });
   become_real_time();
   const Time start = clock.now() + kStartIn;
   const Duration length = options_.seconds ? from_seconds(*options_.seconds) : Duration::max();
   executive_.run_live({start, [&] { return stop_requested() || clock.now() - start > length; }}, clock);
   note_changes();
   if (saving) saving->close(clock.now());
-  for (const scheduler::Line& l : executive_.lines())
-    if (l.unlogged > 0)
-      monitor_.event(clock.now(), "schedule",
-                     l.spec.name + ": ticks are missing in the log: not to be replayed to the bit");
+  say_what_is_missing(clock.now());
   return housekeeping.close(clock.now());
+}
+
+void RobotTasks::say_what_is_missing(Time now) {
+  for (const scheduler::Line& line : executive_.lines())
+    if (line.unlogged > 0)
+      monitor_.event(now, "schedule", line.spec.name + ": ticks are missing in the log: not to be replayed to the bit");
 }
 
 Result<void> RobotTasks::replay() {

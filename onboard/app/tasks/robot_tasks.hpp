@@ -54,7 +54,9 @@ class RobotTasks {
 
  private:
   Result<void> connect(Recorder* recorder);
-  void add_saving(SavingTask& saving);
+  Result<std::optional<Recorder>> open_recorder();
+  [[nodiscard]] Pulse add_saving(SavingTask& saving);
+  void say_what_is_missing(Time now);
   void note_changes();
   void become_real_time();
   scheduler::Line& add_live_only(const scheduler::TaskSpec& spec, scheduler::Task& task);

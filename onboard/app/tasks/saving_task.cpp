@@ -13,7 +13,8 @@ void SavingTask::save(Time now) {
   save_map(now);
 }
 
-void SavingTask::complain(Time now, const Result<void>& saved) {
+void SavingTask::note(Time now, const Result<void>& saved) {
+  failing_.store(!saved, std::memory_order_relaxed);
   if (!saved) monitor_.event(now, "saved map", to_string(saved.error()));
 }
 
@@ -27,7 +28,7 @@ void SavingTask::save_pose(Time now) {
   state.stamp = point.stamp;
   state.T_odom_base = point.T_odom_base;
   state.twist = point.twist;
-  complain(now, generations_.save_state(state));
+  note(now, generations_.save_state(state));
 }
 
 void SavingTask::save_scans(Time now) {
@@ -39,7 +40,7 @@ void SavingTask::save_scans(Time now) {
     news = true;
   }
   if (!news) return;
-  complain(now, generations_.save_scans({first_epoch_ + scans_epoch_, {scans_.scans().begin(), scans_.scans().end()}}));
+  note(now, generations_.save_scans({first_epoch_ + scans_epoch_, {scans_.scans().begin(), scans_.scans().end()}}));
 }
 
 void SavingTask::save_map(Time now) {
@@ -53,7 +54,7 @@ void SavingTask::save_map(Time now) {
   const auto saved = generations_.save(*map->tree, state);
   map->tree.reset();
   in_.maps.pop();
-  complain(now, saved);
+  note(now, saved);
   if (saved) ++maps_saved_;
 }
 

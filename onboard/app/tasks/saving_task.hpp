@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <span>
 #include <string>
 
@@ -28,6 +29,8 @@ class SavingTask final : public scheduler::Task {
   /// After the last tick of all tasks: what is still waiting.
   void close(Time now);
 
+  /// Any thread: what was to be written last could not be.
+  [[nodiscard]] bool failing() const { return failing_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t maps_saved() const { return maps_saved_; }
 
  private:
@@ -35,7 +38,7 @@ class SavingTask final : public scheduler::Task {
   void save_pose(Time now);
   void save_scans(Time now);
   void save_map(Time now);
-  void complain(Time now, const Result<void>& saved);
+  void note(Time now, const Result<void>& saved);
 
   Generations& generations_;
   ToSave& in_;
@@ -45,6 +48,7 @@ class SavingTask final : public scheduler::Task {
   RecentScans scans_;
   std::uint32_t scans_epoch_ = 0;
   std::uint64_t maps_saved_ = 0;
+  std::atomic<bool> failing_{false};
 };
 
 }  // namespace cairn
