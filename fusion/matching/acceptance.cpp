@@ -12,9 +12,9 @@ constexpr double kMinWeakest = 0.02;
 constexpr double kMinProbability = 0.95;
 
 double probability(const Evidence& e) {
-  const double z = -11.502 + 0.176 * e.structure_inliers - 13.174 * std::sqrt(e.conflict + e.reverse_conflict) +
-                   1.599 * std::log(1.0 + e.structure_pairs) + 8.890 * std::sqrt(e.weakest_translation) +
-                   3.324 * e.uniqueness - 2.585 * e.overlap;
+  const double z = -11.415 - 22.686 * std::sqrt(e.conflict + e.reverse_conflict) +
+                   1.455 * std::log(1.0 + e.structure_pairs) + 6.334 * std::sqrt(e.weakest_translation) +
+                   4.320 * std::sqrt(e.uniqueness);
   return 1 / (1 + std::exp(-z));
 }
 

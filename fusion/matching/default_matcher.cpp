@@ -17,7 +17,6 @@ constexpr double kWindowSigmas = 3, kMinWindowM = 0.8, kMaxWindowM = 20, kMaxHei
 constexpr double kOneHeightM = 0.5;  // a prior that knows the height better than this needs no search over it
 constexpr double kWideYaw = 1.0;
 constexpr std::size_t kPlacements = 400, kHeightVotes = 600, kGlobalModes = 64, kBestSwept = 24, kCloser = 6;
-constexpr double kSameM = 0.8, kSameRad = 0.07;  // refined modes this close are one
 
 constexpr RefineOptions kOnCoarse{3.0F, 1.25F, 0.75F, 12, 0, 1e-3, 1e-4};  // gates in cells
 constexpr RefineOptions kOnFine{4.0F, 2.0F, 0.7F, 30, 0.4F, 1e-4, 1e-5};
@@ -48,11 +47,6 @@ SearchWindow window_of(const UncertainPose& prior) {
   window.z_m = z > kOneHeightM ? std::min(kWindowSigmas * z, kMaxHeightM) : 0;
   window.yaw_rad = std::clamp(kWindowSigmas * std::sqrt(prior.covariance(5, 5)), kMinYaw, M_PI);
   return window;
-}
-
-bool same_place(const SE3& a, const SE3& b) {
-  const SE3 between = a.inverse() * b;
-  return between.translation().norm() < kSameM && rotation_angle(between) < kSameRad;
 }
 
 template <class Candidate>
@@ -134,16 +128,44 @@ void DefaultMatcher::look_closer(std::vector<Candidate>& best_first, Budget& bud
   std::stable_sort(best_first.begin(), best_first.end(), better<Candidate>);
 }
 
+SE3 DefaultMatcher::refined(const SE3& T, Budget& budget) const {
+  return refine(judge_.a().surfels, judge_.near_a(), judge_.b().sample, T, in_metres(kOnFine, judge_.cell_m()), budget)
+      .T_target_source;
+}
+
+std::vector<DefaultMatcher::Candidate> DefaultMatcher::modes(const std::optional<UncertainPose>& initial,
+                                                             Budget& budget) const {
+  auto best_first = verified(initial ? starts_near(*initial) : starts_anywhere(budget), budget);
+  if (!initial) look_closer(best_first, budget);
+  return best_first;
+}
+
 Result<MatchResult> DefaultMatcher::match(const std::optional<UncertainPose>& initial, Budget& budget) const {
   if (auto answer = judge_.without_search(initial)) return *std::move(answer);
   const UncertainPose prior = initial.value_or(anywhere());
-  auto modes = verified(initial ? starts_near(prior) : starts_anywhere(budget), budget);
-  if (!initial) look_closer(modes, budget);
-  const SE3 best = modes.empty() ? prior.mean : modes.front().T_a_b;  // none when the budget came spent
-  const SE3 T =
-      refine(judge_.a().surfels, judge_.near_a(), judge_.b().sample, best, in_metres(kOnFine, judge_.cell_m()), budget)
-          .T_target_source;
-  return judge_.conclude(T, prior.covariance, uniqueness(modes), budget);
+  const auto best_first = modes(initial, budget);
+  const SE3 best = best_first.empty() ? prior.mean : best_first.front().T_a_b;  // none when the budget came spent
+  return judge_.conclude(refined(best, budget), prior.covariance, uniqueness(best_first), budget);
+}
+
+std::vector<Look> DefaultMatcher::look_everywhere(std::span<const SE3> known, std::size_t most, Budget& budget) const {
+  std::vector<SE3> found(known.begin(), known.end());
+  std::vector<Look> looks;
+  if (!comparable()) return looks;
+  for (const Candidate& c : modes({}, budget)) {
+    const auto is = [](const SE3& T) { return [&T](const SE3& other) { return same_place(other, T); }; };
+    if (looks.size() == most || std::any_of(found.begin(), found.end(), is(c.T_a_b))) continue;
+    const SE3 T = refined(c.T_a_b, budget);
+    if (std::any_of(found.begin(), found.end(), is(T))) continue;
+    found.push_back(T);
+    looks.push_back(look(T));
+  }
+  return looks;
+}
+
+Look DefaultMatcher::look_again(const SE3& known, Budget& budget) const {
+  const SE3 T = refined(known, budget);
+  return look(same_place(T, known) ? T : known);
 }
 
 Result<MatchResult> GlobalMatcher::match(const std::optional<UncertainPose>& initial, Budget& budget) const {

@@ -23,11 +23,24 @@ class DefaultMatcher : public Matcher {
   DefaultMatcher(const MapFeatures& a, const MapFeatures& b);
   [[nodiscard]] Result<MatchResult> match(const std::optional<UncertainPose>& initial, Budget& budget) const override;
 
+  /// The best poses of a search without a guess, at most `most`, none of which is one of the `known` places. None where
+  /// a map holds too little.
+  [[nodiscard]] std::vector<Look> look_everywhere(std::span<const SE3> known, std::size_t most, Budget& budget) const;
+  /// Whether both maps hold enough structure for any look.
+  [[nodiscard]] bool comparable() const { return !judge_.without_search({}); }
+  /// A pose as it is.
+  [[nodiscard]] Look look(const SE3& T_a_b) const { return judge_.look(T_a_b, anywhere().covariance); }
+  /// A pose that was known before, refined on what the maps hold now; as it was, where that leads to another place.
+  [[nodiscard]] Look look_again(const SE3& known, Budget& budget) const;
+
  private:
   struct Candidate {
     SE3 T_a_b;
     double score;
   };
+  /// What a search finds, best first.
+  [[nodiscard]] std::vector<Candidate> modes(const std::optional<UncertainPose>& initial, Budget& budget) const;
+  [[nodiscard]] SE3 refined(const SE3& T, Budget& budget) const;
   [[nodiscard]] std::vector<SE3> starts_near(const UncertainPose& prior) const;
   [[nodiscard]] std::vector<SE3> starts_anywhere(Budget& budget) const;
   /// Each start refined on the coarse surfels and scored, best first.

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fusion/matching/evidence.hpp"
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -13,9 +12,6 @@ constexpr float kSameNormal = 0.7F;  // |cos| between normals of one surface
 constexpr float kPairCells = 2.5F;   // gate of a pair
 constexpr double kConflictWeight = 2, kMismatchWeight = 0.25;
 constexpr double kDiscredit = 3, kLeastCredit = 0.15;
-constexpr double kCorrelated = 12;     // residuals that err together
-constexpr double kNormalNoise = 0.1;   // standard deviation of a surfel's normal [rad]
-constexpr double kMinResidual = 0.05;  // of a cell: no grid is believed to be finer
 
 struct Moved {
   explicit Moved(const SE3& T) : R(T.rotation().cast<float>()), t(T.translation().cast<float>()) {}
@@ -28,12 +24,6 @@ int in_free_space(const FreeSpace& free, std::span<const Surfel> structure, cons
   const Moved move(T_free_structure);
   return static_cast<int>(
       std::count_if(structure.begin(), structure.end(), [&](const Surfel& s) { return free.contains(move(s.point)); }));
-}
-
-/// Whether two surfels may be of one surface seen from one side; `n`: the source's normal in the target's frame.
-bool same_side(const Surfel& target, const Surfel& source, const Eigen::Vector3f& n) {
-  const float cosine = target.normal.dot(n);
-  return (target.oriented && source.oriented ? cosine : std::abs(cosine)) > kSameNormal;
 }
 
 double share(double part, double whole) { return whole > 0 ? part / whole : 0; }
@@ -115,10 +105,16 @@ void face_free_space(Surfel& s, const FreeSpace& free, float cell_m) {
     behind += free.seen_free(s.point - cells * cell_m * s.normal) ? 1 : 0;
   }
   s.oriented = (ahead == 0) != (behind == 0);
+  s.thin = ahead > 0 && behind > 0;
   if (behind > ahead) s.normal = -s.normal;
 }
 
 }  // namespace
+
+bool same_side(const Surfel& target, const Surfel& source, const Eigen::Vector3f& n) {
+  const float cosine = target.normal.dot(n);
+  return (target.oriented && source.oriented ? cosine : std::abs(cosine)) > kSameNormal;
+}
 
 std::vector<Surfel> facing_free_space(std::span<const Surfel> surfels, const FreeSpace& free, float cell_m) {
   std::vector<Surfel> all(surfels.begin(), surfels.end());
@@ -139,7 +135,9 @@ Evidence weigh(const Party& target, const NearestGrid& nearest, const Party& sou
   Evidence out;
   count_pairs(target, nearest, source, T, out);
   const Meetings m = meet(target, nearest, source, source.structure, T);
+  out.score = score(target, nearest, source, T);
   out.structure_pairs = m.agree;
+  out.agreeing_m2 = source.structure_m2 * share(m.agree, static_cast<double>(source.structure.size()));
   out.structure_inliers = share(m.agree, m.agree + m.differ);
   out.conflict = share(m.in_free, m.agree + m.differ + m.in_free);
   out.reverse_conflict =
@@ -148,61 +146,6 @@ Evidence weigh(const Party& target, const NearestGrid& nearest, const Party& sou
     out.weakest_translation =
         std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(m.normals / m.agree).eigenvalues()[0]);
   return out;
-}
-
-namespace {
-
-/// Sums over the surfels that agree, in the source's frame.
-struct Normals {
-  Matrix6 H = Matrix6::Zero();
-  double squares = 0, reach = 0;  // of the residuals, of the distances from the origin
-  int count = 0;
-
-  /// J = A n with A = (I, [x]×)ᵀ. A normal that errs by σ fakes an information of σ² along the surface, which is taken
-  /// off again: what is left of many walls in one direction says nothing about that direction.
-  void add(const Eigen::Vector3d& x, const Eigen::Vector3d& normal, double residual) {
-    constexpr double kNoise = kNormalNoise * kNormalNoise;
-    Eigen::Matrix<double, 6, 3> A;
-    A << Eigen::Matrix3d::Identity(), hat(x);
-    H += A * ((1 + kNoise) * normal * normal.transpose() - kNoise * Eigen::Matrix3d::Identity()) * A.transpose();
-    squares += residual * residual;
-    reach += x.squaredNorm();
-    ++count;
-  }
-
-  /// H without its negative eigenvalues, with radians scaled to metres by the surfels' distance.
-  [[nodiscard]] Matrix6 positive() const {
-    const double metres = std::sqrt(std::max(1.0, share(reach, count)));
-    Vector6 scale = Vector6::Ones();
-    scale.tail<3>().setConstant(1 / metres);
-    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(scale.asDiagonal() * H * scale.asDiagonal());
-    const Matrix6 V = solver.eigenvectors();
-    const Matrix6 clipped = V * solver.eigenvalues().cwiseMax(0).asDiagonal() * V.transpose();
-    return scale.cwiseInverse().asDiagonal() * clipped * scale.cwiseInverse().asDiagonal();
-  }
-};
-
-}  // namespace
-
-Matrix6 covariance(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T,
-                   const Matrix6& prior_covariance) {
-  const Moved move(T);
-  const auto cell = static_cast<float>(std::max(target.cell_m, source.cell_m));
-  Normals sum;
-  for (const Surfel& s : source.sample) {
-    const Eigen::Vector3f q = move(s.point);
-    const int i = nearest.nearest(q, cell);
-    if (i == NearestGrid::kNone) continue;
-    const Surfel& r = target.surfels[static_cast<std::size_t>(i)];
-    if (!same_side(r, s, move.R * s.normal)) continue;
-    sum.add(s.point.cast<double>(), (move.R.transpose() * r.normal).cast<double>(),
-            static_cast<double>(r.normal.dot(q - r.point)));
-  }
-  const double floor = kMinResidual * static_cast<double>(cell);
-  const double variance = kCorrelated * std::max(share(sum.squares, sum.count), floor * floor);
-  const Matrix6 information = sum.positive() / variance + prior_covariance.ldlt().solve(Matrix6::Identity());
-  const Matrix6 inverse = information.ldlt().solve(Matrix6::Identity());
-  return 0.5 * (inverse + inverse.transpose());
 }
 
 double book_threshold(double overlap) {

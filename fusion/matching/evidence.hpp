@@ -19,6 +19,7 @@ struct Party {
   std::vector<Surfel> few;        ///< of these, for a first impression
   FreeSpace free;
   double cell_m;
+  double structure_m2 = 0;  ///< what all of the structure covers, a cell's face for each surfel
 };
 
 /// What speaks for and against a pose, counted over samples of both maps.
@@ -27,10 +28,12 @@ struct Evidence {
   double inlier_ratio = 0;         ///< of these pairs, those with a Mahalanobis distance (3.18, 4.20) below one cell
   double structure_inliers = 0;    ///< of the structure that has a partner, what agrees in place and normal
   int structure_pairs = 0;         ///< that agree
+  double agreeing_m2 = 0;          ///< surface of all the source's structure that agrees, from the sample's share
   double conflict = 0;             ///< source structure in space the target saw free, over that plus what has a partner
   double reverse_conflict = 0;     ///< target structure in space the source saw free, over the target's structure
   double weakest_translation = 0;  ///< smallest eigenvalue of the mean n nᵀ (x, y) over agreeing structure, 0…½
-  double uniqueness = 1;           ///< 1 − score of the next mode over that of the best
+  double score = 0;                ///< see score()
+  double uniqueness = 1;           ///< 1 − score of the best other mode over this one's, 0…1
 };
 
 /// Score of a pose for ranking modes: +1 for each structure surfel of the source that agrees in place, normal and,
@@ -53,12 +56,8 @@ struct Evidence {
 [[nodiscard]] Evidence weigh(const Party& target, const NearestGrid& nearest, const Party& source,
                              const SE3& T_target_source);
 
-/// The covariance of T (right perturbation, m and rad) that the residuals along the normals of agreeing surfels give:
-/// (Σ Jᵀ J / s² + Σ₀⁻¹)⁻¹ with the prior's covariance Σ₀, so that a direction no surface fixes keeps the prior's
-/// uncertainty. Neighbouring surfels share voxels and the errors of the grid are systematic: s² counts each
-/// residual as one of `kCorrelated` that err together.
-[[nodiscard]] Matrix6 covariance(const Party& target, const NearestGrid& nearest, const Party& source,
-                                 const SE3& T_target_source, const Matrix6& prior_covariance);
+/// Whether two surfels may be of one surface seen from one side; `n`: the source's normal in the target's frame.
+[[nodiscard]] bool same_side(const Surfel& target, const Surfel& source, const Eigen::Vector3f& n);
 
 /// The book's threshold on the inlier ratio for an overlap (4.21): 0.80 below 0.2, 0.9 − ε/2 up to 0.6, then 0.60.
 [[nodiscard]] double book_threshold(double overlap);

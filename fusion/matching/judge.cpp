@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "fusion/matching/acceptance.hpp"
+#include "fusion/matching/match_covariance.hpp"
 #include "fusion/matching/sample.hpp"
 
 namespace cairn::matching {
@@ -13,6 +14,7 @@ namespace {
 
 constexpr std::size_t kFinePoints = 8000, kVerifyPoints = 1500, kFewPoints = 300, kMinStructure = 60;
 constexpr float kNearCells = 4;
+constexpr double kSameM = 0.8, kSameRad = 0.07;
 
 }  // namespace
 
@@ -26,6 +28,11 @@ Matrix6 default_prior_covariance() {
   Vector6 sigma;
   sigma << 0.8, 0.8, 0.3, 0.03, 0.03, 0.105;
   return sigma.cwiseAbs2().asDiagonal();
+}
+
+bool same_place(const SE3& T, const SE3& other) {
+  const SE3 between = T.inverse() * other;
+  return between.translation().norm() < kSameM && rotation_angle(between) < kSameRad;
 }
 
 UncertainPose anywhere() {
@@ -43,9 +50,10 @@ Judge::Judge(const MapFeatures& a, const MapFeatures& b)
       near_a_(a.fine(), cell_m_, kNearCells * cell_m_) {}
 
 Party party_of(const MapFeatures& map) {
-  Party party{{}, {}, {}, {}, FreeSpace(map.map()), static_cast<double>(map.fine_m())};
+  Party party{{}, {}, {}, {}, FreeSpace(map.map()), static_cast<double>(map.fine_m()), 0};
   party.surfels = facing_free_space(map.fine(), party.free, map.fine_m());
   const auto structure = structure_of(party.surfels);
+  party.structure_m2 = static_cast<double>(structure.size()) * party.cell_m * party.cell_m;
   party.sample = sample(std::span<const Surfel>(party.surfels), kFinePoints);
   party.structure = sample(std::span<const Surfel>(structure), kVerifyPoints);
   party.few = sample(std::span<const Surfel>(structure), kFewPoints);
@@ -76,11 +84,16 @@ std::optional<Result<MatchResult>> Judge::without_search(const std::optional<Unc
   return std::nullopt;
 }
 
+Look Judge::look(const SE3& T_a_b, const Matrix6& prior_covariance) const {
+  return {{T_a_b, covariance(a_, near_a_, b_, T_a_b, prior_covariance)}, weigh(a_, near_a_, b_, T_a_b)};
+}
+
 MatchResult Judge::conclude(const SE3& T_a_b, const Matrix6& prior_covariance, double uniqueness,
                             const Budget& budget) const {
   MatchResult result;
-  result.T_a_b = {T_a_b, covariance(a_, near_a_, b_, T_a_b, prior_covariance)};
-  result.evidence = weigh(a_, near_a_, b_, T_a_b);
+  const Look seen = look(T_a_b, prior_covariance);
+  result.T_a_b = seen.T_a_b;
+  result.evidence = seen.evidence;
   result.evidence.uniqueness = uniqueness;
   result.overlap = result.evidence.overlap;
   result.inlier_ratio = result.evidence.inlier_ratio;

@@ -12,6 +12,12 @@
 
 namespace cairn::matching {
 
+/// One comparison of two maps at one pose.
+struct Look {
+  UncertainPose T_a_b;
+  Evidence evidence;
+};
+
 /// Says of any pose of one pair of maps what speaks for it, whoever found it.
 class Judge {
  public:
@@ -32,6 +38,8 @@ class Judge {
   [[nodiscard]] double first_impression(const SE3& T_a_b) const {
     return matching::first_impression(a_, near_a_, b_, T_a_b);
   }
+  /// Covariance and evidence of a pose; its uniqueness is left open.
+  [[nodiscard]] Look look(const SE3& T_a_b, const Matrix6& prior_covariance) const;
   /// The result for a pose: covariance, evidence, the book's test and the decision.
   [[nodiscard]] MatchResult conclude(const SE3& T_a_b, const Matrix6& prior_covariance, double uniqueness,
                                      const Budget& budget) const;
@@ -50,6 +58,8 @@ class Judge {
 [[nodiscard]] std::optional<Error> fault_of(const std::optional<UncertainPose>& initial);
 /// A result without evidence: the prior, and why nothing better is known.
 [[nodiscard]] MatchResult refused(const UncertainPose& prior, std::string reason);
+/// Whether two poses are one place, found twice: less than 0.8 m and 4° apart.
+[[nodiscard]] bool same_place(const SE3& T, const SE3& other);
 /// What is known without a guess: which way is up.
 [[nodiscard]] UncertainPose anywhere();
 

@@ -12,7 +12,7 @@ constexpr float kFullWall = 16;     // surfels in a column
 constexpr float kFullRoomM = 0.8F;  // height that was observed free
 constexpr float kUnclear = 0.5F;    // weight of a surfel that is neither upright nor level
 constexpr int kDegrees = 180, kBlur = 3;
-constexpr double kDegree = M_PI / 180;
+constexpr double kOneDegree = M_PI / 180;
 
 }  // namespace
 
@@ -103,7 +103,8 @@ void PlanView::look_around(std::span<const Surfel> surfels) {
   std::vector<float> counts(kDegrees, 0.0F);
   for (const Surfel& s : surfels) {
     if (!is_upright(s)) continue;
-    const double degrees = std::atan2(static_cast<double>(s.normal.y()), static_cast<double>(s.normal.x())) / kDegree;
+    const double degrees =
+        std::atan2(static_cast<double>(s.normal.y()), static_cast<double>(s.normal.x())) / kOneDegree;
     counts[static_cast<std::size_t>(static_cast<int>(std::floor(degrees)) + 2 * kDegrees) % kDegrees] += 1;
   }
   directions_.assign(kDegrees, 0.0F);

@@ -10,6 +10,7 @@ namespace {
 
 constexpr float kThin = 0.999F;  // 1 less the variance along a normal over that across it
 constexpr int kMinPairs = 20;
+constexpr float kOneFace = 0.1F;  // weight of a pair of a wall's middle and its face
 constexpr float kLevel = 0.85F;
 
 using Matrix36f = Eigen::Matrix<float, 3, 6>;
@@ -52,6 +53,7 @@ NormalEquations plane_to_plane(std::span<const Surfel> target, const NearestGrid
     // The voxels of sloping ground are terraces, whose edges would hold fast in the wrong place.
     const bool level = std::abs(r.normal.z()) > kLevel && std::abs(s.normal.z()) > kLevel;
     Eigen::Matrix3f W = level ? information(R.row(2).transpose(), Eigen::Vector3f::UnitZ()) : information(n, s.normal);
+    if (one_face(r, s)) W *= kOneFace;
     if (robust_m > 0) W *= credit(e.dot(W * e), robust_m);
     Matrix36f J;
     J << Eigen::Matrix3f::Identity(), -skew(s.point);

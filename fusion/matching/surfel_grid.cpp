@@ -108,7 +108,7 @@ Surfel SurfelGrid::fit(const Cell& cell) const {
     count += other.count;
   });
   const auto own = static_cast<float>(cell.count);
-  Surfel s{centre(cell) + cell.sum / own, Eigen::Vector3f::Zero(), 1.0F / 3.0F, cell.occupancy / own, false};
+  Surfel s{centre(cell) + cell.sum / own, Eigen::Vector3f::Zero(), 1.0F / 3.0F, cell.occupancy / own, false, false};
   if (count < kMinVoxels) return s;
   const Eigen::Vector3f mean = sum / static_cast<float>(count);
   const Eigen::Matrix3f spread = squares / static_cast<float>(count) - mean * mean.transpose() +

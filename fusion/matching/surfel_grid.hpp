@@ -22,10 +22,17 @@ struct Surfel {
   float occupancy = 0;  ///< mean probability of the cell's voxels
   /// Whether the normal points to where free space was observed, and none behind; see facing_free_space().
   bool oriented = false;
+  bool thin = false;  ///< free space was observed on both sides
 
   /// Walls, edges and clutter tell places apart; floors and ceilings agree everywhere (prototype's finding 2).
   [[nodiscard]] bool structure() const { return std::abs(normal.z()) < 0.7F || variation > 0.05F; }
 };
+
+/// Whether one of the maps saw both faces of a thin wall and the other one face: the first has its middle in a cell,
+/// the second its face, and to lay one upon the other is wrong by half the wall.
+[[nodiscard]] inline bool one_face(const Surfel& s, const Surfel& other) {
+  return (s.thin && other.oriented) || (s.oriented && other.thin);
+}
 
 /// Surfels of one cell size, kept as a map grows: replacing some tiles costs what lies in and next to them. What it
 /// gives depends on the voxels it holds only, never on the order in which they came.

@@ -8,6 +8,7 @@
 #include "fusion/matching/acceptance.hpp"
 #include "fusion/matching/judge.hpp"
 #include "fusion/matching/map_features.hpp"
+#include "fusion/matching/match_covariance.hpp"
 #include "fusion/matching/matcher.hpp"
 #include "tests/support/map_pairs.hpp"
 

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "fusion/matching/map_features.hpp"
+#include "fusion/matching/pending.hpp"
+#include "hal/budget.hpp"
+
+namespace cairn::matching {
+
+/// Keeps an eye on two maps that grow: what is pending is looked at again each time, which is cheap, and the maps are
+/// searched anew whenever one of them has grown by a fifth.
+class GrowingMatch {
+ public:
+  /// To be called when the maps have grown. A map with too little in it makes it wait.
+  void update(const MapFeatures& a, const MapFeatures& b, Budget& budget);
+
+  [[nodiscard]] const PendingHypotheses& hypotheses() const { return hypotheses_; }
+
+ private:
+  [[nodiscard]] bool due(const MapFeatures& a, const MapFeatures& b);
+
+  PendingHypotheses hypotheses_;
+  std::size_t searched_a_ = 0, searched_b_ = 0;  // surfels at the last search
+};
+
+}  // namespace cairn::matching

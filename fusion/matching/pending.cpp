@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/matching/pending.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "fusion/matching/acceptance.hpp"
+
+namespace cairn::matching {
+namespace {
+
+constexpr int kAgreements = 3;                              // to be accepted
+constexpr double kAgrees = 0.9;                             // least probability of an agreement,
+constexpr double kLeastGroundM2 = 60;                       // and the structure it needs
+constexpr double kNewGround = 0.1, kLeastNewGroundM2 = 10;  // what it must add to the last one's
+constexpr double kContradicted = 0.06;                      // share of structure in the other's free space
+constexpr int kContradictions = 2;                          // in a row, to be dropped
+constexpr double kRivalled = 0.15;   // probability of another place that keeps an agreement from counting,
+constexpr double kOverthrown = 0.5;  // and that suspends what was accepted
+
+bool contradicts(const Evidence& e) { return e.conflict + e.reverse_conflict > kContradicted; }
+
+bool on_new_ground(const Hypothesis& h, const Evidence& e) {
+  return e.agreeing_m2 >= std::max(kLeastGroundM2, h.ground_m2 + std::max(kLeastNewGroundM2, kNewGround * h.ground_m2));
+}
+
+/// By what they are and nothing else, so that equal rounds give equal answers whatever their order.
+bool before(const Look& x, const Look& y) {
+  if (x.evidence.score != y.evidence.score) return x.evidence.score > y.evidence.score;
+  const Vector6 a = x.T_a_b.mean.xyz_rpy(), b = y.T_a_b.mean.xyz_rpy();
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+}
+
+/// The looks at different places, best first, each knowing how far ahead it is of its best rival.
+std::vector<Look> rivals(std::vector<Look> looks) {
+  std::sort(looks.begin(), looks.end(), before);
+  std::vector<Look> places;
+  for (const Look& look : looks) {
+    const auto same = [&](const Look& other) { return same_place(other.T_a_b.mean, look.T_a_b.mean); };
+    if (std::none_of(places.begin(), places.end(), same)) places.push_back(look);
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double own = places[i].evidence.score;
+    const double rival = places.size() < 2 ? 0 : places[i == 0 ? 1 : 0].evidence.score;
+    places[i].evidence.uniqueness = own > 0 ? std::clamp(1 - rival / own, 0.0, 1.0) : 0;
+  }
+  return places;
+}
+
+void drop(Hypothesis& h, const std::string& why) {
+  h.standing = Standing::kDropped;
+  h.reason = "dropped: " + why;
+}
+
+void suspend(Hypothesis& h, const std::string& why) {
+  h.standing = Standing::kPending;
+  h.agreements = 0;
+  h.reason = why;
+}
+
+std::string so_often(int agreements) {
+  return "agreed on new ground " + std::to_string(agreements) + " of " + std::to_string(kAgreements) + " times";
+}
+
+/// `rival`: the probability of the likeliest other place.
+void judge(Hypothesis& h, const Look& look, const Decision& now, double rival) {
+  h.T_a_b = look.T_a_b;
+  h.evidence = look.evidence;
+  h.probability_correct = now.probability_correct;
+  h.contradictions = contradicts(look.evidence) ? h.contradictions + 1 : 0;
+  if (h.contradictions >= kContradictions) return drop(h, now.reason);
+  if (h.standing == Standing::kAccepted) {
+    if (rival >= kOverthrown) suspend(h, "another pose has become likely");
+    return;
+  }
+  const bool agrees = h.probability_correct >= kAgrees && rival < kRivalled;
+  h.reason = agrees ? so_often(h.agreements) : rival < kRivalled ? now.reason : "another pose may be as good";
+  if (!agrees || !on_new_ground(h, look.evidence)) return;
+  h.ground_m2 = look.evidence.agreeing_m2;
+  h.reason = so_often(++h.agreements);
+  if (h.agreements >= kAgreements) h.standing = Standing::kAccepted;
+}
+
+}  // namespace
+
+Hypothesis& PendingHypotheses::held_or_new(const SE3& T_a_b) {
+  const auto it = std::find_if(all_.begin(), all_.end(), [&](const Hypothesis& h) {
+    return h.standing != Standing::kDropped && same_place(h.T_a_b.mean, T_a_b);
+  });
+  return it != all_.end() ? *it : all_.emplace_back();
+}
+
+void PendingHypotheses::take(std::vector<Look> looks) {
+  const auto places = rivals(std::move(looks));
+  std::vector<Decision> decisions;
+  for (const Look& look : places) decisions.push_back(decide(look.evidence));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    double rival = 0;
+    for (std::size_t j = 0; j < places.size(); ++j)
+      if (j != i) rival = std::max(rival, decisions[j].probability_correct);
+    judge(held_or_new(places[i].T_a_b.mean), places[i], decisions[i], rival);
+  }
+  allow_one();
+  put_in_order();
+}
+
+void PendingHypotheses::allow_one() {
+  const auto accepted = [](const Hypothesis& h) { return h.standing == Standing::kAccepted; };
+  if (std::count_if(all_.begin(), all_.end(), accepted) < 2) return;
+  for (Hypothesis& h : all_)
+    if (accepted(h)) suspend(h, "two places agree, one of them must be wrong");
+}
+
+void PendingHypotheses::put_in_order() {
+  const auto rank = [](const Hypothesis& h) {
+    return std::pair(h.standing == Standing::kAccepted  ? 0
+                     : h.standing == Standing::kPending ? 1
+                                                        : 2,
+                     h.standing == Standing::kDropped ? 0 : -h.probability_correct);
+  };
+  std::stable_sort(all_.begin(), all_.end(), [&](const auto& x, const auto& y) { return rank(x) < rank(y); });
+  const auto dropped = [](const Hypothesis& h) { return h.standing == Standing::kDropped; };
+  auto forgotten = std::count_if(all_.begin(), all_.end(), dropped) - static_cast<std::ptrdiff_t>(kMostDropped);
+  std::size_t pending = 0;
+  std::erase_if(all_, [&](const Hypothesis& h) {
+    return dropped(h) ? forgotten-- > 0 : h.standing == Standing::kPending && ++pending > kMostPending;
+  });
+}
+
+std::vector<SE3> PendingHypotheses::places() const {
+  std::vector<SE3> out;
+  for (const Hypothesis& h : all_)
+    if (h.standing != Standing::kDropped) out.push_back(h.T_a_b.mean);
+  return out;
+}
+
+const Hypothesis* PendingHypotheses::accepted() const {
+  return !all_.empty() && all_.front().standing == Standing::kAccepted ? &all_.front() : nullptr;
+}
+
+}  // namespace cairn::matching

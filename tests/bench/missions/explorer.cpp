@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/bench/missions/explorer.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "tools/simulator/random.hpp"
+#include "tools/simulator/route.hpp"
+
+namespace cairn::missions {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kSensorHeight = 0.73, kNoiseM = 0.02, kLost = 0.01;
+constexpr int kRings = 16, kDirections = 900;
+constexpr std::uint64_t kFrameStream = 21, kNoiseStream = 22;
+
+simulator::Path stops_along(const simulator::Path& path, double every) {
+  simulator::Path stops{path.front()};
+  double since = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    since += (path[i] - path[i - 1]).norm();
+    if (since < every) continue;
+    stops.push_back(path[i]);
+    since = 0;
+  }
+  return stops;
+}
+
+MappingConfig mapping() {
+  MappingConfig config;
+  config.max_range_m = Explorer::kRangeM;
+  return config;
+}
+
+}  // namespace
+
+Site::Site(simulator::World w) : world(std::move(w)), plan(world), tracer(*simulator::Tracer::build(world.mesh)) {}
+
+Explorer::Explorer(const Site& site, std::uint64_t seed, double metres)
+    : site_(site), seed_(seed), workers_(1), mapper_(std::make_unique<Mapper>(mapping(), workers_)) {
+  const simulator::RoutePlanner planner(site.world, site.plan, seed);
+  const auto paths = planner.plan(1, metres);
+  if (paths) stops_ = stops_along(paths->front(), kStopM);
+  simulator::Random random(seed, kFrameStream);
+  Vector6 frame;
+  frame << random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-0.5, 0.5), 0, 0, random.uniform(-kPi, kPi);
+  const Eigen::Vector2d start = stops_.empty() ? Eigen::Vector2d::Zero() : stops_.front();
+  const Eigen::Vector3d from(start.x(), start.y(), site.world.ground(start.x(), start.y()));
+  T_map_world_ = SE3::from_xyz_rpy(frame) * SE3(Eigen::Quaterniond::Identity(), -from);
+  features_ = std::make_unique<matching::MapFeatures>(*matching::MapFeatures::build(mapper_->tree()));
+}
+
+std::unique_ptr<SemanticOcTree> Explorer::next_map(const SE3& slip) {
+  auto map = std::make_unique<SemanticOcTree>(mapper_->tree());
+  mapper_ = std::make_unique<Mapper>(mapping(), workers_);
+  features_ = std::make_unique<matching::MapFeatures>(*matching::MapFeatures::build(mapper_->tree()));
+  T_map_world_ = slip * T_map_world_;
+  return map;
+}
+
+void Explorer::advance(int scans) {
+  for (int i = 0; i < scans && next_ < stops_.size(); ++i) scan_at(stops_[next_++]);
+  features_->update(mapper_->take_changed_tiles());
+}
+
+void Explorer::scan_at(const Eigen::Vector2d& at) {
+  const Eigen::Vector3d origin(at.x(), at.y(), site_.world.ground(at.x(), at.y()) + kSensorHeight);
+  simulator::Random random(seed_, kNoiseStream, next_);
+  const double first = random.uniform(0, 2 * kPi);
+  std::vector<Eigen::Vector3f> points;
+  for (int k = 0; k < kDirections; ++k)
+    for (int ring = 0; ring < kRings; ++ring) {
+      const double azimuth = first + 2 * kPi * k / kDirections, up = (2.0 * ring - 15) * kPi / 180;
+      const Eigen::Vector3d ahead(std::cos(up) * std::cos(azimuth), std::cos(up) * std::sin(azimuth), std::sin(up));
+      const auto hit = site_.tracer.trace({origin, ahead}, 0.5, 60);
+      if (!hit || random.uniform() < kLost) continue;
+      const double range = hit->distance + kNoiseM * random.normal_pair().first;
+      const Eigen::Vector3d point = T_map_world_ * (origin + range * ahead);
+      points.push_back(point.cast<float>());
+    }
+  const Eigen::Vector3d sensor = T_map_world_ * origin;
+  (void)mapper_->insert(points, sensor.cast<float>());
+}
+
+}  // namespace cairn::missions

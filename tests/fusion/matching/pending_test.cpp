@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/matching/pending.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "fusion/matching/growing_match.hpp"
+#include "tests/support/map_pairs.hpp"
+
+namespace cairn::matching {
+namespace {
+
+SE3 at(double x, double yaw = 0) { return SE3::from_xyz_rpy((Vector6() << x, 1, 0, 0, 0, yaw).finished()); }
+
+/// A look that agrees as well as the truth does, on so much ground.
+Look agreeing(const SE3& T, double ground_m2) {
+  Look look{{T, 1e-4 * Matrix6::Identity()}, {}};
+  look.evidence.structure_inliers = 0.8;
+  look.evidence.structure_pairs = 900;
+  look.evidence.agreeing_m2 = ground_m2;
+  look.evidence.weakest_translation = 0.4;
+  look.evidence.reverse_conflict = 0.005;
+  look.evidence.score = 0.6;
+  return look;
+}
+
+Look contradicting(const SE3& T) {
+  Look look = agreeing(T, 300);
+  look.evidence.conflict = 0.2;
+  look.evidence.score = 0.05;
+  return look;
+}
+
+TEST(Pending, OneMatchHoweverGoodIsNeverAccepted) {
+  PendingHypotheses pending;
+  for (int i = 0; i < 50; ++i) {
+    pending.take({agreeing(at(0), 500)});  // the same ground again and again
+    ASSERT_EQ(pending.accepted(), nullptr);
+  }
+  ASSERT_EQ(pending.all().size(), 1U);
+  EXPECT_EQ(pending.all()[0].agreements, 1);
+  EXPECT_GT(pending.all()[0].probability_correct, 0.95);
+  EXPECT_FALSE(pending.all()[0].reason.empty());
+}
+
+TEST(Pending, RepeatedAgreementOnNewGroundIs) {
+  PendingHypotheses pending;
+  for (const double ground : {80.0, 100.0}) {
+    pending.take({agreeing(at(0), ground)});
+    EXPECT_EQ(pending.accepted(), nullptr);
+  }
+  pending.take({agreeing(at(0.05), 120)});
+  ASSERT_NE(pending.accepted(), nullptr);
+  EXPECT_NEAR(pending.accepted()->T_a_b.mean.translation().x(), 0.05, 1e-12);  // the newest look's
+}
+
+TEST(Pending, LittleGroundDoesNotCount) {
+  PendingHypotheses pending;
+  for (const double ground : {10.0, 20.0, 30.0, 40.0, 50.0}) pending.take({agreeing(at(0), ground)});
+  EXPECT_EQ(pending.all()[0].agreements, 0);
+}
+
+TEST(Pending, ContradictionDropsEvenWhatWasAccepted) {
+  for (const int agreements : {1, 3}) {
+    PendingHypotheses pending;
+    for (int i = 0; i < agreements; ++i) pending.take({agreeing(at(0), 100 * (i + 1))});
+    EXPECT_EQ(pending.accepted() != nullptr, agreements == 3);
+    pending.take({contradicting(at(0))});
+    EXPECT_NE(pending.all()[0].standing, Standing::kDropped);  // once may be a door that moved
+    pending.take({contradicting(at(0))});
+    EXPECT_EQ(pending.all()[0].standing, Standing::kDropped);
+    EXPECT_NE(pending.all()[0].reason.find("free space"), std::string::npos);
+    EXPECT_EQ(pending.accepted(), nullptr);
+    EXPECT_TRUE(pending.places().empty());
+  }
+}
+
+TEST(Pending, TwoPlacesAsGoodAsEachOtherAbstainUntilSomethingTellsThemApart) {
+  PendingHypotheses pending;
+  for (const double ground : {100.0, 200.0, 300.0, 400.0}) {
+    pending.take({agreeing(at(0), ground), agreeing(at(7), ground)});
+    ASSERT_EQ(pending.accepted(), nullptr);
+    EXPECT_EQ(pending.all()[0].agreements, 0);
+  }
+  for (const double ground : {500.0, 600.0, 700.0}) {
+    EXPECT_EQ(pending.accepted(), nullptr);
+    pending.take({agreeing(at(0), ground), contradicting(at(7))});
+  }
+  ASSERT_NE(pending.accepted(), nullptr);
+  EXPECT_NEAR(pending.accepted()->T_a_b.mean.translation().x(), 0, 1e-12);
+}
+
+TEST(Pending, ARivalSuspendsWhatWasAccepted) {
+  PendingHypotheses pending;
+  for (const double ground : {100.0, 200.0, 300.0}) pending.take({agreeing(at(0), ground)});
+  ASSERT_NE(pending.accepted(), nullptr);
+  Look rival = agreeing(at(7), 400);
+  rival.evidence.score = 0.9;
+  pending.take({agreeing(at(0), 400), rival});
+  EXPECT_EQ(pending.accepted(), nullptr);
+  EXPECT_EQ(pending.places().size(), 2U);
+}
+
+TEST(Pending, TheOrderWithinARoundDoesNotMatter) {
+  std::vector<Look> looks{agreeing(at(0), 200), contradicting(at(4)), agreeing(at(8), 90), agreeing(at(0.1), 200)};
+  looks[2].evidence.score = 0.3;
+  std::vector<std::size_t> order{0, 1, 2, 3};
+  PendingHypotheses first;
+  for (int round = 0; round < 2; ++round) first.take(looks);
+  do {
+    PendingHypotheses other;
+    for (int round = 0; round < 2; ++round) {
+      std::vector<Look> shuffled;
+      for (const std::size_t i : order) shuffled.push_back(looks[i]);
+      other.take(shuffled);
+    }
+    ASSERT_EQ(other.all().size(), first.all().size());
+    for (std::size_t i = 0; i < first.all().size(); ++i) {
+      EXPECT_EQ(other.all()[i].T_a_b.mean.matrix(), first.all()[i].T_a_b.mean.matrix());
+      EXPECT_EQ(other.all()[i].probability_correct, first.all()[i].probability_correct);
+      EXPECT_EQ(other.all()[i].agreements, first.all()[i].agreements);
+      EXPECT_EQ(other.all()[i].standing, first.all()[i].standing);
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST(Pending, KeepsAFewAndForgetsTheOldest) {
+  PendingHypotheses pending;
+  for (int i = 0; i < 40; ++i) pending.take({contradicting(at(3 * i)), contradicting(at(3 * i + 1000))});
+  EXPECT_LE(pending.all().size(), PendingHypotheses::kMostPending + PendingHypotheses::kMostDropped);
+}
+
+/// Two robots' maps at several times: each robot has gone further along its stretch.
+struct Growth {
+  explicit Growth(support::Scene s) : scene(std::move(s)) {}
+  support::Scene scene;
+  GrowingMatch match{};
+  SE3 T_a_b{};
+
+  void look(const support::Stretch& a, const support::Stretch& b) {
+    const auto pair = support::two_robots(scene, a, b, 3, 2.0, 0.1, 8);
+    T_a_b = pair.T_a_b;
+    const auto of_a = MapFeatures::build(*pair.a), of_b = MapFeatures::build(*pair.b);
+    ASSERT_TRUE(of_a && of_b);
+    Budget budget = Budget::steps(kAmpleSteps);
+    match.update(*of_a, *of_b, budget);
+  }
+  [[nodiscard]] double off(const Hypothesis& h) const {
+    return (h.T_a_b.mean.inverse() * T_a_b).log().head<3>().norm();
+  }
+};
+
+TEST(GrowingMatch, MergesInTheLobbyAndNotAtOnce) {
+  Growth lobby(support::lobby());
+  int looks = 0;
+  for (const double to : {1.4, 1.8, 2.2, 2.6, 3.0}) {
+    lobby.look({0, to, 4 + 4 * (looks + 1)}, {0.5, 0.5 + to, 4 + 4 * (looks + 1)});
+    if (++looks < 3) {
+      EXPECT_EQ(lobby.match.hypotheses().accepted(), nullptr);
+    }
+  }
+  ASSERT_NE(lobby.match.hypotheses().accepted(), nullptr) << lobby.match.hypotheses().all()[0].reason;
+  EXPECT_LT(lobby.off(*lobby.match.hypotheses().accepted()), 0.05);
+}
+
+TEST(GrowingMatch, AbstainsInACorridorWithoutEnds) {
+  Growth corridor(support::endless_corridor());
+  for (const double to : {0.3, 0.6, 0.9}) {
+    corridor.look({0, to, 4}, {0.1, 0.1 + to, 4});
+    EXPECT_EQ(corridor.match.hypotheses().accepted(), nullptr);
+  }
+}
+
+/// Two rooms alike, door to door with a hall whose far end alone says which side is which.
+support::Scene twin_rooms() {
+  support::Scene s{"twins", {}, {}};
+  s.world.box({0, 0, 0}, {24, 6, 3});
+  for (const double x : {0.0, 12.0}) {
+    s.world.box({x + 11.9, 0, 0}, {x + 12.1, 2.2, 3}).box({x + 11.9, 3.8, 0}, {x + 12.1, 6, 3});
+    s.world.box({x + 2, 0, 0}, {x + 4, 0.8, 1}).box({x + 7, 4.8, 0}, {x + 8, 6, 2});
+  }
+  s.ride.curve = [](double phi) { return Eigen::Vector2d(2 + 4 * phi, 3); };
+  return s;
+}
+
+TEST(GrowingMatch, TwoRoomsAlikeAreNotTakenForEachOther) {
+  Growth twins(twin_rooms());
+  for (const double to : {1.0, 1.6}) {  // a has seen both rooms, b is in the second one
+    twins.look({0, 4.8, 20}, {3.2, 3.2 + to, 8});
+    const Hypothesis* accepted = twins.match.hypotheses().accepted();
+    if (accepted != nullptr) {
+      EXPECT_LT(twins.off(*accepted), 0.3);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cairn::matching
