@@ -7,7 +7,7 @@
 namespace cairn::matching {
 namespace {
 
-constexpr int kMinStructurePairs = 60;
+constexpr int kMinStructurePairs = 120;
 constexpr double kMinWeakest = 0.02;
 constexpr double kMinProbability = 0.95;
 

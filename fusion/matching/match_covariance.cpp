@@ -13,6 +13,7 @@ namespace {
 
 constexpr double kShared = 9;          // surfels of a plane that share voxels
 constexpr double kNormalNoise = 0.1;   // standard deviation of the normal of a flat surfel [rad]; others' is larger
+constexpr double kBent = 0.3;          // squared error of a normal, for each unit of variation
 constexpr double kMinResidual = 0.02;  // of a cell: no grid is believed to be finer
 constexpr double kLevelBias = 0.2;     // of a cell: how far off a floor is that lies along both grids
 constexpr float kStretchM = 4, kOffsetM = 0.6F, kNormalSteps = 4, kLevel = 0.85F;
@@ -56,7 +57,7 @@ struct Normals {
   /// A normal that errs by σ fakes an information of σ² along the surface, which is taken off again: what is left of
   /// many walls in one direction says nothing about that direction. A round thing's normal errs by as much as it bends.
   void add(const Eigen::Vector3d& x, const Eigen::Vector3d& normal, double variation) {
-    const double noise = kNormalNoise * kNormalNoise + variation;
+    const double noise = kNormalNoise * kNormalNoise + kBent * variation;
     const auto A = lever(x);
     H += A * ((1 + noise) * normal * normal.transpose() - noise * Eigen::Matrix3d::Identity()) * A.transpose();
     reach += x.squaredNorm();

@@ -183,7 +183,7 @@ void run(const std::string& kind, std::uint64_t seed, std::size_t sites, bool cs
   for (std::size_t i = 0; i < sites; ++i) {
     const std::uint64_t id = 100 * seed + i;
     all.push_back(std::make_unique<Site>(world_of(kind, id, i)));
-    for (const std::uint64_t k : {0, 1})
+    for (const std::uint64_t k : {std::uint64_t{0}, std::uint64_t{1}})
       robots.push_back(std::make_unique<Explorer>(*all.back(), 10 * id + k, kMetres));
   }
   std::vector<Mission> missions;
