@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # The one list of Debian 12 packages. Installs what is missing of the named groups:
-#   tools/packages.sh GROUP…          build test ci cross fresh bench vm
+#   tools/packages.sh GROUP…          build test ci cross fresh bench vm protocol
 #   tools/packages.sh --list GROUP…   prints the packages instead
 # Asks for nothing and touches nothing when all is there. Needs root or sudo only when something is missing.
 set -euo pipefail
@@ -13,6 +13,9 @@ declare -rA packages=(
            libgpiod-dev libembree-dev libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev"
   [test]="libgtest-dev libgmock-dev libbenchmark-dev"
   [bench]="libbenchmark-dev jq"
+  # tools/protocol.sh alone: PCL's libraries without libpcl-dev, which depends on VTK, Qt and Java; see there for the headers
+  [protocol]="libpcl-registration1.13 libpcl-features1.13 libpcl-filters1.13 libpcl-search1.13 libpcl-kdtree1.13
+              libpcl-octree1.13 libpcl-sample-consensus1.13 libpcl-common1.13 libflann1.9 libboost-dev"
   [ci]="clang-14 clang-format-14 clang-tidy-14 clangd-14 libclang-rt-14-dev shellcheck git"
   [cross]="g++-aarch64-linux-gnu qemu-user-static mmdebstrap"
   [fresh]="debootstrap git"

@@ -27,6 +27,7 @@ constexpr Method kMethods[] = {{"default", make<DefaultMatcher>},
                                {"oicp", make<Oicp>},
                                {"pmm", make<Pmm>},
                                {"pmm_level1", make<PmmLevel1>},
+                               {"edge_icp", make<EdgeIcp>},
                                {"em", make<Em>},
                                {"icp", make<Icp>},
                                {"p2plane", make<PlaneIcp>}};

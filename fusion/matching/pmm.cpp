@@ -14,8 +14,9 @@ constexpr float kVoxelGateM = 0.5F;
 
 }  // namespace
 
-Pmm::Pmm(const MapFeatures& a, const MapFeatures& b)
+Pmm::Pmm(const MapFeatures& a, const MapFeatures& b, bool probabilistic)
     : VoxelMatcher(a, b),
+      probabilistic_(probabilistic),
       edges_a_(structural_edges(voxels_a(), a.resolution())),
       edges_b_(structural_edges(voxels_b(), b.resolution())),
       edge_points_a_(centres_of(edges_a_.voxels), static_cast<float>(5 * resolution())) {}
@@ -41,8 +42,11 @@ std::optional<SE3> Pmm::edge_step(const SE3& T, const Weights& weights, double& 
     if (i == PointGrid::kNone) continue;
     const auto r = static_cast<std::size_t>(i);
     const Eigen::Vector3d e = at - edges_a_.voxels[r].centre.cast<double>();
-    const Eigen::Matrix3f sum = edges_a_.covariances[r] + Rf * edges_b_.covariances[s] * Rf.transpose();
-    const Eigen::Matrix3d W = sum.cast<double>().inverse();
+    Eigen::Matrix3d W = Eigen::Matrix3d::Identity();
+    if (probabilistic_) {
+      const Eigen::Matrix3f sum = edges_a_.covariances[r] + Rf * edges_b_.covariances[s] * Rf.transpose();
+      W = sum.cast<double>().inverse();
+    }
     Eigen::Matrix<double, 3, 6> J;
     J << R, -R * hat(x);
     H += J.transpose() * W * J;
@@ -60,7 +64,7 @@ SE3 Pmm::match_edges(SE3 T, int iterations, Budget& budget) const {
   const double quality = 0.5 * (edges_a_.quality + edges_b_.quality);
   double least = std::numeric_limits<double>::infinity(), mean_squared = 0;
   for (int i = 0; i < iterations && budget.one_more(); ++i) {
-    const Weights weights = i == 0 ? Weights{} : Weights{least / entropy, least * quality};
+    const Weights weights = i == 0 || !probabilistic_ ? Weights{} : Weights{least / entropy, least * quality};
     const auto step = edge_step(T, weights, mean_squared);
     if (!step) return T;
     T = T * *step;

@@ -13,6 +13,7 @@
 #include "onboard/mapping/map_file.hpp"
 #include "tests/support/map_pairs.hpp"
 #include "tests/support/recorded_data.hpp"
+#include "tools/protocol/halves.hpp"
 
 namespace cairn::matching {
 namespace {
@@ -33,8 +34,10 @@ std::vector<support::MapPair> pairs(unsigned seed) {
                                       uniform(random, -3, 3), 0.1, uniform(random, 6, 15)));
   }
   for (const std::string name : {"fr_079", "geb079"})
-    if (const auto map = load_map(support::recorded_data("octomap") / (name + ".bt")))
-      out.push_back(support::halves(**map, name, uniform(random, 0.2, 0.6), uniform(random, -3, 3), seed));
+    if (const auto map = load_map(support::recorded_data("octomap") / (name + ".bt"))) {
+      const auto cut = protocol::halves(**map, name, {uniform(random, 0.2, 0.6), uniform(random, -3, 3), seed});
+      out.push_back({name, cut.a, cut.b, cut.T_a_b});
+    }
   return out;
 }
 

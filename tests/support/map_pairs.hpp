@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <algorithm>
 #include <cmath>
-#include <functional>
 #include <memory>
 #include <random>
 #include <string>
@@ -19,7 +17,7 @@ namespace cairn::support {
 /// Two maps of one place and where b's frame lies in a's.
 struct MapPair {
   std::string name;
-  std::unique_ptr<SemanticOcTree> a, b;
+  std::shared_ptr<const SemanticOcTree> a, b;
   SE3 T_a_b;
 };
 
@@ -76,77 +74,6 @@ inline MapPair two_robots(const Scene& scene, const Stretch& of_a, const Stretch
             T_b_world = frame(yaw, pose_on(scene.ride, of_b.from));
   return {scene.name, stretch_map(scene, of_a, T_a_world, seed, resolution_m, range_m),
           stretch_map(scene, of_b, T_b_world, seed + 1, resolution_m, range_m), T_a_world * T_b_world.inverse()};
-}
-
-/// A degraded copy of those parts of a map that `inside` holds (points in the map's frame, m), in another frame and at
-/// another resolution: `dropped` of the voxels are missing, each is moved by up to half a voxel, probabilities are
-/// drawn from 0.7…0.97. Free space is carried over as it is.
-struct Degrading {
-  double resolution_m = 0.1, dropped = 0.2;
-  unsigned seed = 1;
-};
-
-inline std::unique_ptr<SemanticOcTree> degraded(const SemanticOcTree& whole, const SE3& T_copy_whole,
-                                                const std::function<bool(const Eigen::Vector3d&)>& inside,
-                                                const Degrading& options) {
-  auto copy = std::make_unique<SemanticOcTree>(options.resolution_m);
-  std::mt19937 random(options.seed);
-  const auto uniform = [&] { return static_cast<double>(random()) / 4294967296.0; };
-  const auto set = [&](const Eigen::Vector3d& p, float log_odds, bool over) {
-    const octomap::point3d q(static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()));
-    if (over || copy->search(q) == nullptr) copy->setNodeValue(q, log_odds, true);
-  };
-  const double edge = whole.getResolution(), r = options.resolution_m;
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e9), high = -low;
-  for (auto leaf = whole.begin_leafs(), end = whole.end_leafs(); leaf != end; ++leaf) {
-    const auto n = static_cast<int>(std::lround(leaf.getSize() / edge));
-    const Eigen::Vector3d corner(leaf.getX() - leaf.getSize() / 2, leaf.getY() - leaf.getSize() / 2,
-                                 leaf.getZ() - leaf.getSize() / 2);
-    for (int i = 0; i < n * n * n; ++i) {
-      const Eigen::Vector3d at = corner + edge * (Eigen::Vector3d(i % n, i / n % n, i / n / n).array() + 0.5).matrix();
-      if (!inside(at)) continue;
-      const Eigen::Vector3d moved = T_copy_whole * at;
-      low = low.cwiseMin(moved);
-      high = high.cwiseMax(moved);
-      if (!whole.isNodeOccupied(*leaf) || uniform() < options.dropped) continue;
-      const Eigen::Vector3d jitter(uniform() - 0.5, uniform() - 0.5, uniform() - 0.5);
-      const double p = 0.7 + 0.27 * uniform();
-      set(T_copy_whole * (at + edge * jitter), static_cast<float>(std::log(p / (1 - p))), true);
-    }
-  }
-  const SE3 T_whole_copy = T_copy_whole.inverse();
-  for (double x = std::floor(low.x() / r) * r; x < high.x(); x += r)
-    for (double y = std::floor(low.y() / r) * r; y < high.y(); y += r)
-      for (double z = std::floor(low.z() / r) * r; z < high.z(); z += r) {
-        const Eigen::Vector3d centre = Eigen::Vector3d(x, y, z).array() + r / 2, at = T_whole_copy * centre;
-        if (!inside(at)) continue;
-        const auto* node = whole.search(at.x(), at.y(), at.z());
-        if (node != nullptr && !whole.isNodeOccupied(node)) set(centre, -1.5F, false);
-      }
-  copy->canonicalise();
-  return copy;
-}
-
-/// A map cut in two along its longer side; the halves share `overlap` of each. b has a frame of its own.
-inline MapPair halves(const SemanticOcTree& whole, std::string name, double overlap, double yaw, unsigned seed,
-                      double resolution_m = 0.1) {
-  Eigen::Vector3d low = Eigen::Vector3d::Constant(1e9), high = -low;
-  for (auto leaf = whole.begin_leafs(), end = whole.end_leafs(); leaf != end; ++leaf) {
-    if (!whole.isNodeOccupied(*leaf)) continue;
-    const Eigen::Vector3d p(leaf.getX(), leaf.getY(), leaf.getZ());
-    low = low.cwiseMin(p);
-    high = high.cwiseMax(p);
-  }
-  const int axis = high.x() - low.x() > high.y() - low.y() ? 0 : 1;
-  const double length = high[axis] - low[axis], half = length / (2 - overlap);
-  const auto in_a = [=](const Eigen::Vector3d& p) { return p[axis] < low[axis] + half; };
-  const auto in_b = [=](const Eigen::Vector3d& p) { return p[axis] >= high[axis] - half; };
-  Vector6 frame;
-  frame << 0.5 * (low.x() + high.x()) + 0.037, 0.5 * (low.y() + high.y()) - 0.021, low.z() + 1.013, 0, 0, yaw;
-  frame[axis] = high[axis] - half / 2 + 0.037;
-  const SE3 T_a_b = SE3::from_xyz_rpy(frame);
-  return {std::move(name), degraded(whole, {}, in_a, {resolution_m, 0.2, seed}),
-          degraded(whole, T_a_b.inverse(), in_b, {resolution_m, 0.2, seed + 1}), T_a_b};
 }
 
 }  // namespace cairn::support

@@ -12,7 +12,8 @@ struct Scene {
   const char* name;
   World (*make)();
 };
-constexpr std::array<Scene, 6> kScenes{{{"corridor", scenes::corridor},
+constexpr std::array<Scene, 7> kScenes{{{"corridor", scenes::corridor},
+                                        {"hallway", scenes::hallway},
                                         {"lobby", scenes::lobby},
                                         {"office", scenes::office},
                                         {"carpark", scenes::carpark},

@@ -9,6 +9,8 @@ namespace cairn::simulator::scenes {
 /// 20 × 5 × 3 m. Nothing in it tells how far along one is: smooth walls, flush doors, and dark glass at both ends that
 /// returns nothing. For a LiDAR the long axis is degenerate, as in the corridors that real robots get lost in.
 [[nodiscard]] World corridor();
+/// 20 × 5 × 3 m, too, with what corridors have: doors set back in thick walls, pillars, radiators, closed ends.
+[[nodiscard]] World hallway();
 /// 40 × 15 × 3 m entrance hall: columns, reception, seats, plants, lifts, a glass front.
 [[nodiscard]] World lobby();
 /// 50 × 40 × 3 m office floor: three parallel corridors, three cross corridors and 52 rooms that look much alike.

@@ -1,0 +1,76 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# The book's comparison of map matching (ch. 3 to 5), our methods and PCL's: simulates two robots in each of three scenes,
+# makes pairs of maps of their recordings, matches each pair from 125 starts, and leaves protocol.json and protocol.html.
+#   tools/protocol.sh [--seed K] [--out DIR] [--octomaps DIR] [--quick]
+#     --seed      of the simulated robots' paths and noise (default 1001)
+#     --out       default: protocol/
+#     --octomaps  folder of .bt maps (such as fr_079, geb079) whose halves are matched, too
+#     --quick     every fifth start, shorter recordings
+# The only script that installs PCL; nothing else of the project knows it.
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+seed=1001 out=protocol octomaps=() stride=1 seconds=60
+while (($# > 0)); do
+  case $1 in
+    --seed) seed=$2 && shift 2 ;;
+    --out) out=$2 && shift 2 ;;
+    --octomaps) octomaps=(--octomaps "$2") && shift 2 ;;
+    --quick) stride=5 seconds=40 && shift ;;
+    -h | --help) sed -n '3,11s/^# //p' "$0" && exit ;;
+    *) echo "protocol.sh: unknown argument '$1' (see --help)" >&2 && exit 2 ;;
+  esac
+done
+
+# libpcl-dev depends on VTK, Qt and Java, none of which is used here. Where it is not installed, its headers alone are
+# unpacked into the build's folder.
+unpack_headers() {
+  local into=$PWD/build/protocol/pcl package
+  [[ ! -d /usr/include/pcl-1.13 && ! -d $into/usr/include/pcl-1.13 ]] || return 0
+  mkdir -p "$into/packages"
+  (cd "$into/packages" && apt-get -qq -o APT::Sandbox::User=root download libpcl-dev libflann-dev)
+  for package in "$into"/packages/*.deb; do dpkg-deb -x "$package" "$into"; done
+}
+
+# Two robots in each scene; one with LiDAR and depth camera.
+record() {
+  local scene
+  for scene in hallway lobby office; do
+    "$cairn" simulate --scene "$scene" --robots 2 --seconds "$seconds" --seed "$seed" --threads "$(nproc)" \
+      --out "$out/recordings/$scene"
+  done
+  "$cairn" simulate --scene lobby --sensors lidar,depth --seconds 30 --seed "$seed" --threads "$(nproc)" \
+    --out "$out/recordings/rgbd"
+}
+
+# The series of falling overlap takes every fifth start even in the whole run: it is there to show a trend.
+stride_of() { [[ ${1##*/} =~ _[0-9]+$ && $stride == 1 ]] && echo 5 || echo "$stride"; }
+
+# One line for each program and pair; the longest first, so that no core waits for the last one.
+jobs() {
+  local pair
+  for pair in "$out"/pairs/*/; do
+    pair=${pair%/}
+    case $pair in
+      */lidar_rgbd_*) ;;
+      *) printf '%s\0' "$bin/pcl_baselines '$pair' $(stride_of "$pair")" ;;
+    esac
+    printf '%s\0' "$bin/protocol match '$pair' --stride $(stride_of "$pair")"
+  done
+}
+
+tools/packages.sh build protocol
+unpack_headers
+build protocol --target cairn protocol pcl_baselines
+bin=build/protocol/bin cairn=build/protocol/bin/cairn
+mkdir -p "$out"
+rm -rf "$out/recordings" "$out/pairs"
+echo "1/4 simulating the recordings" >&2
+record
+echo "2/4 making the pairs of maps" >&2
+"$bin/protocol" pairs --recordings "$out/recordings" "${octomaps[@]}" --seed "$seed" --out "$out/pairs"
+echo "3/4 matching, $((125 / stride)) starts each" >&2
+jobs | OMP_NUM_THREADS=1 xargs -0 -n 1 -P "$(nproc)" bash -c
+echo "4/4 the report" >&2
+"$bin/protocol" report --pairs "$out/pairs" --seed "$seed" --out "$out" | tee "$out/protocol.txt"
+echo "The report: $out/protocol.html"

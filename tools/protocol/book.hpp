@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <optional>
+#include <span>
+#include <string_view>
+
+namespace cairn::protocol {
+
+/// Numbers of Yue & Wang, "Collaborative Perception, Localization and Mapping for Autonomous Systems" (Springer 2021),
+/// for comparison. What is not in the text that this project has is left out.
+
+/// Mean errors (Table 4.3).
+struct BookError {
+  std::string_view method;
+  double deg, m;
+};
+/// Table 4.2, and the overlap of section 4.6.4.
+struct BookScene {
+  std::string_view name, world, place;  ///< world: the simulator's scene of the same size
+  double overlap;
+  int voxels, edges;
+  std::array<BookError, 5> errors;
+  double icp_seconds;  ///< Table 4.4
+};
+inline constexpr std::array kBookScenes{BookScene{"corridor",
+                                                  "hallway",
+                                                  "Corridor",
+                                                  0.48,
+                                                  46000,
+                                                  3500,
+                                                  {{{"icp", 31.39, 1.63},
+                                                    {"p2plane", 19.97, 1.51},
+                                                    {"gicp", 10.58, 1.71},
+                                                    {"ndt", 13.63, 2.56},
+                                                    {"pmm_level1", 12.06, 0.62}}},
+                                                  3.14},
+                                        BookScene{"lobby",
+                                                  "lobby",
+                                                  "WKW lobby",
+                                                  0.42,
+                                                  67071,
+                                                  4300,
+                                                  {{{"icp", 5.77, 1.95},
+                                                    {"p2plane", 6.31, 1.78},
+                                                    {"gicp", 5.32, 2.84},
+                                                    {"ndt", 5.51, 2.32},
+                                                    {"pmm_level1", 6.90, 1.47}}},
+                                                  10.35},
+                                        BookScene{"office",
+                                                  "office",
+                                                  "Willow office",
+                                                  0.40,
+                                                  76000,
+                                                  3200,
+                                                  {{{"icp", 6.54, 3.60},
+                                                    {"p2plane", 4.97, 2.78},
+                                                    {"gicp", 5.28, 2.72},
+                                                    {"ndt", 8.07, 5.13},
+                                                    {"pmm_level1", 8.88, 2.54}}},
+                                                  5.59}};
+
+/// Of Fig. 4.10: from 45 % on, a metre at a time.
+inline constexpr std::array kOverlapPercents{45, 40, 35, 30, 25, 20, 15, 10};
+
+/// Entropy of the fused map (Table 3.2): average and relative-entropy filter.
+struct BookEntropy {
+  std::string_view place;
+  double average, relative_entropy;
+};
+inline constexpr std::array kBookEntropies{BookEntropy{"simulation", 0.16, 0.13}, BookEntropy{"WKW lobby", 0.24, 0.20}};
+
+/// RMS of matched voxels at the beginning, in the middle and at the end, m (Table 5.2).
+struct BookRms {
+  std::string_view place;
+  std::array<double, 3> oicp, em;
+};
+inline constexpr std::array kBookRms{
+    BookRms{"indoor", {0.3414, 0.2592, 0.2675}, {0.2479, 0.2357, 0.2890}},
+    BookRms{"mixed", {0.3140, 0.3078, 0.2818}, {0.2791, 0.2563, 0.2542}},
+    BookRms{"Changi exhibition centre", {0.4405, 0.4054, 0.3653}, {0.4284, 0.3998, 0.3550}},
+    BookRms{"forest", {0.4393, 0.3561, 0.3430}, {0.4301, 0.3374, 0.3237}}};
+/// Mean correspondences of a LiDAR voxel indoors (section 5.5.2): at the start and 20 s later.
+inline constexpr std::array kBookCorrespondences{3.57, 2.15};
+
+[[nodiscard]] inline std::optional<BookError> book_error(std::string_view scene, std::string_view method) {
+  for (const BookScene& s : kBookScenes)
+    for (const BookError& e : s.errors)
+      if (s.name == scene && e.method == method) return e;
+  return std::nullopt;
+}
+
+}  // namespace cairn::protocol

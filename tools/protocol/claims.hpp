@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/protocol/outcome.hpp"
+
+namespace cairn::protocol {
+
+/// Something that the book says, or that is asked of the default matcher, and what this run says to it.
+struct Claim {
+  std::string claim;
+  std::string figures;  ///< by which it holds or does not
+  bool holds = false;
+};
+
+/// Those for which the outcome has the runs.
+[[nodiscard]] std::vector<Claim> claims_of(const Outcome& outcome);
+
+}  // namespace cairn::protocol

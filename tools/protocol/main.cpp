@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// The steps of tools/protocol.sh that need no PCL: protocol pairs | match | report.
+#include <CLI/CLI.hpp>
+#include <iostream>
+
+#include "tools/protocol/make_pairs.hpp"
+#include "tools/protocol/report.hpp"
+#include "tools/protocol/run_methods.hpp"
+
+namespace {
+
+namespace fs = std::filesystem;
+using namespace cairn;
+using namespace cairn::protocol;
+
+Result<void> match(const fs::path& dir, int stride) {
+  const auto pair = load_pair(dir);
+  if (!pair) return pair.error();
+  std::vector<MethodRun> runs;
+  for (const std::string& method : our_methods(*pair)) {
+    auto run = run_method(*pair, method, stride);
+    if (!run) return at(method, run.error());
+    runs.push_back(*std::move(run));
+  }
+  return save_runs(runs, dir / "ours.json");
+}
+
+int outcome(const Result<void>& result) {
+  if (result) return 0;
+  std::cerr << "protocol: " << to_string(result.error()) << '\n';
+  return 1;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  CLI::App app{"the book's protocol of map matching, in steps; see tools/protocol.sh", "protocol"};
+  app.require_subcommand(1);
+  PairsOptions pairs;
+  CLI::App* make = app.add_subcommand("pairs", "recordings → pairs of maps");
+  make->add_option("--recordings", pairs.recordings, "folder of simulated recordings")->required();
+  make->add_option("--octomaps", pairs.octomaps, "folder of maps to be cut in halves, too");
+  make->add_option("--seed", pairs.seed, "of the halves' faults");
+  make->add_option("--out", pairs.out, "gets a folder for each pair")->required();
+  fs::path dir;
+  int stride = 1;
+  CLI::App* run = app.add_subcommand("match", "matches one pair by our methods, leaves ours.json in its folder");
+  run->add_option("pair", dir, "folder of the pair")->required();
+  run->add_option("--stride", stride, "every so many of the 125 starts")->check(CLI::Range(1, 125));
+  fs::path results, out;
+  unsigned seed = 1;
+  CLI::App* tell = app.add_subcommand("report", "pairs with their outcomes → protocol.json and protocol.html");
+  tell->add_option("--pairs", results, "folder of the pairs")->required();
+  tell->add_option("--seed", seed, "to be told");
+  tell->add_option("--out", out, "folder of the report")->required();
+  CLI11_PARSE(app, argc, argv);
+  if (*make) return outcome(make_pairs(pairs));
+  if (*run) return outcome(match(dir, stride));
+  return outcome(write_report(results, seed, out));
+}

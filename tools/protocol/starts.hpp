@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <vector>
+
+#include "hal/se3.hpp"
+
+namespace cairn::protocol {
+
+/// One start of the book's protocol (section 4.6.3): how far from the truth a method is told to begin.
+struct Start {
+  double x_m = 0, y_m = 0, yaw_deg = 0;
+
+  [[nodiscard]] double distance_m() const;
+};
+
+/// All 125: x and y from −2 to 2 m by 1 m, yaw from −15° to 15° by 7.5°; x slowest.
+[[nodiscard]] const std::vector<Start>& starts();
+/// Numbers of the starts that a run of every `stride`-th takes; the exact start (number 62) is always one of them.
+[[nodiscard]] std::vector<int> chosen_starts(int stride);
+inline constexpr int kExactStart = 62;
+
+/// The pose that a method is given: turned about b's own z axis, then moved in frame a.
+[[nodiscard]] SE3 start_pose(const SE3& T_a_b, const Start& start);
+
+/// Distance and angle between an estimate and the truth.
+struct PoseError {
+  double m = 0, deg = 0;
+
+  /// The book's criterion: at most 0.6 m and 6°.
+  [[nodiscard]] bool success() const { return m <= 0.6 && deg <= 6; }
+};
+/// Of T_est·T_true⁻¹ the book takes the norm of the translation, which grows with the distance of b from a's origin;
+/// here it is T_est⁻¹·T_true: how far off b's own origin lies.
+[[nodiscard]] PoseError error_of(const SE3& estimate, const SE3& truth);
+
+}  // namespace cairn::protocol
