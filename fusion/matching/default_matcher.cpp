@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fusion/matching/default_matcher.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
@@ -11,11 +10,7 @@
 namespace cairn::matching {
 namespace {
 
-constexpr std::size_t kSearchPoints = 2000, kRefinePoints = 2000;
-constexpr int kModes = 40, kWideModes = 48;
-constexpr double kWindowSigmas = 3, kMinWindowM = 0.8, kMaxWindowM = 20, kMaxHeightM = 4, kMinYaw = 0.07;
-constexpr double kOneHeightM = 0.5;  // a prior that knows the height better than this needs no search over it
-constexpr double kWideYaw = 1.0;
+constexpr std::size_t kRefinePoints = 2000;
 constexpr std::size_t kPlacements = 400, kHeightVotes = 600, kGlobalModes = 64, kBestSwept = 24, kCloser = 6;
 
 constexpr RefineOptions kOnCoarse{3.0F, 1.25F, 0.75F, 12, 0, 1e-3, 1e-4};  // gates in cells
@@ -29,24 +24,6 @@ RefineOptions in_metres(RefineOptions options, float cell_m) {
   return options;
 }
 
-std::vector<Eigen::Vector3f> points_of(std::span<const Surfel> surfels) {
-  std::vector<Eigen::Vector3f> points(surfels.size());
-  std::transform(surfels.begin(), surfels.end(), points.begin(), [](const Surfel& s) { return s.point; });
-  return points;
-}
-
-/// Three standard deviations of the prior, within what a search can cover. Positions are of the source's origin.
-SearchWindow window_of(const UncertainPose& prior) {
-  const Eigen::Matrix3d R = prior.mean.rotation();
-  const Eigen::Matrix3d position = R * prior.covariance.topLeftCorner<3, 3>() * R.transpose();
-  const double xy = std::sqrt(
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position.topLeftCorner<2, 2>()).eigenvalues().maxCoeff());
-  const double z = std::sqrt(std::max(0.0, position(2, 2)));
-  SearchWindow window;
-  window.xy_m = std::clamp(kWindowSigmas * xy, kMinWindowM, kMaxWindowM);
-  window.z_m = z > kOneHeightM ? std::min(kWindowSigmas * z, kMaxHeightM) : 0;
-  window.yaw_rad = std::clamp(kWindowSigmas * std::sqrt(prior.covariance(5, 5)), kMinYaw, M_PI);
-  return window;
 }
 
 template <class Candidate>
@@ -71,22 +48,11 @@ DefaultMatcher::DefaultMatcher(const MapFeatures& a, const MapFeatures& b)
     : map_a_(a.map()),
       map_b_(b.map()),
       judge_(a, b),
-      structure_a_(points_of(structure_of(a.coarse()))),
-      structure_b_(sample(std::span<const Eigen::Vector3f>(points_of(structure_of(b.coarse()))), kSearchPoints)),
+      modes_(a, b),
       coarse_a_(a.coarse()),
       coarse_sample_b_(sample(b.coarse(), kRefinePoints)),
       coarse_m_(std::max(a.coarse_m(), b.coarse_m())),
       near_coarse_(a.coarse(), coarse_m_, 3 * coarse_m_) {}
-
-std::vector<SE3> DefaultMatcher::starts_near(const UncertainPose& prior) const {
-  const SearchWindow window = window_of(prior);
-  const LikelihoodField field(structure_a_, std::max(0.4F, coarse_m_), window);
-  std::vector<SE3> starts;
-  const int modes = window.yaw_rad > kWideYaw ? kWideModes : kModes;
-  for (const Mode& mode : search(field, structure_b_, prior.mean, window, modes))
-    starts.push_back(mode.T_target_source);
-  return starts;
-}
 
 std::vector<SE3> DefaultMatcher::starts_anywhere(Budget& budget) const {
   const PlanView a(judge_.a().surfels, map_a_), b(judge_.b().surfels, map_b_);
@@ -135,7 +101,7 @@ SE3 DefaultMatcher::refined(const SE3& T, Budget& budget) const {
 
 std::vector<DefaultMatcher::Candidate> DefaultMatcher::modes(const std::optional<UncertainPose>& initial,
                                                              Budget& budget) const {
-  auto best_first = verified(initial ? starts_near(*initial) : starts_anywhere(budget), budget);
+  auto best_first = verified(initial ? modes_.near(*initial) : starts_anywhere(budget), budget);
   if (!initial) look_closer(best_first, budget);
   return best_first;
 }

@@ -4,10 +4,10 @@
 #include <utility>
 #include <vector>
 
-#include "fusion/matching/coarse_search.hpp"
 #include "fusion/matching/judge.hpp"
 #include "fusion/matching/matcher.hpp"
 #include "fusion/matching/nearest_grid.hpp"
+#include "fusion/matching/prior_modes.hpp"
 #include "fusion/matching/refine.hpp"
 
 namespace cairn::matching {
@@ -41,7 +41,6 @@ class DefaultMatcher : public Matcher {
   /// What a search finds, best first.
   [[nodiscard]] std::vector<Candidate> modes(const std::optional<UncertainPose>& initial, Budget& budget) const;
   [[nodiscard]] SE3 refined(const SE3& T, Budget& budget) const;
-  [[nodiscard]] std::vector<SE3> starts_near(const UncertainPose& prior) const;
   [[nodiscard]] std::vector<SE3> starts_anywhere(Budget& budget) const;
   /// Each start refined on the coarse surfels and scored, best first.
   [[nodiscard]] std::vector<Candidate> verified(const std::vector<SE3>& starts, Budget& budget) const;
@@ -51,7 +50,7 @@ class DefaultMatcher : public Matcher {
   const SemanticOcTree& map_a_;
   const SemanticOcTree& map_b_;
   Judge judge_;
-  std::vector<Eigen::Vector3f> structure_a_, structure_b_;  // coarse
+  PriorModes modes_;
   std::span<const Surfel> coarse_a_;
   std::vector<Surfel> coarse_sample_b_;
   float coarse_m_;

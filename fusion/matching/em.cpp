@@ -12,8 +12,10 @@ namespace cairn::matching {
 namespace {
 
 constexpr float kDensityCells = 5;
-constexpr int kIterations = 30, kMostCorrespondences = 8;
-constexpr double kFirstSigmaM = 1, kSigmas = 3;
+constexpr int kIterations = 30, kGlances = 4, kMostCorrespondences = 8;
+constexpr std::size_t kGlanceVoxels = 1000;
+constexpr double kFirstSigmaM = 0.5, kSigmas = 3;
+const double kNoPartner = std::exp(-0.5 * 2 * 2);  // weight of a partner at 2σ
 
 std::vector<int> densities(const PointGrid& grid, const std::vector<Eigen::Vector3f>& at, float radius) {
   std::vector<int> all;
@@ -30,7 +32,7 @@ double mean(const std::vector<int>& values) {
 
 /// The dense map's density enters as its mean: while nothing is known of the pose, no voxel is nearest to another.
 Em::Em(const MapFeatures& a, const MapFeatures& b)
-    : VoxelMatcher(a, b), points_b_(centres_of(voxels_b()), static_cast<float>(4 * resolution())) {
+    : VoxelMatcher(a, b), modes_(a, b), points_b_(centres_of(voxels_b()), static_cast<float>(4 * resolution())) {
   const auto radius = kDensityCells * static_cast<float>(resolution());
   auto some_a = sample(std::span<const Eigen::Vector3f>(points_a().points()), kMostSources);
   auto some_b = sample(std::span<const Eigen::Vector3f>(points_b_.points()), kMostSources);
@@ -48,7 +50,7 @@ Em::Em(const MapFeatures& a, const MapFeatures& b)
 
 double Em::mean_correspondences() const { return mean(correspondences_); }
 
-std::optional<SE3> Em::step(const SE3& T, const UncertainPose& prior, double sigma) const {
+std::optional<SE3> Em::step(const SE3& T, const UncertainPose& prior, double sigma, std::size_t stride) const {
   const SE3 T_dense_sparse = sparse_is_b_ ? T : T.inverse();
   const PointGrid& dense = sparse_is_b_ ? points_a() : points_b_;
   const double gate = std::min(static_cast<double>(kGateM), kSigmas * sigma);
@@ -56,7 +58,7 @@ std::optional<SE3> Em::step(const SE3& T, const UncertainPose& prior, double sig
   Vector6 g = Vector6::Zero();
   int pairs = 0;
   std::vector<PointGrid::Neighbour> near;
-  for (std::size_t i = 0; i < sparse_.size(); ++i) {
+  for (std::size_t i = 0; i < sparse_.size(); i += stride) {
     const Eigen::Vector3d x = sparse_[i].cast<double>();
     const auto count = static_cast<std::size_t>(correspondences_[i]);
     dense.nearest((T_dense_sparse * x).cast<float>(), static_cast<float>(gate), count, near);
@@ -74,8 +76,9 @@ std::optional<SE3> Em::step(const SE3& T, const UncertainPose& prior, double sig
     const Eigen::Vector3d e = in_b - T.inverse() * in_a;
     Eigen::Matrix<double, 3, 6> J;
     J << Eigen::Matrix3d::Identity(), -hat(in_b);
-    H += J.transpose() * J;
-    g += J.transpose() * e;
+    const double belief = total / (total + kNoPartner);
+    H += belief * J.transpose() * J;
+    g += belief * J.transpose() * e;
     ++pairs;
   }
   if (pairs < kMinPairs) return std::nullopt;
@@ -87,17 +90,32 @@ std::optional<SE3> Em::step(const SE3& T, const UncertainPose& prior, double sig
   return SE3::exp(H.ldlt().solve(-g));
 }
 
-SE3 Em::descend(const UncertainPose& prior, Budget& budget) const {
-  SE3 T = prior.mean;
+SE3 Em::climb(SE3 T, const UncertainPose& prior, Budget& budget) const {
   const double shrink = std::pow(resolution() / kFirstSigmaM, 1.0 / (kIterations - 5));
   double sigma = kFirstSigmaM;
   for (int i = 0; i < kIterations && budget.one_more(); ++i, sigma = std::max(resolution(), sigma * shrink)) {
-    const auto s = step(T, prior, sigma);
+    const auto s = step(T, prior, sigma, 1);
     if (!s) return T;
     T = T * *s;
     if (sigma <= resolution() && negligible(*s)) break;
   }
   return T;
+}
+
+SE3 Em::descend(const UncertainPose& prior, Budget& budget) const {
+  const std::size_t stride = std::max<std::size_t>(1, sparse_.size() / kGlanceVoxels);
+  SE3 best = prior.mean;
+  double most = score(best);
+  for (SE3 T : modes_.near(prior)) {
+    if (!budget.one_more()) return best;
+    for (int i = 0; i < kGlances; ++i)
+      if (const auto s = step(T, prior, kFirstSigmaM, stride)) T = T * *s;
+    if (const double s = score(T); s > most) {
+      most = s;
+      best = T;
+    }
+  }
+  return climb(best, prior, budget);
 }
 
 }  // namespace cairn::matching

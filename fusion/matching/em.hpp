@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "fusion/matching/prior_modes.hpp"
 #include "fusion/matching/voxel_matcher.hpp"
 
 namespace cairn::matching {
 
 /// Expectation–maximisation for maps of different sensors (ch. 5). Each voxel of the sparse map is paired with as many
-/// of the dense one as their local densities say (Alg. 3), softly: ω_ij = exp(−d²/2σ²), normalised (E-step); σ shrinks
-/// from 1 m to a voxel. The M-step is Gauss–Newton on the weighted distances with the prior p(T) = N(T₀, Σ₀)
-/// (5.4, 5.8). Density is the number of occupied neighbours within five voxels,
-/// of the dense map its mean (the book takes the nearest voxel's, which means little while the pose is unknown); the
-/// sparser map gives the voxels.
+/// of the dense one as their local densities say (Alg. 3), softly: ω_ij = exp(−d²/2σ²), normalised (E-step), where a
+/// partner at 2σ counts as much as having none: maps that overlap in part would otherwise be dragged onto each other.
+/// The M-step is Gauss–Newton on the weighted distances with the prior p(T) = N(T₀, Σ₀) (5.4, 5.8). EM climbs to the
+/// nearest maximum of the posterior, and a prior of metres holds many: each mode of the maps' correlation is climbed a
+/// little with few voxels, the best of them, free space considered, to the top. σ shrinks to a voxel. Density is the
+/// number of occupied neighbours within five voxels, of the dense map its mean (the book takes the nearest voxel's,
+/// which means little while the pose is unknown); the sparser map gives the voxels.
 class Em final : public VoxelMatcher {
  public:
   Em(const MapFeatures& a, const MapFeatures& b);
@@ -20,8 +23,12 @@ class Em final : public VoxelMatcher {
 
  private:
   [[nodiscard]] SE3 descend(const UncertainPose& prior, Budget& budget) const override;
-  [[nodiscard]] std::optional<SE3> step(const SE3& T, const UncertainPose& prior, double sigma) const;
+  /// One E- and M-step with every `stride`-th voxel of the sparse map.
+  [[nodiscard]] std::optional<SE3> step(const SE3& T, const UncertainPose& prior, double sigma,
+                                        std::size_t stride) const;
+  [[nodiscard]] SE3 climb(SE3 T, const UncertainPose& prior, Budget& budget) const;
 
+  PriorModes modes_;
   bool sparse_is_b_;
   PointGrid points_b_;
   std::vector<Eigen::Vector3f> sparse_;  // those of the sparse map's voxels that look for partners

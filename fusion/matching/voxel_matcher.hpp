@@ -35,6 +35,9 @@ class VoxelMatcher : public Matcher {
   [[nodiscard]] std::optional<SE3> closed_form_step(const SE3& T, float gate_m, double occupancy_weight, bool weighted,
                                                     double& mean_squared) const;
 
+  /// What the judge's evidence, free space included, says for a pose, for ranking.
+  [[nodiscard]] double score(const SE3& T_a_b) const { return judge_.score(T_a_b); }
+
   [[nodiscard]] const std::vector<Voxel>& voxels_a() const { return voxels_a_; }
   [[nodiscard]] const std::vector<Voxel>& voxels_b() const { return voxels_b_; }
   /// Those of b that look for partners.

@@ -104,7 +104,6 @@ std::vector<MethodRun> run_all(const MapPair& pair, int stride) {
   };
   std::vector<MethodRun> runs;
   runs.push_back(run<Icp>(pair, "icp", stride, points));
-  if (pair.kind == kOverlap) return runs;
   runs.push_back(run<PlaneIcp>(pair, "p2plane", stride, [&](PlaneIcp& registration) {
     registration.setInputTarget(with_normals(clouds.a, clouds.a));
     registration.setInputSource(with_normals(clouds.b, clouds.all_of_b));
