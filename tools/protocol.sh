@@ -2,10 +2,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # The book's comparison of map matching (ch. 3 to 5), our methods and PCL's: simulates two robots in each of three scenes,
 # makes pairs of maps of their recordings, matches each pair from 125 starts, and leaves protocol.json and protocol.html.
-#   tools/protocol.sh [--seed K] [--out DIR] [--octomaps DIR] [--quick]
+#   tools/protocol.sh [--seed K] [--out DIR] [--octomaps DIR] [--stride N] [--quick]
 #     --seed      of the simulated robots' paths and noise (default 1001)
 #     --out       default: protocol/
 #     --octomaps  folder of .bt maps (such as fr_079, geb079) whose halves are matched, too
+#     --stride    every so many of the 125 starts (default 1)
 #     --quick     every fifth start, shorter recordings
 # The only script that installs PCL; nothing else of the project knows it.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
@@ -16,8 +17,9 @@ while (($# > 0)); do
     --seed) seed=$2 && shift 2 ;;
     --out) out=$2 && shift 2 ;;
     --octomaps) octomaps=(--octomaps "$2") && shift 2 ;;
+    --stride) stride=$2 && shift 2 ;;
     --quick) stride=5 seconds=40 && shift ;;
-    -h | --help) sed -n '3,11s/^# //p' "$0" && exit ;;
+    -h | --help) sed -n '3,12s/^# //p' "$0" && exit ;;
     *) echo "protocol.sh: unknown argument '$1' (see --help)" >&2 && exit 2 ;;
   esac
 done
@@ -66,7 +68,7 @@ echo "1/4 simulating the recordings" >&2
 record
 echo "2/4 making the pairs of maps" >&2
 "$bin/protocol" pairs --recordings "$out/recordings" "${octomaps[@]}" --seed "$seed" --out "$out/pairs"
-echo "3/4 matching, $((125 / stride)) starts each" >&2
+echo "3/4 matching (stride $stride of 125 starts)" >&2
 jobs | OMP_NUM_THREADS=1 xargs -0 -n 1 -P "$(nproc)" bash -c
 echo "4/4 the report" >&2
 "$bin/protocol" report --pairs "$out/pairs" --seed "$seed" --out "$out" | tee "$out/protocol.txt"

@@ -22,15 +22,10 @@ struct Method {
   std::string_view name;
   Make make;
 };
-constexpr Method kMethods[] = {{"default", make<DefaultMatcher>},
-                               {"global", make<GlobalMatcher>},
-                               {"oicp", make<Oicp>},
-                               {"pmm", make<Pmm>},
-                               {"pmm_level1", make<PmmLevel1>},
-                               {"edge_icp", make<EdgeIcp>},
-                               {"em", make<Em>},
-                               {"icp", make<Icp>},
-                               {"p2plane", make<PlaneIcp>}};
+constexpr Method kMethods[] = {
+    {"default", make<DefaultMatcher>}, {"global", make<GlobalMatcher>}, {"oicp", make<Oicp>}, {"pmm", make<Pmm>},
+    {"pmm_level1", make<PmmLevel1>},   {"edge_icp", make<EdgeIcp>},     {"em", make<Em>},     {"icp", make<Icp>},
+    {"p2plane", make<PlaneIcp>}};
 
 }  // namespace
 

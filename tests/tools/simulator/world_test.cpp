@@ -72,8 +72,11 @@ INSTANTIATE_TEST_SUITE_P(Scenes, WorldOfEveryScene, ::testing::ValuesIn(scene_na
                          [](const auto& test) { return test.param; });
 
 TEST(World, ScenesHaveThePromisedSizes) {
-  const std::pair<const char*, Eigen::Vector3d> promised[] = {
-      {"corridor", {20, 5, 3}}, {"hallway", {20, 5, 3}}, {"lobby", {40, 15, 3}}, {"office", {50, 40, 3}}, {"carpark", {48, 32, 2.8}}};
+  const std::pair<const char*, Eigen::Vector3d> promised[] = {{"corridor", {20, 5, 3}},
+                                                              {"hallway", {20, 5, 3}},
+                                                              {"lobby", {40, 15, 3}},
+                                                              {"office", {50, 40, 3}},
+                                                              {"carpark", {48, 32, 2.8}}};
   for (const auto& [name, size] : promised) {
     const World world = *make_world(name);
     EXPECT_EQ(world.inner_size, size) << name;
