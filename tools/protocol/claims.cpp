@@ -33,11 +33,15 @@ void add_entropies(const PairOutcome& scene, std::vector<Claim>& claims) {
   const FusedEntropy *filter = scene.entropy("relative_entropy"), *average = scene.entropy("average"),
                      *stitch = scene.entropy("stitch");
   if (filter == nullptr || average == nullptr || stitch == nullptr) return;
+  const FusedEntropy* both = scene.entropy("side_by_side");
   const std::string in = " (" + scene.pair.name + ", ";
   claims.push_back(less("relative entropy < average" + in + "binary entropy)", filter->binary, average->binary, "", 4));
   claims.push_back(less("relative entropy < average" + in + "−p log2 p)", filter->book, average->book, "", 4));
   claims.push_back(less("average < stitch" + in + "binary entropy)", average->binary, stitch->binary, "", 4));
   claims.push_back(less("average < stitch" + in + "−p log2 p)", average->book, stitch->book, "", 4));
+  if (both != nullptr)
+    claims.push_back(
+        less("relative entropy < both maps side by side" + in + "−p log2 p)", filter->book, both->book, "", 4));
 }
 
 void add_edges(const PairOutcome& scene, std::vector<Claim>& claims) {

@@ -14,7 +14,8 @@ namespace cairn::protocol {
 
 /// Mean entropies over the occupied voxels of a map that was fused in one way.
 struct FusedEntropy {
-  std::string policy;  ///< of merging, or "jessup": ICP's pose from the exact start, and the average
+  std::string policy;  ///< of merging; "side_by_side": nothing is fused; "jessup": ICP's pose from the exact
+                       ///< start, and the average
   double binary = 0;   ///< −p log2 p − (1−p) log2(1−p), bits
   double book = 0;     ///< −p log2 p, as the book weighs it (3.10), bits
   std::size_t voxels = 0;

@@ -39,8 +39,7 @@ std::string boxes_of(const PairOutcome& scene, const Axis& axis, const Value& va
     if (run == nullptr || run->attempts.empty()) continue;
     std::vector<double> values;
     for (const Attempt& a : run->attempts) values.push_back(value(a));
-    const std::string_view title = title_of(method);
-    boxes.push_back({std::string(title.substr(0, title.find(" (PCL)"))), colour_of(method), box_of(values)});
+    boxes.push_back({std::string(method), colour_of(method), box_of(values)});  // titles are too long to stand below
   }
   return box_plot(axis, boxes);
 }
