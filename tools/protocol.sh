@@ -47,7 +47,7 @@ record() {
 
 # The series of falling overlap and of the filling map show a trend: a fifth of the starts will do.
 stride_of() {
-  if [[ ! $1 =~ _([0-9]+|start|middle|end)$ ]]; then
+  if [[ ! ${1##*/} =~ ^((corridor|lobby|office)_[0-9]+|lidar_rgbd_[a-z]+)$ ]]; then
     echo "$stride"
   else
     echo $((stride < 25 ? 5 * stride : 124))
