@@ -24,8 +24,6 @@ RefineOptions in_metres(RefineOptions options, float cell_m) {
   return options;
 }
 
-}
-
 template <class Candidate>
 bool better(const Candidate& x, const Candidate& y) {
   return x.score > y.score;

@@ -149,7 +149,7 @@ TEST_P(CarriedAway, TheMapBeginsAnew) {
   std::unique_ptr<Robot> robot =
       std::make_unique<Robot>(journey.config, journey.workers, journey.workers, journey.monitor);
   for (int i = 0; i < scans; ++i) journey.step(*robot);
-  const Generation saved{state_of(journey), std::make_unique<SemanticOcTree>(robot->map()), journey.last.stamp,
+  const Generation saved{state_of(journey), std::make_unique<SemanticOcTree>(robot->map()), journey.last.stamp, 0,
                          journey.saved_scans().scans};
   journey.miss(60);
   Robot again(journey.config, journey.workers, journey.workers, journey.monitor, resume(saved));

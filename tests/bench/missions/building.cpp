@@ -19,7 +19,7 @@ using simulator::Placement;
 using simulator::Random;
 namespace scenes = simulator::scenes;
 
-constexpr double kHeight = 3, kDoor = 1.2, kPi = std::numbers::pi;
+constexpr double kHeight = 3, kDoor = 1.2;
 
 /// A room, its door side along its own x axis: x from 0 to width, y from 0 at the door wall to depth.
 struct Room {
@@ -40,7 +40,7 @@ void furnish(Mesh& mesh, const Placement& corner, const Room& room) {
                Material::kWood);
     else
       mesh.box(corner.at(i % 2 == 0 ? 0.1 + 0.5 * depth : room.width - 0.1 - 0.5 * depth,
-                         0.3 * room.depth + 0.6 * along * room.depth, 0, 0.5 * kPi),
+                         0.3 * room.depth + 0.6 * along * room.depth, 0, 0.5 * std::numbers::pi),
                length, depth, height, Material::kWood);
   }
 }
@@ -89,7 +89,8 @@ void row(simulator::World& world, const Plan& plan, double from, double to, bool
     room.door = std::min(room.door, room.width - 0.8);
     room.depth = std::min(room.depth, depth);
     // Below, the room is turned: its corner is at its right end.
-    const Placement corner = up ? Placement{x, plan.to, 0, 0} : Placement{x + room.width, plan.from, 0, kPi};
+    const Placement corner =
+        up ? Placement{x, plan.to, 0, 0} : Placement{x + room.width, plan.from, 0, std::numbers::pi};
     build_room(world.mesh, corner, room);
     if (copied != nullptr && depth - room.depth > 0.3)
       scenes::wall(world.mesh, {Vector2d(corner.at(0, room.depth).x, corner.at(0, room.depth).y),

@@ -10,7 +10,6 @@
 namespace cairn::missions {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSensorHeight = 0.73, kNoiseM = 0.02, kLost = 0.01;
 constexpr int kRings = 16, kDirections = 900;
 constexpr std::uint64_t kFrameStream = 21, kNoiseStream = 22;
@@ -44,7 +43,8 @@ Explorer::Explorer(const Site& site, std::uint64_t seed, double metres)
   if (paths) stops_ = stops_along(paths->front(), kStopM);
   simulator::Random random(seed, kFrameStream);
   Vector6 frame;
-  frame << random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-0.5, 0.5), 0, 0, random.uniform(-kPi, kPi);
+  frame << random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-0.5, 0.5), 0, 0,
+      random.uniform(-std::numbers::pi, std::numbers::pi);
   const Eigen::Vector2d start = stops_.empty() ? Eigen::Vector2d::Zero() : stops_.front();
   const Eigen::Vector3d from(start.x(), start.y(), site.world.ground(start.x(), start.y()));
   T_map_world_ = SE3::from_xyz_rpy(frame) * SE3(Eigen::Quaterniond::Identity(), -from);
@@ -67,11 +67,12 @@ void Explorer::advance(int scans) {
 void Explorer::scan_at(const Eigen::Vector2d& at) {
   const Eigen::Vector3d origin(at.x(), at.y(), site_.world.ground(at.x(), at.y()) + kSensorHeight);
   simulator::Random random(seed_, kNoiseStream, next_);
-  const double first = random.uniform(0, 2 * kPi);
+  const double first = random.uniform(0, 2 * std::numbers::pi);
   std::vector<Eigen::Vector3f> points;
   for (int k = 0; k < kDirections; ++k)
     for (int ring = 0; ring < kRings; ++ring) {
-      const double azimuth = first + 2 * kPi * k / kDirections, up = (2.0 * ring - 15) * kPi / 180;
+      const double azimuth = first + 2 * std::numbers::pi * k / kDirections,
+                   up = (2.0 * ring - 15) * std::numbers::pi / 180;
       const Eigen::Vector3d ahead(std::cos(up) * std::cos(azimuth), std::cos(up) * std::sin(azimuth), std::sin(up));
       const auto hit = site_.tracer.trace({origin, ahead}, 0.5, 60);
       if (!hit || random.uniform() < kLost) continue;
