@@ -108,12 +108,12 @@ std::vector<std::byte> bytes_of(const std::filesystem::path& file) {
   return bytes ? std::move(*bytes) : std::vector<std::byte>();
 }
 
-/// Until the pose on disk is another one; false after 20 s.
-bool wait_for_a_pose(const std::filesystem::path& state) {
+/// Until the file is another one, or there at all; false after 20 s.
+bool wait_for_change(const std::filesystem::path& file) {
   const LiveClock clock;
-  const auto before = bytes_of(state / Generations::kStateFile);
+  const auto before = bytes_of(file);
   for (const Time begin = clock.now(); clock.now() - begin < 20s; LiveClock::wait_until(clock.now() + 5ms))
-    if (const auto now = bytes_of(state / Generations::kStateFile); !now.empty() && now != before) return true;
+    if (const auto now = bytes_of(file); !now.empty() && now != before) return true;
   return false;
 }
 
@@ -133,12 +133,14 @@ Duration kill_one(const std::filesystem::path& folder, std::mt19937_64& random) 
   const LiveClock clock;
   const Time begin = clock.now();
   Core core(folder);
-  if (!wait_for_a_pose(folder / "state")) {
+  const std::filesystem::path state = folder / "state", map = state / Generations::kMapFiles.front();
+  const bool pose = wait_for_change(state / Generations::kStateFile);
+  const Duration restart = clock.now() - begin;
+  if (!pose || (!std::filesystem::exists(map) && !wait_for_change(map))) {
     core.stop();
-    ADD_FAILURE() << "no pose. " << said(folder);
+    ADD_FAILURE() << "no pose or no map. " << said(folder);
     return {};
   }
-  const Duration restart = clock.now() - begin;
   LiveClock::wait_until(clock.now() + std::chrono::microseconds(random() % 1'200'000));
   EXPECT_TRUE(core.kill()) << "it ended by itself: " << said(folder);
   return restart;
