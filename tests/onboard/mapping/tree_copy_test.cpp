@@ -25,7 +25,7 @@ TEST(TreeCopy, IsTheTreeForAnySliceSize) {
   for (unsigned seed = 0; seed < 5; ++seed) {
     const auto tree = random_map<SemanticOcTree>(seed, 3000);
     if (seed == 0) saturate_block(*tree, true);
-    for (const std::size_t nodes : {0, 1, 100, 1 << 20}) EXPECT_EQ(differing_nodes(*copy_of(*tree, nodes), *tree), 0U);
+    for (const std::size_t nodes : {0U, 1U, 100U, 1U << 20U}) EXPECT_EQ(differing_nodes(*copy_of(*tree, nodes), *tree), 0U);
   }
   EXPECT_EQ(copy_of(SemanticOcTree(0.1), 10)->size(), 0U);
 }
