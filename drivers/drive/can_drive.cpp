@@ -18,6 +18,7 @@ CanDrive::CanDrive(const Config& config, CanLink& link, Tap tap) : config_(confi
     protocol_ = std::make_unique<agilex::Chassis>(config);
   else
     protocol_ = std::make_unique<cia402::Master>(config);
+  packet_.bytes.reserve(kFdBytes);  // a tick must not allocate, the first one neither
   if (auto decoder = WheelDecoder::create(config)) decoder_ = std::move(*decoder);
 }
 

@@ -24,12 +24,19 @@ class CoreRig {
  public:
   static constexpr Duration kTick = std::chrono::milliseconds(2);
 
-  CoreRig() {
+  /// Around what is the tasks' own; the simulated bus is not.
+  struct Guard {
+    void (*enter)() = [] {};
+    void (*leave)() = [] {};
+  };
+
+  CoreRig() : CoreRig(Guard{}) {}
+  explicit CoreRig(const Guard& guard) : guard_(guard) {
     Fitted fitted;
     fitted.drive = fitted.estop = fitted.watched[static_cast<std::size_t>(Watched::kFeedback)] = true;
     safety_.emplace(FailsafeConfig{}, fitted, SafetyTask::Parts{seen_, news_, decisions_, odometry_});
     safety_->watch_estop({}, line, SourceId{1}, &line, {});
-    moves_ = drive_.attach(drive::test::two_nodes(), bus, SourceId{0}, &bus, {}).has_value();
+    moves_ = drive_.attach(drive::test::two_nodes(), wire_, SourceId{0}, &wire_, {}).has_value();
     drive_.set_planner([](Time) { return DriveCommand{0.5, 0, 0}; });
     bus.power_on();
     go(std::chrono::seconds(1));
@@ -73,13 +80,42 @@ class CoreRig {
     return *stop_frame_ - struck_;
   }
   [[nodiscard]] const FailsafeDecision& decision() const { return safety_->decision(); }
+  [[nodiscard]] bool drives() const { return decision().mode == Mode::kNormal && left_speed() > 0.4; }
+  /// Of both tasks.
+  [[nodiscard]] std::uint64_t ticks() const { return 2 * index_; }
 
   drive::test::VirtualBus bus;
   support::EStopLine line;
 
  private:
+  /// The bus as the tasks see it.
+  class Wire final : public drive::CanLink {
+    template <class Act>
+    auto outside(Act act) {
+      guard_.leave();
+      auto result = act();
+      guard_.enter();
+      return result;
+    }
+
+   public:
+    Wire(drive::test::VirtualBus& bus, const Guard& guard) : bus_(bus), guard_(guard) {}
+    Result<Poll> next(Packet& packet, Duration timeout) override {
+      return outside([&] { return bus_.next(packet, timeout); });
+    }
+    drive::SendResult send(const drive::CanFrame& frame) override {
+      return outside([&] { return bus_.send(frame); });
+    }
+    Result<void> restart() override {
+      return outside([&] { return bus_.restart(); });
+    }
+
+   private:
+    drive::test::VirtualBus& bus_;
+    const Guard& guard_;
+  };
+
   [[nodiscard]] double left_speed() const { return std::abs(bus.nodes[0].speed()) * 0.16; }  // m/s at the rim
-  [[nodiscard]] bool drives() const { return decision().mode == Mode::kNormal && left_speed() > 0.4; }
 
   void go(Duration length) {
     for (const Time end = bus.now + length; bus.now < end; ++index_) {
@@ -88,7 +124,9 @@ class CoreRig {
         scheduler::TickRecord record;
         record.index = index_;
         scheduler::Tick tick(scheduler::Regime::kLive, bus.now, record);
+        guard_.enter();
         task->tick(tick);
+        guard_.leave();
       }
       note(bus.now, decision().mode);
     }
@@ -107,6 +145,8 @@ class CoreRig {
     bus.sent.clear();
   }
 
+  Guard guard_;
+  Wire wire_{bus, guard_};
   scheduler::Progress nobody_;
   SeenChannel seen_{{8, 0, ReceiveTask::kSeenSlot, SafetyTask::kSensorsSlot}, nobody_, nobody_};
   DriveChannel news_{{64, 0, DriveTask::kNewsSlot, SafetyTask::kDriveSlot}, nobody_, nobody_};
