@@ -25,7 +25,8 @@ TEST(TreeCopy, IsTheTreeForAnySliceSize) {
   for (unsigned seed = 0; seed < 5; ++seed) {
     const auto tree = random_map<SemanticOcTree>(seed, 3000);
     if (seed == 0) saturate_block(*tree, true);
-    for (const std::size_t nodes : {0U, 1U, 100U, 1U << 20U}) EXPECT_EQ(differing_nodes(*copy_of(*tree, nodes), *tree), 0U);
+    for (const std::size_t nodes : {0U, 1U, 100U, 1U << 20U})
+      EXPECT_EQ(differing_nodes(*copy_of(*tree, nodes), *tree), 0U);
   }
   EXPECT_EQ(copy_of(SemanticOcTree(0.1), 10)->size(), 0U);
 }
@@ -90,10 +91,10 @@ TEST(TreeCopy, APrunedLeafFillsWhatIsLeftOfIt) {
     for (unsigned x = 0; x < 64; ++x)
       for (unsigned y = 0; y < 64; ++y)
         for (unsigned z = 0; z < 64; ++z)
-          tree.setNodeValue(octomap::OcTreeKey(static_cast<octomap::key_type>(32768 + x),
-                                               static_cast<octomap::key_type>(32768 + y),
-                                               static_cast<octomap::key_type>(32768 + z)),
-                            log_odds);
+          tree.setNodeValue(
+              octomap::OcTreeKey(static_cast<octomap::key_type>(32768 + x), static_cast<octomap::key_type>(32768 + y),
+                                 static_cast<octomap::key_type>(32768 + z)),
+              log_odds);
   };
   fill(-1);
   tree.updateNode(octomap::OcTreeKey(32768, 32768, 32768), true);
