@@ -225,7 +225,7 @@ Result<void> RobotTasks::run_live(const Clock& clock, Generations* generations) 
   const Duration length = options_.seconds ? from_seconds(*options_.seconds) : Duration::max();
   executive_.run_live({start, [&] { return stop_requested() || clock.now() - start > length; }}, clock);
   note_changes();
-  if (saving) saving->close(clock.now());
+  if (saving) saving->close(clock.now(), robot_);
   say_what_is_missing(clock.now());
   return housekeeping.close(clock.now());
 }

@@ -3,14 +3,18 @@
 
 namespace cairn {
 
-void SavingTask::tick(scheduler::Tick& tick) { save(tick.release()); }
-void SavingTask::close(Time now) { save(now); }
-
 /// The pose first: it grows old fastest.
 void SavingTask::save(Time now) {
   save_pose(now);
   save_scans(now);
-  save_map(now);
+  save_copy(now);
+}
+
+void SavingTask::close(Time now, const Robot& robot) {
+  save(now);
+  if (robot.track().empty()) return;
+  const TrackPoint& last = robot.track().back();
+  save_map(now, robot.map(), last.stamp, last.epoch);
 }
 
 void SavingTask::note(Time now, const Result<void>& saved) {
@@ -43,17 +47,21 @@ void SavingTask::save_scans(Time now) {
   note(now, generations_.save_scans({first_epoch_ + scans_epoch_, {scans_.scans().begin(), scans_.scans().end()}}));
 }
 
-void SavingTask::save_map(Time now) {
+void SavingTask::save_copy(Time now) {
   ToSave::Map* map = in_.maps.front();
   if (map == nullptr) return;
-  SavedState state;
-  state.epoch = first_epoch_ + map->epoch;
-  state.boot = boot_;
-  state.stamp = map->stamp;
   map->tree->canonicalise();
-  const auto saved = generations_.save(*map->tree, state);
+  save_map(now, *map->tree, map->stamp, map->epoch);
   map->tree.reset();
   in_.maps.pop();
+}
+
+void SavingTask::save_map(Time now, const SemanticOcTree& map, Time stamp, std::uint32_t epoch) {
+  SavedState state;
+  state.epoch = first_epoch_ + epoch;
+  state.boot = boot_;
+  state.stamp = stamp;
+  const auto saved = generations_.save(map, state);
   note(now, saved);
   if (saved) ++maps_saved_;
 }

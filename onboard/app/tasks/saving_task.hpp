@@ -25,19 +25,21 @@ class SavingTask final : public scheduler::Task {
     for (const PlacedScan& scan : scans) scans_.add(scan);
   }
 
-  void tick(scheduler::Tick& tick) override;
-  /// After the last tick of all tasks: what is still waiting.
-  void close(Time now);
+  void tick(scheduler::Tick& tick) override { save(tick.release()); }
+  /// What waits, to the disk.
+  void save(Time now);
+  /// After the last tick of all tasks: what is still waiting, and the whole map.
+  void close(Time now, const Robot& robot);
 
   /// Any thread: what was to be written last could not be.
   [[nodiscard]] bool failing() const { return failing_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t maps_saved() const { return maps_saved_; }
 
  private:
-  void save(Time now);
   void save_pose(Time now);
   void save_scans(Time now);
-  void save_map(Time now);
+  void save_copy(Time now);
+  void save_map(Time now, const SemanticOcTree& map, Time stamp, std::uint32_t epoch);
   void note(Time now, const Result<void>& saved);
 
   Generations& generations_;

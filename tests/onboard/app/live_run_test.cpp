@@ -92,7 +92,8 @@ TEST(LiveRun, AStartAfterAnotherGoesOnInItsMapAndIsRepeatedToTheBit) {
   const auto ports = ports_for_now();
   std::ofstream(folder / "robot.yaml") << "lidar:\n  data_port: " << ports.first
                                        << "\n  position_port: " << ports.second
-                                       << "\n  T_base_lidar: [0.2, 0, 0.6, 0, 0, 0]\n";
+                                       << "\n  T_base_lidar: [0.2, 0, 0.6, 0, 0, 0]\n"
+                                       << "restart:\n  within_s: 600\n";  // a sanitiser takes its time
   const support::Vlp16Drive drive(support::lobby(), SE3::from_xyz_rpy(kMountOfLidar), 2 * kLiveSeconds, 1);
   RunOptions options;
   options.config = folder / "robot.yaml";

@@ -116,7 +116,7 @@ class SavingTest : public RestartTest {
       copier.mapped(located(i, epoch));
       for (int k = 0; k < 9; ++k) copier.idle(at(0.1 * i + 0.01 * k), map);
       in.pose.publish({at(0.1 * i), located(i, epoch).T_odom_base, Vector6::Zero(), epoch});
-      task.close(at(0.1 * i));
+      task.save(at(0.1 * i));
     }
   }
   ToSave in;
@@ -158,7 +158,7 @@ TEST_F(SavingTest, ALostScanMovesNothing) {
   TrackPoint lost{at(0.6), {}, Vector6::Zero(), 1};
   lost.lost = true;
   in.pose.publish(lost);
-  task.close(at(0.6));
+  task.save(at(0.6));
   EXPECT_EQ(look(1).resumed->state.stamp, at(0.4));
 }
 
