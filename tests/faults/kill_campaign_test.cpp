@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Kills the real program at random instants while it drives, maps and saves, again and again. CAIRN_KILLS: how often (3
+// Kills the real program at random instants while it maps and saves, again and again. CAIRN_KILLS: how often (3
 // without); CAIRN_RESTART_LIMIT_S: how long a restart may take until the first new pose is saved (without: it is only
 // said).
 #include <fcntl.h>
@@ -33,7 +33,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// A robot's LiDAR: drives the same few seconds over and over.
+/// A standing robot's LiDAR, the same few seconds over and over: one that drove would jump back at their end.
 class Lidar {
  public:
   Lidar() {
@@ -58,7 +58,12 @@ class Lidar {
 
  private:
   LiveClock clock_;
-  support::Vlp16Drive drive_{support::lobby(), SE3::from_xyz_rpy((Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished()), 5, 1};
+  static support::Scene standing() {
+    support::Scene scene = support::lobby();
+    scene.ride.max_speed = 0;
+    return scene;
+  }
+  support::Vlp16Drive drive_{standing(), SE3::from_xyz_rpy((Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished()), 5, 1};
 };
 
 /// `cairn run` as a child.
