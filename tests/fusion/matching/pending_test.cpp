@@ -5,9 +5,6 @@
 
 #include <algorithm>
 
-#include "fusion/matching/growing_match.hpp"
-#include "tests/support/map_pairs.hpp"
-
 namespace cairn::matching {
 namespace {
 
@@ -129,70 +126,6 @@ TEST(Pending, KeepsAFewAndForgetsTheOldest) {
   PendingHypotheses pending;
   for (int i = 0; i < 40; ++i) pending.take({contradicting(at(3 * i)), contradicting(at(3 * i + 1000))});
   EXPECT_LE(pending.all().size(), PendingHypotheses::kMostPending + PendingHypotheses::kMostDropped);
-}
-
-/// Two robots' maps at several times: each robot has gone further along its stretch.
-struct Growth {
-  explicit Growth(support::Scene s) : scene(std::move(s)) {}
-  support::Scene scene;
-  GrowingMatch match{};
-  SE3 T_a_b{};
-
-  void look(const support::Stretch& a, const support::Stretch& b) {
-    const auto pair = support::two_robots(scene, a, b, 3, 2.0, 0.1, 8);
-    T_a_b = pair.T_a_b;
-    const auto of_a = MapFeatures::build(*pair.a), of_b = MapFeatures::build(*pair.b);
-    ASSERT_TRUE(of_a && of_b);
-    Budget budget = Budget::steps(kAmpleSteps);
-    match.update(*of_a, *of_b, budget);
-  }
-  [[nodiscard]] double off(const Hypothesis& h) const {
-    return (h.T_a_b.mean.inverse() * T_a_b).log().head<3>().norm();
-  }
-};
-
-TEST(GrowingMatch, MergesInTheLobbyAndNotAtOnce) {
-  Growth lobby(support::lobby());
-  int looks = 0;
-  for (const double to : {1.4, 1.8, 2.2, 2.6, 3.0}) {
-    lobby.look({0, to, 4 + 4 * (looks + 1)}, {0.5, 0.5 + to, 4 + 4 * (looks + 1)});
-    if (++looks < 3) {
-      EXPECT_EQ(lobby.match.hypotheses().accepted(), nullptr);
-    }
-  }
-  ASSERT_NE(lobby.match.hypotheses().accepted(), nullptr) << lobby.match.hypotheses().all()[0].reason;
-  EXPECT_LT(lobby.off(*lobby.match.hypotheses().accepted()), 0.05);
-}
-
-TEST(GrowingMatch, AbstainsInACorridorWithoutEnds) {
-  Growth corridor(support::endless_corridor());
-  for (const double to : {0.3, 0.6, 0.9}) {
-    corridor.look({0, to, 4}, {0.1, 0.1 + to, 4});
-    EXPECT_EQ(corridor.match.hypotheses().accepted(), nullptr);
-  }
-}
-
-/// Two rooms alike, door to door with a hall whose far end alone says which side is which.
-support::Scene twin_rooms() {
-  support::Scene s{"twins", {}, {}};
-  s.world.box({0, 0, 0}, {24, 6, 3});
-  for (const double x : {0.0, 12.0}) {
-    s.world.box({x + 11.9, 0, 0}, {x + 12.1, 2.2, 3}).box({x + 11.9, 3.8, 0}, {x + 12.1, 6, 3});
-    s.world.box({x + 2, 0, 0}, {x + 4, 0.8, 1}).box({x + 7, 4.8, 0}, {x + 8, 6, 2});
-  }
-  s.ride.curve = [](double phi) { return Eigen::Vector2d(2 + 4 * phi, 3); };
-  return s;
-}
-
-TEST(GrowingMatch, TwoRoomsAlikeAreNotTakenForEachOther) {
-  Growth twins(twin_rooms());
-  for (const double to : {1.0, 1.6}) {  // a has seen both rooms, b is in the second one
-    twins.look({0, 4.8, 20}, {3.2, 3.2 + to, 8});
-    const Hypothesis* accepted = twins.match.hypotheses().accepted();
-    if (accepted != nullptr) {
-      EXPECT_LT(twins.off(*accepted), 0.3);
-    }
-  }
 }
 
 }  // namespace
