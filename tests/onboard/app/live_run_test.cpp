@@ -87,6 +87,25 @@ std::vector<Packet> part(const support::Vlp16Drive& drive, double from_s, double
   return packets;
 }
 
+/// Runs live while these packets come.
+Result<std::unique_ptr<RunResult>> run_while(const std::vector<Packet>& packets, int port, const RunOptions& options) {
+  Result<std::unique_ptr<RunResult>> result = Error{Errc::kNotFound, "the run has not begun"};
+  Workers both(2);
+  both.for_each(2, [&](std::size_t side) { side == 0 ? void(result = run(options)) : send(packets, port); });
+  return result;
+}
+
+RunOptions again_from(const RunOptions& live, const std::filesystem::path& out) {
+  RunOptions again = live;
+  again.state.clear();
+  again.seconds.reset();
+  again.recording = live.record;
+  again.record.clear();
+  again.pace = Pace::kMaximum;
+  again.out = out;
+  return again;
+}
+
 TEST(LiveRun, AStartAfterAnotherGoesOnInItsMapAndIsRepeatedToTheBit) {
   const support::TemporaryFolder folder;
   const auto ports = ports_for_now();
@@ -100,35 +119,20 @@ TEST(LiveRun, AStartAfterAnotherGoesOnInItsMapAndIsRepeatedToTheBit) {
   options.state = folder / "state";
   options.seconds = kLiveSeconds;
   options.pace = Pace::kLive;
-  std::vector<std::string> hashes;
+  std::string hash;
   for (const int turn : {0, 1}) {
     options.out = folder / ("live" + std::to_string(turn));
     options.record = folder / ("recording" + std::to_string(turn));
-    Result<std::unique_ptr<RunResult>> result = Error{Errc::kNotFound, "the run has not begun"};
-    Workers both(2);
-    both.for_each(2, [&](std::size_t side) {
-      if (side == 0)
-        result = run(options);
-      else
-        send(part(drive, turn * kLiveSeconds, (turn + 1) * kLiveSeconds), ports.first);
-    });
+    const auto result = run_while(part(drive, turn * kLiveSeconds, (turn + 1) * kLiveSeconds), ports.first, options);
     ASSERT_TRUE(result) << to_string(result.error());
     for (const Event& e : (*result)->monitor.events()) EXPECT_NE(e.stage, "restart") << e.what;
-    hashes.push_back((*result)->report.output_sha256);
+    hash = (*result)->report.output_sha256;
     // Odom begins once.
-    const auto first = (*result)->report.trajectory.front().T_odom_base.mean.log().norm();
-    EXPECT_EQ(first > 0, turn == 1);
+    EXPECT_EQ((*result)->report.trajectory.front().T_odom_base.mean.log().norm() > 0, turn == 1);
   }
-  RunOptions again = options;
-  again.state.clear();
-  again.seconds.reset();
-  again.recording = options.record;
-  again.record.clear();
-  again.pace = Pace::kMaximum;
-  again.out = folder / "again";
-  const auto repeated = run(again);
+  const auto repeated = run(again_from(options, folder / "again"));
   ASSERT_TRUE(repeated) << to_string(repeated.error());
-  EXPECT_EQ((*repeated)->report.output_sha256, hashes.back());
+  EXPECT_EQ((*repeated)->report.output_sha256, hash);
 }
 
 }  // namespace
