@@ -72,7 +72,7 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
 
   RobotTasks tasks(*door, *profile, options, before, result->monitor);
   const auto ran = live ? tasks.run_live(clock, past ? &past->generations : nullptr) : tasks.replay();
-  if (past) past->starts.end();
+  if (past && ran) past->starts.end();
   if (!ran) return ran.error();  // packets → scans → poses and map
 
   auto report = write_output({options, *profile, tasks, result->monitor});

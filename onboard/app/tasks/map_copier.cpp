@@ -11,12 +11,11 @@ constexpr std::size_t kSlice = 20'000;
 
 void MapCopier::mapped(const LocatedScan& scan) {
   if (scan.lost) return;
-  if (scan.epoch != epoch_) {  // half a copy of another map is worth nothing
+  if (scan.epoch != newest_.epoch) {  // half a copy of another map is worth nothing
     copy_.reset();
     selection_ = {};
-    epoch_ = scan.epoch;
   }
-  newest_ = scan.stamp;
+  newest_ = {scan.stamp, scan.T_odom_base, Vector6::Zero(), scan.epoch};
   const SE3& T_odom_base = scan.T_odom_base.mean;
   if (!selection_.wants(T_odom_base)) return;
   ToSave::Scan* out = out_.scans.back();
@@ -31,12 +30,12 @@ void MapCopier::mapped(const LocatedScan& scan) {
 
 void MapCopier::idle(Time now, const SemanticOcTree& map) {
   if (!copy_) {
-    if ((begun_ && now - *begun_ < every_) || out_.maps.back() == nullptr || newest_ == Time{}) return;
+    if ((begun_ && now - *begun_ < every_) || out_.maps.back() == nullptr || newest_.stamp == Time{}) return;
     begun_ = now;
     copy_.emplace(map);
   }
   if (!copy_->step(map, kSlice)) return;
-  *out_.maps.back() = {copy_->take(), newest_, epoch_};
+  *out_.maps.back() = {copy_->take(), newest_};
   out_.maps.push();
   copy_.reset();
 }

@@ -16,8 +16,7 @@ namespace cairn {
 struct ToSave {
   struct Map {
     std::unique_ptr<SemanticOcTree> tree;
-    Time stamp{};  ///< of the last scan in it
-    std::uint32_t epoch = 0;
+    TrackPoint newest;  ///< where the last scan in it was
   };
   struct Scan {
     PlacedScan scan;
@@ -47,8 +46,7 @@ class MapCopier {
   ScanSelection selection_;
   std::optional<TreeCopy> copy_;
   std::optional<Time> begun_;  // the last copy
-  Time newest_{};              // scan in the map
-  std::uint32_t epoch_ = 0;
+  TrackPoint newest_;          // scan in the map
 };
 
 }  // namespace cairn

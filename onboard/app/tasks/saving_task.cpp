@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/tasks/saving_task.hpp"
 
+#include <algorithm>
+
 namespace cairn {
 
 /// The pose first: it grows old fastest.
@@ -12,9 +14,19 @@ void SavingTask::save(Time now) {
 
 void SavingTask::close(Time now, const Robot& robot) {
   save(now);
-  if (robot.track().empty()) return;
-  const TrackPoint& last = robot.track().back();
-  save_map(now, robot.map(), last.stamp, last.epoch);
+  const auto& track = robot.track();
+  const auto known = std::find_if(track.rbegin(), track.rend(), [](const TrackPoint& p) { return !p.lost; });
+  if (known != track.rend()) save_map(now, robot.map(), *known);
+}
+
+SavedState SavingTask::state_at(const TrackPoint& point) const {
+  SavedState state;
+  state.epoch = first_epoch_ + point.epoch;
+  state.boot = boot_;
+  state.stamp = point.stamp;
+  state.T_odom_base = point.T_odom_base;
+  state.twist = point.twist;
+  return state;
 }
 
 void SavingTask::note(Time now, const Result<void>& saved) {
@@ -26,13 +38,7 @@ void SavingTask::save_pose(Time now) {
   if (!in_.pose.refresh()) return;
   const TrackPoint& point = in_.pose.value();
   if (point.lost) return;
-  SavedState state;
-  state.epoch = first_epoch_ + point.epoch;
-  state.boot = boot_;
-  state.stamp = point.stamp;
-  state.T_odom_base = point.T_odom_base;
-  state.twist = point.twist;
-  note(now, generations_.save_state(state));
+  note(now, generations_.save_state(state_at(point)));
 }
 
 void SavingTask::save_scans(Time now) {
@@ -51,17 +57,13 @@ void SavingTask::save_copy(Time now) {
   ToSave::Map* map = in_.maps.front();
   if (map == nullptr) return;
   map->tree->canonicalise();
-  save_map(now, *map->tree, map->stamp, map->epoch);
+  save_map(now, *map->tree, map->newest);
   map->tree.reset();
   in_.maps.pop();
 }
 
-void SavingTask::save_map(Time now, const SemanticOcTree& map, Time stamp, std::uint32_t epoch) {
-  SavedState state;
-  state.epoch = first_epoch_ + epoch;
-  state.boot = boot_;
-  state.stamp = stamp;
-  const auto saved = generations_.save(map, state);
+void SavingTask::save_map(Time now, const SemanticOcTree& map, const TrackPoint& newest) {
+  const auto saved = generations_.save(map, state_at(newest));
   note(now, saved);
   if (saved) ++maps_saved_;
 }

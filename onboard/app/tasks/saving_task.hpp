@@ -39,7 +39,8 @@ class SavingTask final : public scheduler::Task {
   void save_pose(Time now);
   void save_scans(Time now);
   void save_copy(Time now);
-  void save_map(Time now, const SemanticOcTree& map, Time stamp, std::uint32_t epoch);
+  void save_map(Time now, const SemanticOcTree& map, const TrackPoint& newest);
+  [[nodiscard]] SavedState state_at(const TrackPoint& point) const;
   void note(Time now, const Result<void>& saved);
 
   Generations& generations_;

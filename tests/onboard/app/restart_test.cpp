@@ -152,6 +152,17 @@ TEST_F(SavingTest, ANewEpochForgetsTheScansAndTheHalfCopyOfTheOld) {
   EXPECT_EQ(before.resumed->scans.front().stamp, at(0.1));
 }
 
+TEST_F(SavingTest, AMapWithoutItsPoseFileHasAPoseOfItsOwn) {
+  const auto map = random_map<SemanticOcTree>(2, 50);
+  drive(2, 5, 1, *map);
+  std::filesystem::remove(folder / Generations::kStateFile);
+  const Before before = look(1);
+  ASSERT_TRUE(before.resumed) << said();
+  const SavedState& found = before.resumed->state;
+  EXPECT_GT(found.T_odom_base.mean.translation().x(), 0.1);
+  EXPECT_NEAR(found.T_odom_base.mean.translation().x(), to_seconds(found.stamp), 1e-9);
+}
+
 TEST_F(SavingTest, ALostScanMovesNothing) {
   const auto map = random_map<SemanticOcTree>(2, 50);
   drive(0, 5, 1, *map);
