@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "onboard/mapping/map_tile.hpp"
+#include "onboard/mapping/semantic_octree.hpp"
+
+namespace cairn {
+
+/// What a robot knows of the 512 voxels of a tile, in the coarse form that robots exchange: unknown, free in three
+/// grades or occupied in four. Bit planes: element z, byte y, bit x.
+struct TileState {
+  static constexpr unsigned kEdge = 1U << TileKey::kVoxelBits;
+  using Plane = std::array<std::uint64_t, kEdge>;
+
+  Plane known{};
+  Plane occupied{};  ///< known voxels only
+  Plane low{};       ///< lower bit of the grade; 0 is the surest. Known voxels only
+  Plane high{};      ///< upper bit. A free voxel has no grade 3
+
+  static constexpr std::array<float, 3> kFree{-2.0F, -1.2F, -0.4F};  ///< log-odds of the grades
+  static constexpr std::array<float, 4> kOccupied{3.5F, 2.5F, 1.5F, 0.5F};
+
+  friend bool operator==(const TileState&, const TileState&) = default;
+
+  [[nodiscard]] bool empty() const { return known == Plane{}; }
+  [[nodiscard]] bool any_occupied() const { return occupied != Plane{}; }
+  /// Whether the planes obey the rules above; to be asked of whatever comes from outside.
+  [[nodiscard]] bool valid() const;
+
+  /// Log-odds of a voxel, each coordinate 0…7; SemanticNode::kAbsent where it is unknown.
+  [[nodiscard]] float log_odds(unsigned x, unsigned y, unsigned z) const;
+  /// The nearest grade; a value from `threshold` on is occupied.
+  void set(unsigned x, unsigned y, unsigned z, float log_odds, float threshold = 0);
+};
+
+/// Of one tile of a map; empty where the map knows nothing.
+[[nodiscard]] TileState read_tile(const SemanticOcTree& map, TileKey tile);
+
+/// Makes one tile of the map what `state` says, to the log-odds of its grades; the map stays canonical. An empty state
+/// removes the tile.
+void write_tile(SemanticOcTree& map, TileKey tile, const TileState& state);
+
+/// Every tile in which the map knows something, in canonical order; not more than `most`.
+[[nodiscard]] std::vector<TileKey> known_tiles(const SemanticOcTree& map, std::size_t most);
+
+}  // namespace cairn
