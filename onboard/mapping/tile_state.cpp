@@ -12,6 +12,8 @@ unsigned child_on_path(TileKey tile, unsigned depth) {
   return static_cast<unsigned>(tile.morton >> (3 * (kTileDepth - 1 - depth))) & 7U;
 }
 
+constexpr float kWeakFree = -0.6F;  // OctoMap's miss is −0.4: free, but seen once only
+
 /// A cube inside a tile.
 struct Cube {
   unsigned x, y, z, edge;
@@ -96,8 +98,7 @@ Path path_to(SemanticOcTree& map, NodeWriter& writer, TileKey tile) {
 
 bool TileState::valid() const {
   std::uint64_t wrong = 0;
-  for (unsigned z = 0; z < kEdge; ++z)
-    wrong |= ((occupied[z] | low[z] | high[z]) & ~known[z]) | (low[z] & high[z] & ~occupied[z]);
+  for (unsigned z = 0; z < kEdge; ++z) wrong |= ((occupied[z] | low[z]) & ~known[z]) | (high[z] & ~occupied[z]);
   return wrong == 0;
 }
 
@@ -116,7 +117,7 @@ void TileState::set(unsigned x, unsigned y, unsigned z, float log_odds, float th
   if (is_occupied)
     while (grade < 3 && log_odds < halfway(kOccupied, grade)) ++grade;
   else
-    while (grade < 2 && log_odds > halfway(kFree, grade)) ++grade;
+    grade = log_odds > kWeakFree ? 1 : 0;
   const std::uint64_t bit = std::uint64_t{1} << (8 * y + x);
   const auto put = [bit, z](Plane& plane, bool value) { plane[z] = value ? plane[z] | bit : plane[z] & ~bit; };
   put(known, true);

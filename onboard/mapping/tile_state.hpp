@@ -11,7 +11,7 @@
 
 namespace cairn {
 
-/// What a robot knows of the 512 voxels of a tile, in the coarse form that robots exchange: unknown, free in three
+/// What a robot knows of the 512 voxels of a tile, in the coarse form that robots exchange: unknown, free in two
 /// grades or occupied in four. Bit planes: element z, byte y, bit x.
 struct TileState {
   static constexpr unsigned kEdge = 1U << TileKey::kVoxelBits;
@@ -19,10 +19,10 @@ struct TileState {
 
   Plane known{};
   Plane occupied{};  ///< known voxels only
-  Plane low{};       ///< lower bit of the grade; 0 is the surest. Known voxels only
-  Plane high{};      ///< upper bit. A free voxel has no grade 3
+  Plane low{};       ///< lower bit of the grade; grade 0 is the surest. Known voxels only
+  Plane high{};      ///< upper bit; occupied voxels only
 
-  static constexpr std::array<float, 3> kFree{-2.0F, -1.2F, -0.4F};  ///< log-odds of the grades
+  static constexpr std::array<float, 2> kFree{-1.6F, -0.4F};  ///< log-odds of the grades
   static constexpr std::array<float, 4> kOccupied{3.5F, 2.5F, 1.5F, 0.5F};
 
   friend bool operator==(const TileState&, const TileState&) = default;

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace cairn::peers {
+
+/// Numbers changes of what a robot says, from 1 upwards.
+using Version = std::uint64_t;
+
+/// Versions first … last, both included.
+struct VersionRange {
+  Version first = 0, last = 0;
+  friend bool operator==(const VersionRange&, const VersionRange&) = default;
+};
+
+/// A set of versions, as ranges. Never has more than kMostRanges of them: the highest are forgotten first, so that a
+/// set never claims what was not added.
+class VersionSet {
+ public:
+  static constexpr std::size_t kMostRanges = 64;
+
+  void add(VersionRange range);
+  [[nodiscard]] bool contains(Version version) const;
+  /// Of the range that holds `version`, which the set contains.
+  [[nodiscard]] Version start_of_run(Version version) const;
+  /// In ascending order, none touching the next.
+  [[nodiscard]] std::span<const VersionRange> ranges() const { return ranges_; }
+  /// Whether every version from 1 to `last` is in it.
+  [[nodiscard]] bool complete(Version last) const;
+  void clear() { ranges_.clear(); }
+
+  friend bool operator==(const VersionSet&, const VersionSet&) = default;
+
+ private:
+  std::vector<VersionRange> ranges_;
+};
+
+}  // namespace cairn::peers

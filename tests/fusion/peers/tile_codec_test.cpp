@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/peers/tile_codec.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/fusion/peers/tile_states.hpp"
+
+namespace cairn::peers {
+namespace {
+
+std::vector<std::byte> encoded(const TileState& state) {
+  std::vector<std::byte> bytes;
+  encode_tile(state, bytes);
+  return bytes;
+}
+
+TEST(TileCodec, DecodesWhatItEncodes) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 3000; ++i) {
+    const TileState state = random_tile_state(random);
+    const auto bytes = encoded(state);
+    ASSERT_LE(bytes.size(), kMaxTileBytes);
+    const auto decoded = decode_tile(bytes);
+    ASSERT_TRUE(decoded.has_value());
+    ASSERT_EQ(*decoded, state);
+  }
+}
+
+TEST(TileCodec, ATileOfOneKindIsOneByte) {
+  for (const float value : {-1.6F, -0.4F, 0.5F, 1.5F, 2.5F, 3.5F}) {
+    TileState state;
+    for (unsigned i = 0; i < 512; ++i) state.set(i % 8, i / 8 % 8, i / 64, value);
+    EXPECT_EQ(encoded(state).size(), 1U);
+    EXPECT_EQ(decode_tile(encoded(state)).value(), state);
+  }
+}
+
+TEST(TileCodec, TheWorstTileFits) {
+  std::mt19937 random(2);
+  TileState worst;
+  for (unsigned i = 0; i < 512; ++i)
+    if (i % 2 == (i / 8 + i / 64) % 2) worst.set(i % 8, i / 8 % 8, i / 64, i % 4 < 2 ? -0.4F : 1.5F);
+  EXPECT_LE(encoded(worst).size(), kMaxTileBytes);
+}
+
+TEST(TileCodec, WhateverIsDecodedHasTheseBytesAndNoOthers) {
+  std::mt19937 random(3);
+  int decoded_ones = 0;
+  for (int i = 0; i < 30000; ++i) {
+    auto bytes = encoded(random_tile_state(random));
+    for (unsigned changes = 1 + random() % 2; changes > 0; --changes)
+      bytes[random() % bytes.size()] ^= static_cast<std::byte>(1U << random() % 8);
+    if (random() % 4 == 0) bytes.resize(random() % (bytes.size() + 3));
+    const auto decoded = decode_tile(bytes);
+    if (!decoded) continue;
+    ++decoded_ones;
+    ASSERT_TRUE(decoded->valid());
+    ASSERT_EQ(encoded(*decoded), bytes);
+  }
+  EXPECT_GT(decoded_ones, 1000);
+}
+
+TEST(TileCodec, EveryPrefixIsRefused) {
+  std::mt19937 random(4);
+  for (int i = 0; i < 200; ++i) {
+    const auto bytes = encoded(random_tile_state(random));
+    for (std::size_t n = 0; n < bytes.size(); ++n) ASSERT_FALSE(decode_tile(std::span(bytes).first(n)).has_value());
+  }
+}
+
+}  // namespace
+}  // namespace cairn::peers

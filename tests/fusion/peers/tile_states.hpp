@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <random>
+
+#include "onboard/mapping/tile_state.hpp"
+
+namespace cairn::peers {
+
+/// Tiles of all kinds: alike throughout, walls, noise of any density.
+inline TileState random_tile_state(std::mt19937& random) {
+  TileState state;
+  const auto value = [&] { return std::uniform_real_distribution<float>(-2, 3.5F)(random); };
+  const auto kind = static_cast<unsigned>(random() % 4), density = static_cast<unsigned>(1 + random() % 30);
+  const float alike = value();
+  for (unsigned z = 0; z < 8; ++z)
+    for (unsigned y = 0; y < 8; ++y)
+      for (unsigned x = 0; x < 8; ++x) {
+        if (kind == 0)
+          state.set(x, y, z, alike);
+        else if (kind == 1 && x <= density % 8)
+          state.set(x, y, z, x == density % 8 ? value() : -2.0F);
+        else if (kind >= 2 && random() % density == 0)
+          state.set(x, y, z, value());
+      }
+  if (state.empty()) state.set(0, 0, 0, -2);
+  return state;
+}
+
+}  // namespace cairn::peers
