@@ -48,7 +48,7 @@ TEST(TileCodec, WhateverIsDecodedHasTheseBytesAndNoOthers) {
   int decoded_ones = 0;
   for (int i = 0; i < 30000; ++i) {
     auto bytes = encoded(random_tile_state(random));
-    for (unsigned changes = 1 + random() % 2; changes > 0; --changes)
+    for (auto changes = 1 + random() % 2; changes > 0; --changes)
       bytes[random() % bytes.size()] ^= static_cast<std::byte>(1U << random() % 8);
     if (random() % 4 == 0) bytes.resize(random() % (bytes.size() + 3));
     const auto decoded = decode_tile(bytes);

@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/peers/exchange.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace cairn::peers {
+namespace {
+
+constexpr std::size_t kLookedAt = 1024;  // missing items among which the most urgent are found
+constexpr std::size_t kManyGaps = 8;     // in what a peer knows, of which nothing is missing: worth a datagram
+constexpr std::size_t kSmallest = 64;    // bytes below which sending items is not worth it
+
+}  // namespace
+
+Exchange::Exchange(RobotId self, std::string name, Epoch epoch, const ExchangeConfig& config)
+    : self_(self), name_(std::move(name)), config_(config) {
+  begin(epoch);
+}
+
+void Exchange::begin(Epoch epoch) {
+  layers_.insert_or_assign(self_, Layer{epoch, Holding(config_.max_bytes_per_robot)});
+  changes_[self_] = {true, {}};
+  overtaken_by_.reset();
+  for (auto& [robot, link] : links_)
+    std::erase_if(link.in_flight, [&](const auto& sent) { return sent.first.first == self_; });
+}
+
+bool Exchange::say(ItemId id, std::span<const std::byte> payload) {
+  if (!layers_.at(self_).holding.say(id, payload)) return false;
+  changes_[self_].items.insert(id);
+  return true;
+}
+
+bool Exchange::hears(RobotId robot, Time now) const {
+  const auto link = links_.find(robot);
+  return link != links_.end() && link->second.last_heard + config_.lease >= now;
+}
+
+Changes Exchange::take_changes() { return std::exchange(changes_, {}); }
+
+Link* Exchange::link_of(RobotId robot) {
+  const auto link = links_.find(robot);
+  if (link != links_.end()) return &link->second;
+  return links_.size() < config_.max_robots ? &links_[robot] : nullptr;
+}
+
+/// Where the items of a robot's epoch go; null where they are of an earlier one, or of one robot too many.
+Layer* Exchange::layer_of(RobotId robot, Epoch epoch) {
+  auto layer = layers_.find(robot);
+  if (layer == layers_.end() && layers_.size() > config_.max_robots) return nullptr;
+  if (layer != layers_.end() && layer->second.epoch >= epoch)
+    return layer->second.epoch == epoch ? &layer->second : nullptr;
+  changes_[robot] = {true, {}};
+  return &layers_.insert_or_assign(robot, Layer{epoch, Holding(config_.max_bytes_per_robot)}).first->second;
+}
+
+Result<void> Exchange::receive(std::span<const std::byte> datagram, Time now) {
+  const auto decoded = decode_datagram(datagram);
+  const RobotId sender = decoded ? decoded->sender : sender_of(datagram);
+  if (sender == 0) return decoded ? Error{Errc::kMalformed, "a datagram of no robot"} : decoded.error();
+  if (sender == self_) return Error{Errc::kMalformed, "another robot has this robot's id", {}, {}, "give each its own"};
+  Link* link = link_of(sender);
+  if (link == nullptr) return Error{Errc::kLimit, "more robots than are listened to"};
+  if (link->conduct.banned(now)) return Error{Errc::kLinkDown, "the peer sent too much that cannot be"};
+  if (!decoded) {
+    ++link->refused;
+    link->conduct.fault(now);
+    return decoded.error();
+  }
+  if (!hears(sender, now)) {  // it is new, or back: both sides want to know what the other has
+    link->first_heard = now;
+    last_full_digest_ = Time::min();
+  }
+  link->last_heard = now;
+  link->received_bytes += datagram.size();
+  return std::visit([&](const auto& content) { return take(*link, content, now); }, decoded->content);
+}
+
+Result<void> Exchange::take(Link& link, const Hello& hello, Time now) {
+  link.name = hello.name;
+  link.epoch = hello.epoch;
+  link.newest = hello.newest;
+  link.echo = {0, hello.stamp, {}};
+  link.echo_heard = now;
+  for (const Hello::Echo& echo : hello.echoes)
+    if (echo.robot == self_) link.clock.add(echo.stamp, echo.age, hello.stamp, now);
+  return {};
+}
+
+Result<void> Exchange::take(Link& link, const Digest& digest, Time now) {
+  link.told = true;
+  for (const Digest::Layer& layer : digest.layers) {
+    if (layers_.contains(layer.robot)) link.known[layer.robot] = {layer.epoch, layer.direct, layer.known};
+    if (layer.robot == self_ && layer.epoch > epoch()) overtaken_by_ = layer.epoch;
+  }
+  std::erase_if(link.in_flight, [&](const auto& sent) {
+    const auto known = link.known.find(sent.first.first);
+    return sent.second + config_.resend_after < now ||
+           (known != link.known.end() && known->second.versions.contains(sent.first.second));
+  });
+  return {};
+}
+
+Result<void> Exchange::take(Link& link, const Items& items, Time /*now*/) {
+  if (items.robot == self_) return {};  // from before this robot's last beginning
+  Layer* layer = layer_of(items.robot, items.epoch);
+  if (layer == nullptr) return {};
+  to_digest_.insert(items.robot);  // also where nothing is new: the sender does not know that it was known
+  layer->holding.settle(items.superseded);
+  link.received_items += items.updates.size();
+  for (const ItemUpdate& update : items.updates) {
+    const auto taken = layer->holding.take(update);
+    if (taken == Holding::Taken::kFull)
+      return Error{Errc::kLimit, "a robot says more than is kept of one", {}, {}, std::to_string(items.robot)};
+    if (taken == Holding::Taken::kNew) changes_[items.robot].items.insert(update.id);
+    if (taken == Holding::Taken::kKnown) ++link.repeated_items;
+  }
+  return {};
+}
+
+std::size_t Exchange::send(Time now, std::size_t bytes, std::vector<Outgoing>& out) {
+  const auto spend = [&](std::size_t first) {  // what goes to everyone goes to each
+    for (std::size_t i = first; i < out.size(); ++i)
+      bytes -=
+          std::min(bytes, std::max<std::size_t>(1, links_.size()) * (out[i].bytes.size() + config_.overhead_bytes));
+  };
+  const std::size_t first = out.size();
+  if (now >= next_hello_) send_hello(now, out);
+  if (!links_.empty() && (last_digest_ == Time::min() || now >= last_digest_ + config_.digest_period))
+    send_digest(now, out);
+  spend(first);
+
+  auto link = links_.lower_bound(next_peer_);
+  for (std::size_t i = 0; i < links_.size(); ++i, ++link) {
+    if (link == links_.end()) link = links_.begin();
+    if (bytes < kSmallest + config_.overhead_bytes) {
+      next_peer_ = link->first;
+      break;
+    }
+    if (hears(link->first, now)) send_items(now, link->first, link->second, bytes, out);
+  }
+  return bytes;
+}
+
+void Exchange::send_hello(Time now, std::vector<Outgoing>& out) {
+  const Layer& own = layers_.at(self_);
+  Hello hello{own.epoch, own.holding.newest(), now, name_, {}};
+  for (const auto& [robot, link] : links_)
+    if (hears(robot, now) && hello.echoes.size() < Hello::kMaxEchoes)
+      hello.echoes.push_back({robot, link.echo.stamp, now - link.echo_heard});
+  out.push_back({0, encode(self_, hello)});
+  next_hello_ = now + config_.hello_period;
+}
+
+void Exchange::send_digest(Time now, std::vector<Outgoing>& out) {
+  const bool full = last_full_digest_ == Time::min() || now >= last_full_digest_ + config_.digest_repeat;
+  Digest digest;
+  for (const auto& [robot, layer] : layers_)
+    if (full || to_digest_.contains(robot))
+      digest.layers.push_back({robot, layer.epoch, hears(robot, now), layer.holding.known()});
+  for (const auto& [robot, link] : links_)
+    if (full && hears(robot, now) && !layers_.contains(robot)) digest.layers.push_back({robot, 0, true, {}});
+  if (digest.layers.empty()) return;
+  out.push_back({0, encode(self_, digest)});
+  last_digest_ = now;
+  if (full) last_full_digest_ = now;
+  to_digest_.clear();
+}
+
+void Exchange::send_items(Time now, RobotId peer, Link& link, std::size_t& bytes, std::vector<Outgoing>& out) {
+  if (!link.told) return;  // it will say what it knows; guessing would send everything twice
+  for (const auto& [robot, layer] : layers_)
+    if (robot != peer) send_layer(now, {peer, robot, layer}, link, bytes, out);
+}
+
+/// Most urgent first; nothing where the peer hears that robot itself, or holds a later epoch.
+Missing Exchange::missing_at(const Link& link, const Address& address) const {
+  const auto known = link.known.find(address.robot);
+  const bool none = known == link.known.end() || known->second.epoch < address.layer.epoch;
+  if (known != link.known.end() && known->second.epoch > address.layer.epoch) return {};
+  if (address.robot != self_ && known != link.known.end() && known->second.direct) return {};
+  Missing missing =
+      address.layer.holding.missing(none ? VersionSet{} : known->second.versions, kLookedAt + link.in_flight.size());
+  std::erase_if(missing.updates, [&](const ItemUpdate& update) {
+    return link.in_flight.contains({address.robot, update.version});
+  });
+  if (urgency_) sort_by_urgency(missing.updates, address);
+  return missing;
+}
+
+void Exchange::sort_by_urgency(std::vector<ItemUpdate>& updates, const Address& address) const {
+  std::vector<std::pair<double, std::size_t>> order;
+  for (std::size_t i = 0; i < updates.size(); ++i)
+    order.emplace_back(urgency_(address.peer, address.robot, updates[i]), i);
+  std::ranges::sort(order);
+  std::vector<ItemUpdate> sorted;
+  for (const auto& [urgency, i] : order) sorted.push_back(updates[i]);
+  updates = std::move(sorted);
+}
+
+void Exchange::send_layer(Time now, const Address& address, Link& link, std::size_t& bytes,
+                          std::vector<Outgoing>& out) {
+  std::erase_if(link.in_flight, [&](const auto& sent) { return sent.second + config_.resend_after < now; });
+  Missing missing = missing_at(link, address);
+  const bool waited = now >= link.last_items + config_.gather;
+  if (missing.updates.empty() && (missing.superseded.ranges().size() < kManyGaps || !waited)) return;
+  Items next{address.robot, address.layer.epoch, std::move(missing.superseded), std::move(missing.updates)};
+  do {
+    std::size_t count = 0;
+    auto datagram = encode(self_, next, count);
+    if (datagram.size() + config_.overhead_bytes > bytes) return;
+    if (count == next.updates.size() && !waited) return;  // there is room for more
+    for (const ItemUpdate& update : std::span(next.updates).first(count))
+      link.in_flight[{address.robot, update.version}] = now;
+    bytes -= datagram.size() + config_.overhead_bytes;
+    link.sent_bytes += datagram.size();
+    link.sent_items += count;
+    link.last_items = now;
+    out.push_back({address.peer, std::move(datagram)});
+    next.updates.erase(next.updates.begin(), next.updates.begin() + static_cast<std::ptrdiff_t>(count));
+    next.superseded.clear();
+  } while (!next.updates.empty());
+}
+
+}  // namespace cairn::peers

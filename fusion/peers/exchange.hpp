@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fusion/peers/datagram.hpp"
+#include "fusion/peers/holding.hpp"
+#include "fusion/peers/link.hpp"
+#include "hal/result.hpp"
+#include "hal/time.hpp"
+
+namespace cairn::peers {
+
+struct ExchangeConfig {
+  Duration hello_period = std::chrono::seconds(1);
+  Duration digest_period = std::chrono::seconds(1);   ///< of robots of whom more is known than before
+  Duration digest_repeat = std::chrono::seconds(10);  ///< of all
+  Duration lease = std::chrono::seconds(3);           ///< a peer that was not heard for so long is lost
+  Duration resend_after = std::chrono::seconds(3);    ///< when no digest says that an item arrived
+  Duration gather = std::chrono::milliseconds(300);   ///< items wait so long for others to share a datagram with
+  std::size_t overhead_bytes = 100;                   ///< of RTPS, UDP and IP with each datagram
+  std::size_t max_bytes_per_robot = Holding::kMaxBytes;
+  std::size_t max_robots = 16;  ///< more are not listened to
+};
+
+/// What one robot says, as far as it is known here.
+struct Layer {
+  Epoch epoch = 0;
+  Holding holding;
+};
+
+/// A datagram to be sent; to everyone where `to` is 0.
+struct Outgoing {
+  RobotId to = 0;
+  std::vector<std::byte> bytes;
+};
+
+/// What changed in what is known of a robot.
+struct LayerChange {
+  bool anew = false;  ///< a new epoch: all earlier items are gone
+  std::set<ItemId> items;
+};
+using Changes = std::map<RobotId, LayerChange>;
+
+/// A robot's side of the exchange: what it says itself, what it knows of others, and what is to be sent to whom. State
+/// travels, not increments: each robot tells what it knows (Digest), and whoever knows more sends the newest whole
+/// state of what is missing, also of third robots where two do not hear each other. So nothing depends on which
+/// datagrams arrive, only on some of them doing so. Pure: no clock, no socket; the same calls give the same bytes.
+class Exchange {
+ public:
+  /// Lower is sent earlier; `update` is of `robot` and meant for `peer`.
+  using Urgency = std::function<double(RobotId peer, RobotId robot, const ItemUpdate& update)>;
+
+  Exchange(RobotId self, std::string name, Epoch epoch, const ExchangeConfig& config = {});
+
+  /// The robot's own news; false where it is none.
+  bool say(ItemId id, std::span<const std::byte> payload);
+  /// What was said so far is void. `epoch` is higher than the last.
+  void begin(Epoch epoch);
+
+  /// Takes in a datagram. An error: nothing was taken from it, and its sender has lost some trust where it could be
+  /// told; a peer that sends too many is not listened to for a while (kLinkDown).
+  Result<void> receive(std::span<const std::byte> datagram, Time now);
+  /// What is to be sent now: what is due of hellos and digests, then missing items while `bytes` last; the rest of
+  /// `bytes` is returned.
+  std::size_t send(Time now, std::size_t bytes, std::vector<Outgoing>& out);
+
+  void set_urgency(Urgency urgency) { urgency_ = std::move(urgency); }
+
+  [[nodiscard]] RobotId self() const { return self_; }
+  [[nodiscard]] Epoch epoch() const { return layers_.at(self_).epoch; }
+  /// Everyone's layers, one's own too.
+  [[nodiscard]] const std::map<RobotId, Layer>& layers() const { return layers_; }
+  [[nodiscard]] const std::map<RobotId, Link>& links() const { return links_; }
+  [[nodiscard]] bool hears(RobotId robot, Time now) const;
+  /// What changed since the last call.
+  [[nodiscard]] Changes take_changes();
+  /// Another holds a later epoch of this robot than its own, so that its own would be taken for old: begin() with more
+  /// than this is due. Nothing where all is well.
+  [[nodiscard]] std::optional<Epoch> overtaken_by() const { return overtaken_by_; }
+
+ private:
+  /// Whose items go to whom.
+  struct Address {
+    RobotId peer, robot;
+    const Layer& layer;
+  };
+
+  Result<void> take(Link& link, const Hello& hello, Time now);
+  Result<void> take(Link& link, const Digest& digest, Time now);
+  Result<void> take(Link& link, const Items& items, Time now);
+  Link* link_of(RobotId robot);
+  Layer* layer_of(RobotId robot, Epoch epoch);
+  void send_hello(Time now, std::vector<Outgoing>& out);
+  void send_digest(Time now, std::vector<Outgoing>& out);
+  void send_items(Time now, RobotId peer, Link& link, std::size_t& bytes, std::vector<Outgoing>& out);
+  void send_layer(Time now, const Address& address, Link& link, std::size_t& bytes, std::vector<Outgoing>& out);
+  [[nodiscard]] Missing missing_at(const Link& link, const Address& address) const;
+  void sort_by_urgency(std::vector<ItemUpdate>& updates, const Address& address) const;
+
+  RobotId self_;
+  std::string name_;
+  ExchangeConfig config_;
+  Urgency urgency_;
+  std::map<RobotId, Layer> layers_;
+  std::map<RobotId, Link> links_;
+  Changes changes_;
+  std::optional<Epoch> overtaken_by_;
+  Time next_hello_ = Time::min(), last_digest_ = Time::min(), last_full_digest_ = Time::min();
+  std::set<RobotId> to_digest_;  // robots of whom more is known than the last digest said, or was asked
+  RobotId next_peer_ = 0;        // whose turn it is
+};
+
+}  // namespace cairn::peers

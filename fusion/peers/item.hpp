@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <compare>
+#include <cstddef>
+#include <cstdint>
+
+#include "onboard/mapping/map_tile.hpp"
+
+namespace cairn::peers {
+
+/// One robot of a team, as its profile says; never 0. Whatever is done in an order of robots is done in the order of
+/// these.
+using RobotId = std::uint64_t;
+/// Counts a robot's beginnings: what it said in an earlier one no longer holds. The highest is the newest.
+using Epoch = std::uint64_t;
+
+enum class ItemKind : std::uint8_t {
+  kTile = 0,    ///< own observations of one tile of a submap; payload: encode_tile()
+  kSubmap = 1,  ///< where a submap lies in the robot's odom frame; payload: encode(Submap)
+  kEdge = 2,    ///< where another robot's submap lies in one's own; payload: encode(Edge)
+};
+
+/// Names one thing that a robot has something to say about.
+struct ItemId {
+  std::uint64_t code = 0;  ///< kind, submap (16 bits), tile or index (39 bits): its order is the canonical one
+
+  static constexpr unsigned kKeyBits = 39, kSubmapBits = 16;
+
+  static constexpr ItemId tile(std::uint16_t submap, TileKey tile) { return of(ItemKind::kTile, submap, tile.morton); }
+  static constexpr ItemId submap(std::uint16_t submap) { return of(ItemKind::kSubmap, submap, 0); }
+  static constexpr ItemId edge(std::uint16_t index) { return of(ItemKind::kEdge, index, 0); }
+
+  [[nodiscard]] constexpr ItemKind kind() const { return static_cast<ItemKind>(code >> (kKeyBits + kSubmapBits)); }
+  /// Of an edge: its index.
+  [[nodiscard]] constexpr std::uint16_t submap() const { return static_cast<std::uint16_t>(code >> kKeyBits); }
+  [[nodiscard]] constexpr TileKey tile() const { return {code & ((std::uint64_t{1} << kKeyBits) - 1)}; }
+  /// Whether it is a name that the functions above can give.
+  [[nodiscard]] constexpr bool valid() const {
+    return code >> (kKeyBits + kSubmapBits) <= 2 && (kind() == ItemKind::kTile || tile().morton == 0);
+  }
+
+  friend constexpr auto operator<=>(const ItemId&, const ItemId&) = default;
+
+ private:
+  static constexpr ItemId of(ItemKind kind, std::uint16_t submap, std::uint64_t key) {
+    return {static_cast<std::uint64_t>(kind) << (kKeyBits + kSubmapBits) | std::uint64_t{submap} << kKeyBits | key};
+  }
+};
+
+/// No item's payload is longer.
+inline constexpr std::size_t kMaxPayload = 512;
+
+}  // namespace cairn::peers

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <string>
+#include <utility>
+
+#include "fusion/peers/clock_offset.hpp"
+#include "fusion/peers/conduct.hpp"
+#include "fusion/peers/datagram.hpp"
+#include "hal/time.hpp"
+
+namespace cairn::peers {
+
+/// What a robot knows about one that it hears: whether it is there, its clock, what it knows of everyone, and what was
+/// sent to it lately.
+struct Link {
+  /// What the peer knows of one robot, by its last digest.
+  struct Known {
+    Epoch epoch = 0;
+    bool direct = false;
+    VersionSet versions;
+  };
+  std::string name;
+  Time last_heard = Time::min();
+  Time first_heard = Time::min();
+  Epoch epoch = 0;     ///< by its last hello
+  Version newest = 0;  ///< that it has said, by its last hello
+  Hello::Echo echo{};  ///< its last hello, to be sent back; `age` is not kept here
+  Time echo_heard{};
+  ClockOffset clock;
+  Conduct conduct;
+  bool told = false;                                      ///< a digest has come
+  std::map<RobotId, Known> known;                         ///< of robots that this one holds a layer of
+  std::map<std::pair<RobotId, Version>, Time> in_flight;  ///< items sent lately, of which no digest has told yet
+  Time last_items = Time::min();                          ///< sent to it
+  std::uint64_t received_bytes = 0, sent_bytes = 0, received_items = 0, sent_items = 0;
+  std::uint64_t repeated_items = 0;  ///< received, and known already
+  std::uint64_t refused = 0;         ///< datagrams that cannot be
+};
+
+}  // namespace cairn::peers

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/peers/datagram.hpp"
+
+#include <gtest/gtest.h>
+
+#include "fusion/peers/claim.hpp"
+#include "fusion/peers/tile_codec.hpp"
+#include "fusion/peers/wire.hpp"
+#include "tests/fusion/peers/tile_states.hpp"
+
+namespace cairn::peers {
+namespace {
+
+template <class T>
+T content_of(const std::vector<std::byte>& bytes) {
+  const auto decoded = decode_datagram(bytes);
+  EXPECT_TRUE(decoded.has_value()) << (decoded ? "" : to_string(decoded.error()));
+  return decoded ? std::get<T>(decoded->content) : T{};
+}
+
+/// Items with their payloads.
+struct Said {
+  std::vector<std::vector<std::byte>> payloads;
+  std::vector<ItemUpdate> updates;
+};
+
+Said random_items(std::mt19937& random, std::size_t count) {
+  Said said;
+  for (std::size_t i = 0; i < count; ++i) {
+    said.payloads.emplace_back();
+    encode_tile(random_tile_state(random), said.payloads.back());
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    const TileKey tile{(std::uint64_t{random()} << 7 ^ i) & ((std::uint64_t{1} << 39) - 1)};
+    const Version version = 1 + random() % 100000;
+    said.updates.push_back({ItemId::tile(static_cast<std::uint16_t>(random() % 2), tile), version,
+                            random() % 3 == 0 ? random() % version : 0, said.payloads[i]});
+  }
+  return said;
+}
+
+VersionSet superseded(std::mt19937& random) {
+  VersionSet set;
+  for (auto ranges = random() % 4; ranges > 0; --ranges) {
+    const Version first = 1 + random() % 1000;
+    set.add({first, first + random() % 50});
+  }
+  return set;
+}
+
+TEST(Datagram, HellosComeBack) {
+  Hello hello{7, 123, Time{Duration{-5}}, "robot_1", {{2, Time{Duration{99}}, Duration{7}}, {3, Time{}, Duration{}}}};
+  const Hello back = content_of<Hello>(encode(1, hello));
+  EXPECT_EQ(back.epoch, hello.epoch);
+  EXPECT_EQ(back.newest, hello.newest);
+  EXPECT_EQ(back.stamp, hello.stamp);
+  EXPECT_EQ(back.name, hello.name);
+  ASSERT_EQ(back.echoes.size(), 2U);
+  EXPECT_EQ(back.echoes[0].robot, 2U);
+  EXPECT_EQ(back.echoes[0].stamp, hello.echoes[0].stamp);
+  EXPECT_EQ(back.echoes[0].age, hello.echoes[0].age);
+}
+
+TEST(Datagram, DigestsComeBack) {
+  Digest digest;
+  digest.layers.push_back({1, 5, true, {}});
+  digest.layers.push_back({9, 6, false, {}});
+  for (const VersionRange range : {VersionRange{1, 4}, {6, 6}, {100000, 200000}}) digest.layers[1].known.add(range);
+  const Digest back = content_of<Digest>(encode(3, digest));
+  ASSERT_EQ(back.layers.size(), 2U);
+  EXPECT_TRUE(back.layers[0].direct);
+  EXPECT_EQ(back.layers[1].robot, 9U);
+  EXPECT_EQ(back.layers[1].known, digest.layers[1].known);
+}
+
+TEST(Datagram, ADigestThatIsTooLongClaimsLess) {
+  Digest digest;
+  for (RobotId robot = 1; robot <= 40; ++robot) {
+    digest.layers.push_back({robot, 1, false, {}});
+    for (Version v = 1; v < 60; ++v) digest.layers.back().known.add({v * 1000, v * 1000});
+  }
+  const auto bytes = encode(3, digest);
+  EXPECT_LE(bytes.size(), kMaxDatagram);
+  for (const Digest::Layer& layer : content_of<Digest>(bytes).layers)
+    for (const VersionRange& range : layer.known.ranges()) EXPECT_EQ(range.first % 1000, 0U);
+}
+
+TEST(Datagram, ItemsComeBackAndFillTheDatagram) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 100; ++i) {
+    const Said said = random_items(random, 1 + random() % 100);
+    std::size_t count = 0;
+    const auto bytes = encode(4, Items{2, 11, superseded(random), said.updates}, count);
+    ASSERT_LE(bytes.size(), kMaxDatagram);
+    ASSERT_GE(count, 1U);
+    EXPECT_TRUE(count == said.updates.size() || bytes.size() > kMaxDatagram - kMaxTileBytes - 30);
+    const auto decoded = decode_datagram(bytes);
+    ASSERT_TRUE(decoded.has_value()) << to_string(decoded.error());
+    EXPECT_EQ(decoded->sender, 4U);
+    const Items& items = std::get<Items>(decoded->content);
+    EXPECT_EQ(items.robot, 2U);
+    EXPECT_EQ(items.epoch, 11U);
+    ASSERT_EQ(items.updates.size(), count);
+    for (const ItemUpdate& update : items.updates) {
+      const auto sent = std::ranges::find(said.updates, update.id, &ItemUpdate::id);
+      ASSERT_NE(sent, said.updates.end());
+      EXPECT_EQ(update.version, sent->version);
+      EXPECT_EQ(update.superseded, sent->superseded);
+      EXPECT_TRUE(std::ranges::equal(update.payload, sent->payload));
+    }
+  }
+}
+
+TEST(Datagram, ClaimsComeBack) {
+  Edge edge{3, 8, 21, 4, {}, 0.75F};
+  Vector6 at;
+  at << 1, -2, 0.5, 0.1, -0.2, 3;
+  edge.T_own_other.mean = SE3::from_xyz_rpy(at);
+  edge.T_own_other.covariance = Matrix6::Identity() * 0.25;
+  const auto back = decode_edge(encode(edge));
+  ASSERT_TRUE(back.has_value());
+  EXPECT_EQ(back->other, 8U);
+  EXPECT_EQ(back->other_submap, 4U);
+  EXPECT_LT((back->T_own_other.mean.inverse() * edge.T_own_other.mean).log().norm(), 1e-12);
+  EXPECT_EQ(back->T_own_other.covariance, edge.T_own_other.covariance);
+  edge.T_own_other.covariance(2, 2) = -1;
+  EXPECT_FALSE(decode_edge(encode(edge)).has_value());
+  EXPECT_FALSE(decode_submap(encode(edge)).has_value());
+}
+
+TEST(Datagram, SaysWhatIsWrong) {
+  auto bytes = encode(1, Hello{1, 1, Time{}, "a", {}});
+  bytes[0] = std::byte{9};
+  EXPECT_EQ(decode_datagram(bytes).error().code, Errc::kUnsupported);
+  EXPECT_EQ(decode_datagram(std::vector<std::byte>(2000)).error().code, Errc::kLimit);
+  EXPECT_EQ(decode_datagram({}).error().code, Errc::kTruncated);
+  EXPECT_FALSE(decode_datagram(encode(0, Hello{})).has_value());
+  EXPECT_FALSE(decode_datagram(encode(1, Hello{1, 1, Time{}, "two\nlines", {}})).has_value());
+  EXPECT_FALSE(decode_datagram(encode(1, Hello{1, 1, Time::max(), "a", {}})).has_value());
+}
+
+TEST(Datagram, DamageAndCutsAreRefusedOrGiveWhatCanBe) {
+  std::mt19937 random(2);
+  for (int i = 0; i < 3000; ++i) {
+    const Said said = random_items(random, 1 + random() % 20);
+    std::size_t count = 0;
+    auto bytes = encode(4, Items{2, 11, superseded(random), said.updates}, count);
+    for (auto changes = 1 + random() % 3; changes > 0; --changes)
+      bytes[10 + random() % (bytes.size() - 10)] ^= static_cast<std::byte>(1U << random() % 8);
+    if (random() % 4 == 0) bytes.resize(random() % bytes.size());
+    const auto decoded = decode_datagram(bytes);
+    if (!decoded) continue;
+    const Items& items = std::get<Items>(decoded->content);
+    ASSERT_EQ(encode(decoded->sender, items, count), bytes);
+  }
+}
+
+TEST(Varint, HasOneFormOnly) {
+  for (const std::uint64_t value :
+       {std::uint64_t{0}, std::uint64_t{127}, std::uint64_t{128}, std::uint64_t{1} << 63U, ~std::uint64_t{0}}) {
+    std::vector<std::byte> bytes;
+    append_varint(bytes, value);
+    EXPECT_EQ(bytes.size(), varint_bytes(value));
+    ByteReader in(bytes);
+    EXPECT_EQ(read_varint(in), value);
+  }
+  for (const auto& wrong :
+       {std::vector<unsigned>{0x80, 0x00}, {0x80}, {255, 255, 255, 255, 255, 255, 255, 255, 255, 2}}) {
+    std::vector<std::byte> bytes;
+    for (const unsigned b : wrong) bytes.push_back(static_cast<std::byte>(b));
+    ByteReader in(bytes);
+    EXPECT_FALSE(read_varint(in).has_value());
+  }
+}
+
+}  // namespace
+}  // namespace cairn::peers
