@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <optional>
@@ -35,6 +36,13 @@ class ClockOffset {
     for (std::size_t i = 0; i < std::min(next_, kSamples); ++i)
       if (!best || samples_[i].bound < best->bound) best = samples_[i];
     return best;
+  }
+  /// The longest way there and back of the last sixteen exchanges.
+  [[nodiscard]] std::optional<Duration> longest_way() const {
+    std::optional<Duration> longest;
+    for (std::size_t i = 0; i < std::min(next_, kSamples); ++i)
+      longest = std::max(longest.value_or(Duration::zero()), 2 * samples_[i].bound);
+    return longest;
   }
 
  private:

@@ -5,31 +5,18 @@
 #include <utility>
 
 #include "fusion/peers/claim.hpp"
+#include "fusion/peers/datagram_kind.hpp"
 #include "fusion/peers/tile_codec.hpp"
 #include "fusion/peers/wire.hpp"
 
 namespace cairn::peers {
 namespace {
 
-enum class Kind : std::uint8_t { kHello = 1, kDigest = 2, kItems = 3 };
-constexpr std::size_t kHeaderBytes = 10, kItemsHeaderBytes = kHeaderBytes + 24;
-
-std::vector<std::byte> begin(RobotId sender, Kind kind) {
-  std::vector<std::byte> out;
-  out.reserve(kMaxDatagram);
-  append_le(out, kFormat);
-  append_le(out, static_cast<std::uint8_t>(kind));
-  append_le(out, sender);
-  return out;
-}
-
 /// Whether differences of such times are safe.
 bool possible(std::int64_t nanoseconds) {
   constexpr std::int64_t kLongest = std::int64_t{1} << 60;
   return nanoseconds > -kLongest && nanoseconds < kLongest;
 }
-
-std::int64_t ns(Time time) { return time.time_since_epoch().count(); }
 
 Error too_short() { return {Errc::kTruncated, "the datagram ends early"}; }
 
@@ -61,24 +48,6 @@ Result<Hello> read_hello(ByteReader& in) {
   return hello;
 }
 
-/// Ranges as the gaps before them and their lengths, both less one where they cannot be nothing.
-std::vector<std::byte> encoded_ranges(const VersionSet& known, std::size_t most_bytes) {
-  std::vector<std::byte> bytes, next;
-  Version after = 0;  // the last version of the range before
-  std::uint8_t count = 0;
-  for (const VersionRange& range : known.ranges()) {
-    next.clear();
-    append_varint(next, range.first - after - 1);
-    append_varint(next, range.last - range.first);
-    if (1 + bytes.size() + next.size() > most_bytes) break;
-    bytes.insert(bytes.end(), next.begin(), next.end());
-    after = range.last;
-    ++count;
-  }
-  bytes.insert(bytes.begin(), std::byte{count});
-  return bytes;
-}
-
 bool read_ranges(ByteReader& in, VersionSet& known) {
   const auto count = in.read<std::uint8_t>();
   if (!count || *count > VersionSet::kMostRanges) return false;
@@ -103,10 +72,10 @@ Result<Digest> read_digest(ByteReader& in) {
   if (!count) return too_short();
   if (*count > Digest::kMaxLayers) return Error{Errc::kMalformed, "a digest of more than 32 robots"};
   for (unsigned i = 0; i < *count; ++i) {
-    const auto robot = in.read<RobotId>();
-    const auto epoch = in.read<Epoch>();
-    const auto direct = in.read<std::uint8_t>();
-    if (!direct) return too_short();
+    const auto robot = read_varint(in);
+    const auto epoch = robot ? read_varint(in) : std::nullopt;
+    const auto direct = epoch ? in.read<std::uint8_t>() : std::nullopt;
+    if (!direct) return Error{Errc::kMalformed, "not a digest", {}, in.offset()};
     digest.layers.push_back({*robot, *epoch, *direct == 1, {}});
     if (*direct > 1 || *robot == 0 || !read_ranges(in, digest.layers.back().known))
       return Error{Errc::kMalformed, "not a digest", {}, in.offset()};
@@ -185,104 +154,7 @@ Result<Datagram> sealed(RobotId sender, const ByteReader& in, Result<T> content)
   return Datagram{sender, std::move(*content)};
 }
 
-/// The first of the updates, in order, and what they take in a datagram.
-struct Packed {
-  std::vector<ItemUpdate> updates;
-  Version lowest = 0;
-  std::size_t bytes = 0;
-};
-
-Packed pack(std::span<const ItemUpdate> updates, std::size_t before) {
-  Packed packed;
-  packed.bytes = before;
-  packed.updates.assign(updates.begin(), updates.end());
-  std::ranges::sort(packed.updates, {}, &ItemUpdate::id);
-  if (!updates.empty()) packed.lowest = std::ranges::min(updates, {}, &ItemUpdate::version).version;
-  std::uint64_t above = 0;
-  for (const ItemUpdate& update : packed.updates) {
-    packed.bytes += varint_bytes(update.id.code - above) + varint_bytes(update.version - packed.lowest) +
-                    varint_bytes(update.superseded) + varint_bytes(update.payload.size()) + update.payload.size();
-    above = update.id.code + 1;
-  }
-  return packed;
-}
-
-/// As many as a datagram holds after so many bytes.
-Packed pack_most(std::span<const ItemUpdate> updates, std::size_t before) {
-  std::size_t fit = 0, too_many = std::min(updates.size(), kMaxDatagram / 5) + 1;
-  Packed best;
-  while (fit + 1 < too_many) {
-    const std::size_t count = (fit + too_many) / 2;
-    Packed packed = pack(updates.first(count), before);
-    if (packed.bytes > kMaxDatagram) {
-      too_many = count;
-      continue;
-    }
-    fit = count;
-    best = std::move(packed);
-  }
-  return best;
-}
-
 }  // namespace
-
-std::vector<std::byte> encode(RobotId sender, const Hello& hello) {
-  std::vector<std::byte> out = begin(sender, Kind::kHello);
-  append_le(out, hello.epoch);
-  append_le(out, hello.newest);
-  append_le(out, ns(hello.stamp));
-  const std::size_t length = std::min(hello.name.size(), Hello::kMaxName);
-  append_le(out, static_cast<std::uint8_t>(length));
-  for (std::size_t i = 0; i < length; ++i) append_le(out, hello.name[i]);
-  const std::size_t echoes = std::min(hello.echoes.size(), Hello::kMaxEchoes);
-  append_le(out, static_cast<std::uint8_t>(echoes));
-  for (std::size_t i = 0; i < echoes; ++i) {
-    append_le(out, hello.echoes[i].robot);
-    append_le(out, ns(hello.echoes[i].stamp));
-    append_le(out, hello.echoes[i].age.count());
-  }
-  return out;
-}
-
-std::vector<std::byte> encode(RobotId sender, const Digest& digest) {
-  constexpr std::size_t kLayerHeader = 17;
-  std::vector<std::byte> out = begin(sender, Kind::kDigest);
-  const std::size_t count_at = out.size();
-  append_le(out, std::uint8_t{0});
-  std::uint8_t count = 0;
-  for (const Digest::Layer& layer : digest.layers) {
-    if (count == Digest::kMaxLayers || out.size() + kLayerHeader + 1 > kMaxDatagram) break;
-    const auto ranges = encoded_ranges(layer.known, kMaxDatagram - out.size() - kLayerHeader);
-    append_le(out, layer.robot);
-    append_le(out, layer.epoch);
-    append_le(out, static_cast<std::uint8_t>(layer.direct ? 1 : 0));
-    out.insert(out.end(), ranges.begin(), ranges.end());
-    ++count;
-  }
-  out[count_at] = std::byte{count};
-  return out;
-}
-
-std::vector<std::byte> encode(RobotId sender, const Items& items, std::size_t& count) {
-  const auto superseded = encoded_ranges(items.superseded, kMaxSuperseded);
-  const Packed packed = pack_most(items.updates, kItemsHeaderBytes + superseded.size());
-  count = packed.updates.size();
-  std::vector<std::byte> out = begin(sender, Kind::kItems);
-  append_le(out, items.robot);
-  append_le(out, items.epoch);
-  append_le(out, packed.lowest);
-  out.insert(out.end(), superseded.begin(), superseded.end());
-  std::uint64_t above = 0;
-  for (const ItemUpdate& update : packed.updates) {
-    append_varint(out, update.id.code - above);
-    append_varint(out, update.version - packed.lowest);
-    append_varint(out, update.superseded);
-    append_varint(out, update.payload.size());
-    out.insert(out.end(), update.payload.begin(), update.payload.end());
-    above = update.id.code + 1;
-  }
-  return out;
-}
 
 RobotId sender_of(std::span<const std::byte> bytes) {
   return bytes.size() < kHeaderBytes ? 0 : load_le<RobotId>(bytes, 2);
@@ -298,12 +170,12 @@ Result<Datagram> decode_datagram(std::span<const std::byte> bytes) {
   if (*format != kFormat)
     return Error{Errc::kUnsupported, "another version of the format", {}, 0, std::to_string(*format)};
   if (*sender == 0) return Error{Errc::kMalformed, "a datagram of no robot"};
-  switch (static_cast<Kind>(*kind)) {
-    case Kind::kHello:
+  switch (static_cast<DatagramKind>(*kind)) {
+    case DatagramKind::kHello:
       return sealed(*sender, in, read_hello(in));
-    case Kind::kDigest:
+    case DatagramKind::kDigest:
       return sealed(*sender, in, read_digest(in));
-    case Kind::kItems:
+    case DatagramKind::kItems:
       return sealed(*sender, in, read_items(in));
   }
   return Error{Errc::kMalformed, "no such kind of datagram", {}, 1};

@@ -7,9 +7,11 @@
 namespace cairn::peers {
 namespace {
 
-constexpr std::size_t kLookedAt = 1024;  // missing items among which the most urgent are found
-constexpr std::size_t kManyGaps = 8;     // in what a peer knows, of which nothing is missing: worth a datagram
-constexpr std::size_t kSmallest = 64;    // bytes below which sending items is not worth it
+constexpr std::size_t kLookedAt = 1024;                     // missing items among which the most urgent are found
+constexpr Duration kTick = std::chrono::milliseconds(200);  // robots do not answer at once
+constexpr std::size_t kManyGaps = 8;   // in what a peer knows, of which nothing is missing: worth a datagram
+constexpr std::size_t kEchoes = 2;     // in a hello
+constexpr double kDigestShare = 0.25;  // of the bytes, at most
 
 }  // namespace
 
@@ -78,6 +80,11 @@ Result<void> Exchange::receive(std::span<const std::byte> datagram, Time now) {
 }
 
 Result<void> Exchange::take(Link& link, const Hello& hello, Time now) {
+  if (hello.epoch < link.epoch || (hello.epoch == link.epoch && hello.stamp <= link.echo.stamp)) return {};  // late
+  if (hello.epoch != link.epoch) {  // it began anew, and may know nothing any more
+    link.told = false;
+    link.known.clear();
+  }
   link.name = hello.name;
   link.epoch = hello.epoch;
   link.newest = hello.newest;
@@ -88,16 +95,22 @@ Result<void> Exchange::take(Link& link, const Hello& hello, Time now) {
   return {};
 }
 
+/// Time for a datagram and whatever answers it.
+Duration Exchange::way_of(const Link& link) const {
+  return link.clock.longest_way().value_or(config_.longest_way) + kTick;
+}
+
 Result<void> Exchange::take(Link& link, const Digest& digest, Time now) {
   link.told = true;
   for (const Digest::Layer& layer : digest.layers) {
-    if (layers_.contains(layer.robot)) link.known[layer.robot] = {layer.epoch, layer.direct, layer.known};
+    if (link.known.size() < Digest::kMaxLayers || link.known.contains(layer.robot))
+      link.known[layer.robot] = {layer.epoch, layer.direct, layer.known};
     if (layer.robot == self_ && layer.epoch > epoch()) overtaken_by_ = layer.epoch;
   }
   std::erase_if(link.in_flight, [&](const auto& sent) {
-    const auto known = link.known.find(sent.first.first);
-    return sent.second + config_.resend_after < now ||
-           (known != link.known.end() && known->second.versions.contains(sent.first.second));
+    const auto told = std::ranges::find(digest.layers, sent.first.first, &Digest::Layer::robot);
+    if (told == digest.layers.end()) return false;
+    return sent.second + way_of(link) < now || told->known.contains(sent.first.second);  // lost, or arrived
   });
   return {};
 }
@@ -119,37 +132,41 @@ Result<void> Exchange::take(Link& link, const Items& items, Time /*now*/) {
   return {};
 }
 
-std::size_t Exchange::send(Time now, std::size_t bytes, std::vector<Outgoing>& out) {
-  const auto spend = [&](std::size_t first) {  // what goes to everyone goes to each
-    for (std::size_t i = first; i < out.size(); ++i)
-      bytes -=
-          std::min(bytes, std::max<std::size_t>(1, links_.size()) * (out[i].bytes.size() + config_.overhead_bytes));
-  };
-  const std::size_t first = out.size();
+void Exchange::send(Time now, std::vector<Outgoing>& out) {
+  const auto rate = static_cast<double>(config_.bytes_per_second);
+  if (last_send_ != Time::min()) bytes_ = std::min(rate, bytes_ + rate * to_seconds(now - last_send_));
+  last_send_ = now;
   if (now >= next_hello_) send_hello(now, out);
-  if (!links_.empty() && (last_digest_ == Time::min() || now >= last_digest_ + config_.digest_period))
-    send_digest(now, out);
-  spend(first);
+  if (!links_.empty() && now >= next_digest_) send_digest(now, out);
 
   auto link = links_.lower_bound(next_peer_);
   for (std::size_t i = 0; i < links_.size(); ++i, ++link) {
     if (link == links_.end()) link = links_.begin();
-    if (bytes < kSmallest + config_.overhead_bytes) {
-      next_peer_ = link->first;
-      break;
-    }
-    if (hears(link->first, now)) send_items(now, link->first, link->second, bytes, out);
+    next_peer_ = link->first;
+    if (bytes_ < static_cast<double>(kMaxDatagram + config_.overhead_bytes)) return;
+    if (hears(link->first, now)) send_items(now, link->first, link->second, out);
   }
-  return bytes;
+}
+
+/// What goes to everyone goes to each.
+std::size_t Exchange::send_to_all(std::vector<std::byte> bytes, std::vector<Outgoing>& out) {
+  const std::size_t all = std::max<std::size_t>(1, links_.size()) * (bytes.size() + config_.overhead_bytes);
+  bytes_ -= static_cast<double>(all);
+  out.push_back({0, std::move(bytes)});
+  return all;
 }
 
 void Exchange::send_hello(Time now, std::vector<Outgoing>& out) {
   const Layer& own = layers_.at(self_);
   Hello hello{own.epoch, own.holding.newest(), now, name_, {}};
-  for (const auto& [robot, link] : links_)
-    if (hears(robot, now) && hello.echoes.size() < Hello::kMaxEchoes)
-      hello.echoes.push_back({robot, link.echo.stamp, now - link.echo_heard});
-  out.push_back({0, encode(self_, hello)});
+  auto link = links_.upper_bound(next_echo_);
+  for (std::size_t i = 0; i < std::min(links_.size(), kEchoes); ++i, ++link) {
+    if (link == links_.end()) link = links_.begin();
+    next_echo_ = link->first;
+    if (hears(link->first, now) && link->second.echo.stamp != Time::min())
+      hello.echoes.push_back({link->first, link->second.echo.stamp, now - link->second.echo_heard});
+  }
+  send_to_all(encode(self_, hello), out);
   next_hello_ = now + config_.hello_period;
 }
 
@@ -162,16 +179,17 @@ void Exchange::send_digest(Time now, std::vector<Outgoing>& out) {
   for (const auto& [robot, link] : links_)
     if (full && hears(robot, now) && !layers_.contains(robot)) digest.layers.push_back({robot, 0, true, {}});
   if (digest.layers.empty()) return;
-  out.push_back({0, encode(self_, digest)});
-  last_digest_ = now;
+  const std::size_t cost = send_to_all(encode(self_, digest), out);
+  const double share = static_cast<double>(config_.bytes_per_second) * kDigestShare;
+  next_digest_ = now + std::max(config_.digest_period, from_seconds(static_cast<double>(cost) / share));
   if (full) last_full_digest_ = now;
   to_digest_.clear();
 }
 
-void Exchange::send_items(Time now, RobotId peer, Link& link, std::size_t& bytes, std::vector<Outgoing>& out) {
+void Exchange::send_items(Time now, RobotId peer, Link& link, std::vector<Outgoing>& out) {
   if (!link.told) return;  // it will say what it knows; guessing would send everything twice
   for (const auto& [robot, layer] : layers_)
-    if (robot != peer) send_layer(now, {peer, robot, layer}, link, bytes, out);
+    if (robot != peer) send_layer(now, {peer, robot, layer}, link, out);
 }
 
 /// Most urgent first; nothing where the peer hears that robot itself, or holds a later epoch.
@@ -199,9 +217,10 @@ void Exchange::sort_by_urgency(std::vector<ItemUpdate>& updates, const Address& 
   updates = std::move(sorted);
 }
 
-void Exchange::send_layer(Time now, const Address& address, Link& link, std::size_t& bytes,
-                          std::vector<Outgoing>& out) {
-  std::erase_if(link.in_flight, [&](const auto& sent) { return sent.second + config_.resend_after < now; });
+void Exchange::send_layer(Time now, const Address& address, Link& link, std::vector<Outgoing>& out) {
+  // A digest would have told by now.
+  const Duration patience = way_of(link) + config_.digest_period + kTick;
+  std::erase_if(link.in_flight, [&](const auto& sent) { return sent.second + patience < now; });
   Missing missing = missing_at(link, address);
   const bool waited = now >= link.last_items + config_.gather;
   if (missing.updates.empty() && (missing.superseded.ranges().size() < kManyGaps || !waited)) return;
@@ -209,11 +228,12 @@ void Exchange::send_layer(Time now, const Address& address, Link& link, std::siz
   do {
     std::size_t count = 0;
     auto datagram = encode(self_, next, count);
-    if (datagram.size() + config_.overhead_bytes > bytes) return;
+    const auto cost = static_cast<double>(datagram.size() + config_.overhead_bytes);
+    if (cost > bytes_) return;
     if (count == next.updates.size() && !waited) return;  // there is room for more
     for (const ItemUpdate& update : std::span(next.updates).first(count))
       link.in_flight[{address.robot, update.version}] = now;
-    bytes -= datagram.size() + config_.overhead_bytes;
+    bytes_ -= cost;
     link.sent_bytes += datagram.size();
     link.sent_items += count;
     link.last_items = now;

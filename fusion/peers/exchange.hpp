@@ -19,13 +19,14 @@
 namespace cairn::peers {
 
 struct ExchangeConfig {
+  std::size_t bytes_per_second = 8000;  ///< of all that is sent, overhead included; a second's may gather
   Duration hello_period = std::chrono::seconds(1);
-  Duration digest_period = std::chrono::seconds(1);   ///< of robots of whom more is known than before
-  Duration digest_repeat = std::chrono::seconds(10);  ///< of all
-  Duration lease = std::chrono::seconds(3);           ///< a peer that was not heard for so long is lost
-  Duration resend_after = std::chrono::seconds(3);    ///< when no digest says that an item arrived
-  Duration gather = std::chrono::milliseconds(300);   ///< items wait so long for others to share a datagram with
-  std::size_t overhead_bytes = 100;                   ///< of RTPS, UDP and IP with each datagram
+  Duration digest_period = std::chrono::seconds(1);  ///< of robots of whom more is known than before
+  Duration digest_repeat = std::chrono::seconds(3);  ///< of all
+  Duration lease = std::chrono::seconds(3);          ///< a peer that was not heard for so long is lost
+  Duration longest_way = std::chrono::seconds(1);    ///< there and back, while a peer's is not known
+  Duration gather = std::chrono::milliseconds(300);  ///< items wait so long for others to share a datagram with
+  std::size_t overhead_bytes = 100;                  ///< of RTPS, UDP and IP with each datagram
   std::size_t max_bytes_per_robot = Holding::kMaxBytes;
   std::size_t max_robots = 16;  ///< more are not listened to
 };
@@ -68,9 +69,8 @@ class Exchange {
   /// Takes in a datagram. An error: nothing was taken from it, and its sender has lost some trust where it could be
   /// told; a peer that sends too many is not listened to for a while (kLinkDown).
   Result<void> receive(std::span<const std::byte> datagram, Time now);
-  /// What is to be sent now: what is due of hellos and digests, then missing items while `bytes` last; the rest of
-  /// `bytes` is returned.
-  std::size_t send(Time now, std::size_t bytes, std::vector<Outgoing>& out);
+  /// Appends what is to be sent now: what is due of hellos and digests, then missing items while the bytes last.
+  void send(Time now, std::vector<Outgoing>& out);
 
   void set_urgency(Urgency urgency) { urgency_ = std::move(urgency); }
 
@@ -87,6 +87,7 @@ class Exchange {
   [[nodiscard]] std::optional<Epoch> overtaken_by() const { return overtaken_by_; }
 
  private:
+  [[nodiscard]] Duration way_of(const Link& link) const;
   /// Whose items go to whom.
   struct Address {
     RobotId peer, robot;
@@ -100,8 +101,9 @@ class Exchange {
   Layer* layer_of(RobotId robot, Epoch epoch);
   void send_hello(Time now, std::vector<Outgoing>& out);
   void send_digest(Time now, std::vector<Outgoing>& out);
-  void send_items(Time now, RobotId peer, Link& link, std::size_t& bytes, std::vector<Outgoing>& out);
-  void send_layer(Time now, const Address& address, Link& link, std::size_t& bytes, std::vector<Outgoing>& out);
+  std::size_t send_to_all(std::vector<std::byte> bytes, std::vector<Outgoing>& out);
+  void send_items(Time now, RobotId peer, Link& link, std::vector<Outgoing>& out);
+  void send_layer(Time now, const Address& address, Link& link, std::vector<Outgoing>& out);
   [[nodiscard]] Missing missing_at(const Link& link, const Address& address) const;
   void sort_by_urgency(std::vector<ItemUpdate>& updates, const Address& address) const;
 
@@ -113,9 +115,10 @@ class Exchange {
   std::map<RobotId, Link> links_;
   Changes changes_;
   std::optional<Epoch> overtaken_by_;
-  Time next_hello_ = Time::min(), last_digest_ = Time::min(), last_full_digest_ = Time::min();
-  std::set<RobotId> to_digest_;  // robots of whom more is known than the last digest said, or was asked
-  RobotId next_peer_ = 0;        // whose turn it is
+  double bytes_ = 0;  // that may be sent
+  Time last_send_ = Time::min(), next_hello_ = Time::min(), next_digest_ = Time::min(), last_full_digest_ = Time::min();
+  std::set<RobotId> to_digest_;            // of whom more is known than the last digest said, or was asked
+  RobotId next_peer_ = 0, next_echo_ = 0;  // whose turn it is
 };
 
 }  // namespace cairn::peers

@@ -25,14 +25,14 @@ struct Link {
   std::string name;
   Time last_heard = Time::min();
   Time first_heard = Time::min();
-  Epoch epoch = 0;     ///< by its last hello
-  Version newest = 0;  ///< that it has said, by its last hello
-  Hello::Echo echo{};  ///< its last hello, to be sent back; `age` is not kept here
+  Epoch epoch = 0;                       ///< by its last hello
+  Version newest = 0;                    ///< that it has said, by its last hello
+  Hello::Echo echo{0, Time::min(), {}};  ///< its last hello, to be sent back; `age` is not kept here
   Time echo_heard{};
   ClockOffset clock;
   Conduct conduct;
   bool told = false;                                      ///< a digest has come
-  std::map<RobotId, Known> known;                         ///< of robots that this one holds a layer of
+  std::map<RobotId, Known> known;                         ///< not of more robots than a digest has
   std::map<std::pair<RobotId, Version>, Time> in_flight;  ///< items sent lately, of which no digest has told yet
   Time last_items = Time::min();                          ///< sent to it
   std::uint64_t received_bytes = 0, sent_bytes = 0, received_items = 0, sent_items = 0;

@@ -35,8 +35,9 @@ class Fleet {
 
   /// A robot begins, knowing nothing.
   void start(RobotId id, peers::Epoch epoch) {
-    robots_[id].exchange = std::make_unique<Exchange>(id, "robot_" + std::to_string(id), epoch);
-    robots_[id].bytes = 0;
+    peers::ExchangeConfig config;
+    config.bytes_per_second = bytes_per_second_;
+    robots_[id].exchange = std::make_unique<Exchange>(id, "robot_" + std::to_string(id), epoch, config);
   }
   void crash(RobotId id) { robots_.at(id).exchange.reset(); }
 
@@ -45,7 +46,7 @@ class Fleet {
     if (!up(id)) return;
     for (int i = 0; i < tiles; ++i) {
       std::vector<std::byte> payload;
-      peers::encode_tile(peers::random_tile_state(random_), payload);
+      peers::encode_tile(peers::wall_tile_state(random_), payload);
       robot(id).say(ItemId::tile(0, {random_() % 120}), payload);
     }
   }
@@ -78,7 +79,6 @@ class Fleet {
  private:
   struct Robot {
     std::unique_ptr<Exchange> exchange;
-    std::size_t bytes = 0;  // that may be sent
   };
 
   /// Clocks of different robots have nothing in common, and drift.
@@ -89,10 +89,8 @@ class Fleet {
   }
 
   void send(RobotId id, Robot& robot) {
-    robot.bytes = std::min(robot.bytes + bytes_per_second_ * static_cast<std::size_t>(kTick.count()) / 1'000'000'000,
-                           bytes_per_second_);
     out_.clear();
-    robot.bytes = robot.exchange->send(clock(id), robot.bytes, out_);
+    robot.exchange->send(clock(id), out_);
     for (const peers::Outgoing& datagram : out_)
       for (const auto& [other, _] : robots_)
         if (other != id && (datagram.to == 0 || datagram.to == other)) network.send({id, other, datagram.bytes}, now_);

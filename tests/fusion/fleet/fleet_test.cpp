@@ -23,7 +23,7 @@ unsigned first_seed() {
 }
 
 constexpr LinkQuality kBad{0.3, 0.05, 0.01, std::chrono::milliseconds(20), std::chrono::milliseconds(500)};
-constexpr std::size_t kBytesPerSecond = 8000;  // 64 kbit/s
+constexpr std::size_t kBytesPerSecond = 16000;  // 128 kbit/s
 
 /// Seconds until all agree, at most `most`.
 double time_to_agree(Fleet& fleet, Duration most) {

@@ -27,4 +27,17 @@ inline TileState random_tile_state(std::mt19937& random) {
   return state;
 }
 
+/// A wall, somewhat rough, with free space on one side of it and nothing known behind: what most tiles look like.
+inline TileState wall_tile_state(std::mt19937& random) {
+  TileState state;
+  const auto draw = [&](unsigned below) { return static_cast<unsigned>(random() % below); };
+  const unsigned at = 1 + draw(6), from = draw(3), to = 6 + draw(3);
+  for (unsigned z = from; z < to; ++z)
+    for (unsigned y = 0; y < 8; ++y) {
+      for (unsigned x = 0; x < at; ++x) state.set(x, y, z, draw(12) == 0 ? -0.4F : -1.6F);
+      if (draw(8) != 0) state.set(at, y, z, TileState::kOccupied[draw(4)]);
+    }
+  return state;
+}
+
 }  // namespace cairn::peers
