@@ -105,7 +105,9 @@ Result<void> Exchange::take(Link& link, const Digest& digest, Time now) {
   for (const Digest::Layer& layer : digest.layers) {
     if (link.known.size() < Digest::kMaxLayers || link.known.contains(layer.robot))
       link.known[layer.robot] = {layer.epoch, layer.direct, layer.known};
-    if (layer.robot == self_ && layer.epoch > epoch()) overtaken_by_ = layer.epoch;
+    const bool of_the_past = layer.epoch == epoch() && !layer.known.ranges().empty() &&
+                             layer.known.ranges().back().last > layers_.at(self_).holding.newest();
+    if (layer.robot == self_ && (layer.epoch > epoch() || of_the_past)) overtaken_by_ = layer.epoch;
   }
   std::erase_if(link.in_flight, [&](const auto& sent) {
     const auto told = std::ranges::find(digest.layers, sent.first.first, &Digest::Layer::robot);

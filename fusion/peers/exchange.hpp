@@ -82,8 +82,9 @@ class Exchange {
   [[nodiscard]] bool hears(RobotId robot, Time now) const;
   /// What changed since the last call.
   [[nodiscard]] Changes take_changes();
-  /// Another holds a later epoch of this robot than its own, so that its own would be taken for old: begin() with more
-  /// than this is due. Nothing where all is well.
+  /// Another holds something of this robot that this one never said: of a later epoch, or from before it forgot which
+  /// epoch it was in. Its own news would be taken for old; begin() with more than this is due. Nothing where all is
+  /// well.
   [[nodiscard]] std::optional<Epoch> overtaken_by() const { return overtaken_by_; }
 
  private:

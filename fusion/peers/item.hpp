@@ -12,7 +12,8 @@ namespace cairn::peers {
 /// One robot of a team, as its profile says; never 0. Whatever is done in an order of robots is done in the order of
 /// these.
 using RobotId = std::uint64_t;
-/// Counts a robot's beginnings: what it said in an earlier one no longer holds. The highest is the newest.
+/// Numbers a robot's beginnings: what it said in an earlier one no longer holds. The highest is the newest; its upper
+/// half counts, its lower half is random, so that a robot that forgot the count does not take up an old number.
 using Epoch = std::uint64_t;
 
 enum class ItemKind : std::uint8_t {

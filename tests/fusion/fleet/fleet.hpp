@@ -33,8 +33,9 @@ class Fleet {
   [[nodiscard]] bool up(RobotId id) const { return robots_.at(id).exchange != nullptr; }
   [[nodiscard]] std::size_t refused() const { return refused_; }
 
-  /// A robot begins, knowing nothing.
-  void start(RobotId id, peers::Epoch epoch) {
+  /// A robot begins for the nth time, as far as it remembers, knowing nothing.
+  void start(RobotId id, std::uint64_t nth) {
+    const peers::Epoch epoch = nth << 32U | (random_() & 0xFFFFFFFFU);
     peers::ExchangeConfig config;
     config.bytes_per_second = bytes_per_second_;
     robots_[id].exchange = std::make_unique<Exchange>(id, "robot_" + std::to_string(id), epoch, config);
