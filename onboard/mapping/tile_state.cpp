@@ -54,18 +54,18 @@ bool childless(const SemanticNode* node) {
                       [](const SemanticNode& child) { return child.present(); });
 }
 
-/// Gives a childless node what the state knows of a cube; false where that is nothing.
+/// Gives a childless node what is known of a cube; false where that is nothing.
 // NOLINTNEXTLINE(misc-no-recursion): three levels
-bool write(NodeWriter& writer, SemanticNode* node, const TileState& state, const Cube& cube) {
+bool write(NodeWriter& writer, SemanticNode* node, const TileVoxels& voxels, const Cube& cube) {
   if (cube.edge == 1) {
-    const float value = state.log_odds(cube.x, cube.y, cube.z);
+    const float value = voxels[cube.x + TileState::kEdge * (cube.y + TileState::kEdge * cube.z)];
     node->setLogOdds(value);
     return value != SemanticNode::kAbsent;
   }
   bool any = false, made = false;
   for (unsigned i = 0; i < SemanticNode::kChildren; ++i) {
     SemanticNode* child = writer.child(node, i, made);
-    if (write(writer, child, state, cube.child(i))) {
+    if (write(writer, child, voxels, cube.child(i))) {
       any = true;
       continue;
     }
@@ -138,11 +138,18 @@ TileState read_tile(const SemanticOcTree& map, TileKey tile) {
 }
 
 void write_tile(SemanticOcTree& map, TileKey tile, const TileState& state) {
-  if (state.empty() && read_tile(map, tile).empty()) return;
+  TileVoxels voxels;
+  for (unsigned i = 0; i < voxels.size(); ++i) voxels[i] = state.log_odds(i & 7U, i >> 3 & 7U, i >> 6);
+  write_tile(map, tile, voxels);
+}
+
+void write_tile(SemanticOcTree& map, TileKey tile, const TileVoxels& voxels) {
+  const bool empty = std::ranges::all_of(voxels, [](float v) { return v == SemanticNode::kAbsent; });
+  if (empty && read_tile(map, tile).empty()) return;
   NodeWriter& writer = map.writer(0);
   const Path path = path_to(map, writer, tile);
   clear_below(writer, path.back());
-  bool known = write(writer, path.back(), state, {0, 0, 0, TileState::kEdge});
+  bool known = write(writer, path.back(), voxels, {0, 0, 0, TileState::kEdge});
   for (unsigned depth = kTileDepth; depth-- > 0;) {
     if (!known) {
       path[depth + 1]->setLogOdds(SemanticNode::kAbsent);

@@ -45,6 +45,11 @@ struct TileState {
 /// removes the tile.
 void write_tile(SemanticOcTree& map, TileKey tile, const TileState& state);
 
+/// Log-odds of the voxels of a tile, x fastest; SemanticNode::kAbsent where nothing is known.
+using TileVoxels = std::array<float, 512>;
+/// The same for any log-odds.
+void write_tile(SemanticOcTree& map, TileKey tile, const TileVoxels& voxels);
+
 /// Every tile in which the map knows something, in canonical order; not more than `most`.
 [[nodiscard]] std::vector<TileKey> known_tiles(const SemanticOcTree& map, std::size_t most);
 

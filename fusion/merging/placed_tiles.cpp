@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/merging/placed_tiles.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cairn::merging {
+namespace {
+
+constexpr int kBits = 30;  // after the binary point
+constexpr int kHalfTree = 1 << 15, kTileEdge = 8, kTiles = 1 << 13;
+constexpr double kOne = static_cast<double>(std::int64_t{1} << kBits);
+
+int tile_coordinate(std::int64_t fixed) {
+  const std::int64_t voxel = (fixed >> kBits) + kHalfTree;
+  return static_cast<int>(voxel >> 3);
+}
+
+std::array<int, 3> first_voxel(TileKey tile) {
+  return {tile.first_voxel(0) - kHalfTree, tile.first_voxel(1) - kHalfTree, tile.first_voxel(2) - kHalfTree};
+}
+
+/// The tiles of a layer around a place: found once, looked into for each voxel.
+class Window {
+ public:
+  static constexpr int kEdge = 4;
+
+  Window(const TileLayer& layer, const TileBox& box) : low_(box.low) {
+    const auto coordinate = [](int tile) { return static_cast<std::uint16_t>(tile * kTileEdge); };
+    for (int z = std::max(box.low.z(), 0); z <= std::min(box.high.z(), kTiles - 1); ++z)
+      for (int y = std::max(box.low.y(), 0); y <= std::min(box.high.y(), kTiles - 1); ++y)
+        for (int x = std::max(box.low.x(), 0); x <= std::min(box.high.x(), kTiles - 1); ++x) {
+          const auto found = layer.find(TileKey::of_voxel(coordinate(x), coordinate(y), coordinate(z)));
+          if (found == layer.end()) continue;
+          tiles_[index(x, y, z)] = &found->second.state;
+          any_ = true;
+        }
+  }
+  [[nodiscard]] bool any() const { return any_; }
+  /// Of a voxel, counted from the tree's corner; it lies in the box.
+  [[nodiscard]] float log_odds(int x, int y, int z) const {
+    const TileState* tile = tiles_[index(x >> 3, y >> 3, z >> 3)];
+    if (tile == nullptr) return SemanticNode::kAbsent;
+    return tile->log_odds(static_cast<unsigned>(x & 7), static_cast<unsigned>(y & 7), static_cast<unsigned>(z & 7));
+  }
+
+ private:
+  [[nodiscard]] std::size_t index(int x, int y, int z) const {
+    return static_cast<std::size_t>((x - low_.x()) + kEdge * ((y - low_.y()) + kEdge * (z - low_.z())));
+  }
+
+  std::array<const TileState*, kEdge * kEdge * kEdge> tiles_{};
+  Eigen::Vector3i low_;
+  bool any_ = false;
+};
+
+}  // namespace
+
+Placement::Motion Placement::motion(const SE3& T, double resolution_m) {
+  Motion motion;
+  const Eigen::Matrix3d R = T.rotation();
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto row = static_cast<Eigen::Index>(i);
+    for (std::size_t k = 0; k < 3; ++k)
+      motion.rotation[i][k] = std::llround(R(row, static_cast<Eigen::Index>(k)) * kOne);
+    motion.offset[i] = std::llround(T.translation()[row] / resolution_m * kOne);
+  }
+  return motion;
+}
+
+std::optional<Placement> Placement::of(const SE3& T_team_submap, double resolution_m) {
+  const Eigen::Matrix4d T = T_team_submap.matrix();
+  if (!T.allFinite() || T_team_submap.translation().cwiseAbs().maxCoeff() > kHalfTree * resolution_m)
+    return std::nullopt;
+  Placement placement;
+  placement.team_from_submap_ = motion(T_team_submap, resolution_m);
+  placement.submap_from_team_ = motion(T_team_submap.inverse(), resolution_m);
+  return placement;
+}
+
+/// The place of a point given in half voxels.
+Placement::Fixed Placement::moved(const Motion& motion, const std::array<int, 3>& twice_voxels) {
+  Fixed place = motion.offset;
+  for (std::size_t i = 0; i < 3; ++i)
+    for (std::size_t k = 0; k < 3; ++k) place[i] += motion.rotation[i][k] * twice_voxels[k] / 2;
+  return place;
+}
+
+TileBox Placement::touched_by(TileKey tile) const {
+  const auto first = first_voxel(tile);
+  const Fixed centre =
+      moved(team_from_submap_, {2 * first[0] + kTileEdge, 2 * first[1] + kTileEdge, 2 * first[2] + kTileEdge});
+  TileBox box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::int64_t reach = std::int64_t{1} << kBits;  // a voxel's centre decides
+    for (std::size_t k = 0; k < 3; ++k) reach += std::abs(team_from_submap_.rotation[i][k]) * kTileEdge / 2;
+    box.low[static_cast<Eigen::Index>(i)] = tile_coordinate(centre[i] - reach);
+    box.high[static_cast<Eigen::Index>(i)] = tile_coordinate(centre[i] + reach);
+  }
+  return box;
+}
+
+TileBox Placement::sources_of(TileKey tile) const {
+  const Fixed corner = first_centre(tile);
+  TileBox box;
+  for (std::size_t i = 0; i < 3; ++i) {
+    std::int64_t low = corner[i], high = corner[i];
+    for (const std::int64_t step : submap_from_team_.rotation[i]) (step < 0 ? low : high) += step * (kTileEdge - 1);
+    box.low[static_cast<Eigen::Index>(i)] = tile_coordinate(low);
+    box.high[static_cast<Eigen::Index>(i)] = tile_coordinate(high);
+  }
+  return box;
+}
+
+/// Where the centre of a team's tile's first voxel lies in the submap.
+Placement::Fixed Placement::first_centre(TileKey tile) const {
+  const auto first = first_voxel(tile);
+  return moved(submap_from_team_, {2 * first[0] + 1, 2 * first[1] + 1, 2 * first[2] + 1});
+}
+
+bool Placement::read(const TileLayer& layer, TileKey tile, TileVoxels& voxels) const {
+  const Window window(layer, sources_of(tile));
+  if (!window.any()) return false;
+  const Fixed corner = first_centre(tile);
+  const auto& R = submap_from_team_.rotation;
+  const auto key = [&](std::size_t i, int x, int y, int z) {
+    return static_cast<int>((corner[i] + R[i][0] * x + R[i][1] * y + R[i][2] * z) >> kBits) + kHalfTree;
+  };
+  bool any = false;
+  for (int at = 0; at < 512; ++at) {
+    const int x = at & 7, y = at >> 3 & 7, z = at >> 6;
+    const float value = window.log_odds(key(0, x, y, z), key(1, x, y, z), key(2, x, y, z));
+    voxels[static_cast<std::size_t>(at)] = value;
+    any = any || value != SemanticNode::kAbsent;
+  }
+  return any;
+}
+
+}  // namespace cairn::merging

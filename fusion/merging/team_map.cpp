@@ -1,0 +1,193 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/merging/team_map.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+#include <utility>
+
+namespace cairn::merging {
+namespace {
+
+constexpr unsigned kRegionBits = 9;  // 8³ tiles
+constexpr int kMarkedAtOnce = 16;    // tiles in a step
+constexpr int kTilesAcross = 1 << 13;
+constexpr float kSteps = 1024;  // of log-odds
+constexpr Limits kLimits{TileState::kFree.front(), TileState::kOccupied.front(), 0};
+
+template <class Visit>
+void for_each_tile(const TileBox& box, const Visit& visit) {
+  const Eigen::Vector3i low = box.low.cwiseMax(0), high = box.high.cwiseMin(kTilesAcross - 1);
+  const auto voxel = [](int tile) { return static_cast<std::uint16_t>(tile * 8); };
+  for (int z = low.z(); z <= high.z(); ++z)
+    for (int y = low.y(); y <= high.y(); ++y)
+      for (int x = low.x(); x <= high.x(); ++x) visit(TileKey::of_voxel(voxel(x), voxel(y), voxel(z)));
+}
+
+}  // namespace
+
+TeamMap::TeamMap(double resolution_m, Policy policy)
+    : resolution_m_(resolution_m), shown_(view_of({})), fold_(policy, kLimits) {}
+
+TeamMap::View TeamMap::view_of(const SubmapPoses& poses) const {
+  View view;
+  view.poses = poses;
+  for (const auto& [submap, T_team_submap] : poses)
+    if (const auto placement = Placement::of(T_team_submap, resolution_m_)) view.placements.emplace(submap, *placement);
+  view.fused = std::make_unique<SemanticOcTree>(resolution_m_);
+  if (!view.placements.empty()) view.marking = view.placements.begin()->first;
+  return view;
+}
+
+void TeamMap::put(const SubmapKey& submap, TileKey tile, const TileState& state, Time stamp) {
+  TileLayer& layer = layers_[submap];
+  if (state.empty())
+    layer.erase(tile);
+  else
+    layer.insert_or_assign(tile, ReceivedTile{state, stamp});
+  for (View* view : {&shown_, next_ ? &*next_ : nullptr}) {
+    if (view == nullptr) continue;
+    const auto placement = view->placements.find(submap);
+    if (placement != view->placements.end()) mark(*view, placement->second, tile);
+  }
+}
+
+void TeamMap::drop(std::uint64_t robot) {
+  const auto dropped = std::erase_if(layers_, [robot](const auto& layer) { return layer.first.robot == robot; });
+  redo_ = redo_ || dropped > 0;
+  begin_wanted();
+}
+
+void TeamMap::place(const SubmapPoses& T_team_submaps) {
+  const auto same = [](const auto& a, const auto& b) {
+    return a.first == b.first && a.second.matrix() == b.second.matrix();
+  };
+  if (std::ranges::equal(wanted_, T_team_submaps, same)) return;
+  wanted_ = T_team_submaps;
+  begin_wanted();
+}
+
+/// A map that is being built is finished first: poses may change faster than maps are built.
+void TeamMap::begin_wanted() {
+  if (next_) return;
+  View view = view_of(wanted_);
+  if (!redo_ && view.placements == shown_.placements) {
+    shown_.poses = wanted_;
+    return;
+  }
+  redo_ = false;
+  next_ = std::move(view);
+}
+
+void TeamMap::mark(View& view, const Placement& placement, TileKey tile) {
+  for_each_tile(placement.touched_by(tile),
+                [&](TileKey touched) { view.dirty[touched.morton >> kRegionBits].insert(touched); });
+}
+
+void TeamMap::mark_some(View& view) const {
+  const auto placement = view.placements.find(*view.marking);
+  const auto layer = layers_.find(*view.marking);
+  if (layer != layers_.end()) {
+    auto tile = view.marked ? layer->second.upper_bound(*view.marked) : layer->second.begin();
+    for (int i = 0; i < kMarkedAtOnce && tile != layer->second.end(); ++i, ++tile) {
+      mark(view, placement->second, tile->first);
+      view.marked = tile->first;
+    }
+    if (tile != layer->second.end()) return;
+  }
+  const auto next = std::next(placement);
+  view.marking = next == view.placements.end() ? std::nullopt : std::optional(next->first);
+  view.marked.reset();
+}
+
+TileKey TeamMap::take_nearest(View& view) const {
+  const auto distance = [&](std::uint64_t region) {
+    const TileKey first{region << kRegionBits};
+    Eigen::Vector3d centre;
+    for (unsigned axis = 0; axis < 3; ++axis)
+      centre[static_cast<Eigen::Index>(axis)] = (first.first_voxel(axis) - 32768 + 32) * resolution_m_;
+    return (centre - focus_).squaredNorm();
+  };
+  if (!view.region || !view.dirty.contains(*view.region)) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const auto& [region, tiles] : view.dirty)
+      if (const double d = distance(region); d < nearest) {
+        nearest = d;
+        view.region = region;
+      }
+  }
+  auto& tiles = view.dirty.at(*view.region);
+  const TileKey tile = *tiles.begin();
+  tiles.erase(tiles.begin());
+  if (tiles.empty()) view.dirty.erase(*view.region);
+  return tile;
+}
+
+void TeamMap::fuse_tile(View& view, TileKey tile) {
+  std::size_t known = 0;
+  for (const auto& [submap, placement] : view.placements) {
+    const auto layer = layers_.find(submap);
+    if (layer == layers_.end()) continue;
+    if (voxels_.size() <= known) voxels_.emplace_back();
+    if (placement.read(layer->second, tile, voxels_[known])) ++known;
+  }
+  TileVoxels fused;
+  for (std::size_t i = 0; i < fused.size(); ++i) {
+    opinions_.clear();
+    for (std::size_t k = 0; k < known; ++k)
+      if (voxels_[k][i] != SemanticNode::kAbsent) opinions_.push_back(voxels_[k][i]);
+    fused[i] = opinions_.empty() ? SemanticNode::kAbsent : std::nearbyintf(fold_(opinions_) * kSteps) / kSteps;
+  }
+  write_tile(*view.fused, tile, fused);
+}
+
+void TeamMap::step(View& view) {
+  if (view.marking)
+    mark_some(view);
+  else
+    fuse_tile(view, take_nearest(view));
+}
+
+bool TeamMap::fuse(Budget& budget) {
+  while (!up_to_date() && budget.one_more()) {
+    if (!complete(shown_)) {
+      step(shown_);
+      continue;
+    }
+    if (!complete(*next_)) step(*next_);
+    if (!complete(*next_)) continue;
+    shown_ = std::move(*next_);
+    next_.reset();
+    begin_wanted();
+  }
+  return up_to_date();
+}
+
+bool TeamMap::up_to_date() const { return complete(shown_) && !next_; }
+
+std::size_t TeamMap::backlog() const {
+  std::size_t tiles = 0;
+  for (const View* view : {&shown_, next_ ? &*next_ : nullptr}) {
+    if (view == nullptr) continue;
+    for (const auto& [region, dirty] : view->dirty) tiles += dirty.size();
+  }
+  return tiles;
+}
+
+TeamMap::Origin TeamMap::origin_of(TileKey tile) const {
+  Origin origin;
+  TileVoxels voxels;
+  for (const auto& [submap, placement] : shown_.placements) {
+    const auto layer = layers_.find(submap);
+    if (layer == layers_.end() || !placement.read(layer->second, tile, voxels)) continue;
+    if (origin.robots.empty() || origin.robots.back() != submap.robot) origin.robots.push_back(submap.robot);
+    for_each_tile(placement.sources_of(tile), [&](TileKey source) {
+      const auto received = layer->second.find(source);
+      if (received != layer->second.end()) origin.newest = std::max(origin.newest, received->second.stamp);
+    });
+  }
+  return origin;
+}
+
+}  // namespace cairn::merging

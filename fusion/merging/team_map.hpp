@@ -1,0 +1,104 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <compare>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "fusion/merging/fold.hpp"
+#include "fusion/merging/placed_tiles.hpp"
+#include "fusion/merging/remembered_fold.hpp"
+#include "hal/budget.hpp"
+#include "hal/se3.hpp"
+#include "onboard/mapping/semantic_octree.hpp"
+
+namespace cairn::merging {
+
+/// A part of what one robot has mapped. The order is that in which opinions are folded.
+struct SubmapKey {
+  std::uint64_t robot = 0;
+  std::uint16_t submap = 0;
+  friend constexpr auto operator<=>(const SubmapKey&, const SubmapKey&) = default;
+};
+using SubmapPoses = std::map<SubmapKey, SE3>;  ///< T_team_submap of those that take part
+
+/// The newest tiles of everyone, and the team's map made of them. The finished map is a pure function of the newest
+/// tiles and poses: the order in which they came, how the work was cut into slices and where the robot was do not
+/// matter, and without a robot's submaps the bytes are those from before it came. Log-odds are multiples of 2⁻¹⁰, so
+/// that machines that round differently agree.
+///
+/// The work is done in steps of one tile, whose cost is bounded (tens of microseconds for a few robots). New tiles
+/// change the map at once, a tile at a time. New poses change all of it: a second map is built beside the first,
+/// which goes on being kept up to date, and takes its place when it is complete. So whoever asks never sees a map of
+/// two minds.
+class TeamMap {
+ public:
+  /// All submaps have this resolution.
+  TeamMap(double resolution_m, Policy policy);
+
+  /// The newest state of a tile; an empty one removes it.
+  void put(const SubmapKey& submap, TileKey tile, const TileState& state, Time stamp);
+  /// Forgets the tiles of a robot.
+  void drop(std::uint64_t robot);
+  /// From now on these take part. Poses beyond ±2¹⁵ voxels do not.
+  void place(const SubmapPoses& T_team_submaps);
+  /// Work near this point of the team's map is done first.
+  void set_focus(const Eigen::Vector3d& point_team) { focus_ = point_team; }
+
+  /// Goes on while the budget lasts. True: the map is that of the newest tiles and poses.
+  bool fuse(Budget& budget);
+  [[nodiscard]] bool up_to_date() const;
+  /// Tiles that wait for their turn; those of the map that is to come are not counted before it is known which.
+  [[nodiscard]] std::size_t backlog() const;
+
+  /// Consistent: of one set of poses. It is another tree after new poses, and changes with each fuse().
+  [[nodiscard]] const SemanticOcTree& map() const { return *shown_.fused; }
+  /// Where the submaps of map() lie.
+  [[nodiscard]] const SubmapPoses& poses() const { return shown_.poses; }
+
+  /// Who had a say in a tile of map(), and when the newest of it came.
+  struct Origin {
+    std::vector<std::uint64_t> robots;  ///< ascending
+    Time newest{};
+  };
+  [[nodiscard]] Origin origin_of(TileKey tile) const;
+
+ private:
+  /// One map, for one set of poses.
+  struct View {
+    SubmapPoses poses;
+    std::map<SubmapKey, Placement> placements;
+    std::unique_ptr<SemanticOcTree> fused;
+    std::map<std::uint64_t, std::set<TileKey>> dirty;  // by region: tiles to be fused
+    std::optional<std::uint64_t> region;               // being worked on
+    // Of a new view: whose tiles are marking what they touch, and the last that has; none: all have.
+    std::optional<SubmapKey> marking;
+    std::optional<TileKey> marked;
+  };
+  [[nodiscard]] View view_of(const SubmapPoses& poses) const;
+  [[nodiscard]] static bool complete(const View& view) { return !view.marking && view.dirty.empty(); }
+  static void mark(View& view, const Placement& placement, TileKey tile);
+  void mark_some(View& view) const;
+  void step(View& view);
+  [[nodiscard]] TileKey take_nearest(View& view) const;
+  void fuse_tile(View& view, TileKey tile);
+  void begin_wanted();
+
+  double resolution_m_;
+  std::map<SubmapKey, TileLayer> layers_;
+  View shown_;
+  std::optional<View> next_;
+  SubmapPoses wanted_;
+  bool redo_ = false;  // shown_ and next_ hold what is to be forgotten
+  Eigen::Vector3d focus_ = Eigen::Vector3d::Zero();
+  RememberedFold fold_;
+  std::vector<TileVoxels> voxels_;  // of a tile, by submap; reused
+  std::vector<float> opinions_;
+};
+
+}  // namespace cairn::merging

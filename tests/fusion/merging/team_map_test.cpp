@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: Apache-2.0
+// The oracle is merge() of whole maps.
+#include "fusion/merging/team_map.hpp"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "fusion/merging/merge.hpp"
+#include "tests/fusion/peers/tile_states.hpp"
+#include "tests/onboard/mapping/tree_compare.hpp"
+
+namespace cairn::merging {
+namespace {
+
+constexpr double kResolution = 0.2;
+using Tiles = std::map<SubmapKey, std::map<TileKey, TileState>>;
+
+/// What some robots have seen: tiles near the origin of each.
+Tiles random_tiles(unsigned seed, unsigned robots) {
+  std::mt19937 random(seed);
+  Tiles tiles;
+  const auto near = [&] { return static_cast<std::uint16_t>(32768 + 8 * (random() % 5) - 16); };
+  for (std::uint64_t robot = 1; robot <= robots; ++robot)
+    for (int i = 0; i < 40; ++i)
+      tiles[{robot, static_cast<std::uint16_t>(robot == 2 ? random() % 2 : 0)}]
+           [TileKey::of_voxel(near(), near(), near())] = peers::random_tile_state(random);
+  return tiles;
+}
+
+SE3 pose(double x, double y, double z, double yaw) {
+  Vector6 v;
+  v << x, y, z, 0.01, -0.02, yaw;
+  return SE3::from_xyz_rpy(v);
+}
+
+SubmapPoses poses_of(const Tiles& tiles, double shift = 0) {
+  SubmapPoses poses;
+  for (const auto& [submap, _] : tiles)
+    poses[submap] =
+        submap.robot == 1 ? SE3() : pose(0.33 * static_cast<double>(submap.robot) + shift, -0.41, 0.07, 0.7);
+  return poses;
+}
+
+void finish(TeamMap& map) {
+  Budget ample = Budget::steps(1'000'000);
+  ASSERT_TRUE(map.fuse(ample));
+}
+
+void put_all(TeamMap& map, const Tiles& tiles) {
+  for (const auto& [submap, layer] : tiles)
+    for (const auto& [tile, state] : layer) map.put(submap, tile, state, Time{});
+}
+
+std::unique_ptr<TeamMap> fused(const Tiles& tiles, const SubmapPoses& poses) {
+  auto map = std::make_unique<TeamMap>(kResolution, Policy::kRelativeEntropy);
+  put_all(*map, tiles);
+  map->place(poses);
+  finish(*map);
+  return map;
+}
+
+std::unique_ptr<SemanticOcTree> merged(const Tiles& tiles, const SubmapPoses& poses) {
+  Contributions contributions;
+  for (const auto& [submap, layer] : tiles) {
+    auto tree = std::make_shared<SemanticOcTree>(kResolution);
+    for (const auto& [tile, state] : layer) write_tile(*tree, tile, state);
+    contributions[10 * submap.robot + submap.submap] = {1, tree, poses.at(submap)};
+  }
+  return std::move(merge(contributions).value());
+}
+
+/// Leaves of one map that the other does not have alike, to within the steps of log-odds.
+std::size_t different(const SemanticOcTree& a, const SemanticOcTree& b) {
+  std::size_t count = 0;
+  SemanticOcTree fine(a);
+  fine.expand();
+  for (auto leaf = fine.begin_leafs(); leaf != fine.end_leafs(); ++leaf) {
+    const SemanticNode* other = b.search(leaf.getKey());
+    if (other == nullptr || std::abs(other->getLogOdds() - leaf->getLogOdds()) > 1e-3F) ++count;
+  }
+  return count;
+}
+
+TEST(TeamMap, IsWhatMergingWholeMapsGives) {
+  for (unsigned seed = 0; seed < 3; ++seed) {
+    const Tiles tiles = random_tiles(seed, 3);
+    const auto map = fused(tiles, poses_of(tiles));
+    const auto oracle = merged(tiles, poses_of(tiles));
+    EXPECT_TRUE(map->map().is_canonical());
+    EXPECT_EQ(map->map().size(), map->map().calcNumNodes());
+    EXPECT_EQ(different(map->map(), *oracle), 0U);
+    EXPECT_EQ(different(*oracle, map->map()), 0U);
+  }
+}
+
+TEST(TeamMap, HowTheWorkWasCutAndOrderedDoesNotMatter) {
+  const Tiles tiles = random_tiles(4, 3), older = random_tiles(5, 3);
+  const auto at_once = fused(tiles, poses_of(tiles));
+  for (unsigned seed = 0; seed < 4; ++seed) {
+    std::mt19937 random(seed);
+    TeamMap map(kResolution, Policy::kRelativeEntropy);
+    put_all(map, older);
+    std::vector<std::pair<SubmapKey, TileKey>> order;
+    for (const auto& [submap, layer] : tiles)
+      for (const auto& [tile, state] : layer) order.emplace_back(submap, tile);
+    std::shuffle(order.begin(), order.end(), random);
+    for (const auto& [submap, tile] : order) {
+      if (random() % 5 == 0) map.place(poses_of(tiles, static_cast<double>(random() % 3)));
+      if (random() % 9 == 0) map.set_focus({static_cast<double>(random() % 7), 0, 0});
+      map.put(submap, tile, tiles.at(submap).at(tile), Time{});
+      Budget few = Budget::steps(static_cast<int>(random() % 40));
+      (void)map.fuse(few);
+    }
+    for (const auto& [submap, layer] : older)
+      for (const auto& [tile, state] : layer)
+        if (!tiles.contains(submap) || !tiles.at(submap).contains(tile)) map.put(submap, tile, {}, Time{});
+    map.place(poses_of(tiles));
+    finish(map);
+    EXPECT_EQ(differing_nodes(map.map(), at_once->map()), 0U);
+  }
+}
+
+TEST(TeamMap, WithoutARobotItIsWhatItWasBefore) {
+  Tiles tiles = random_tiles(6, 3);
+  auto map = fused(tiles, poses_of(tiles));
+  Tiles without = tiles;
+  std::erase_if(without, [](const auto& layer) { return layer.first.robot == 2; });
+  map->place(poses_of(without));
+  finish(*map);
+  EXPECT_EQ(differing_nodes(map->map(), fused(without, poses_of(without))->map()), 0U);
+  map->place(poses_of(tiles));
+  finish(*map);
+  EXPECT_EQ(differing_nodes(map->map(), fused(tiles, poses_of(tiles))->map()), 0U);
+  map->drop(2);
+  finish(*map);
+  EXPECT_EQ(differing_nodes(map->map(), fused(without, poses_of(without))->map()), 0U);
+}
+
+TEST(TeamMap, IsOfOneSetOfPosesAtAnyTime) {
+  const Tiles tiles = random_tiles(7, 2);
+  auto map = fused(tiles, poses_of(tiles));
+  const auto before = fused(tiles, poses_of(tiles)), after = fused(tiles, poses_of(tiles, 2));
+  map->place(poses_of(tiles, 2));
+  int steps = 0;
+  for (bool done = false; !done; ++steps) {
+    Budget one = Budget::steps(1);
+    done = map->fuse(one);
+    EXPECT_EQ(differing_nodes(map->map(), done ? after->map() : before->map()), 0U);
+  }
+  EXPECT_GT(steps, 50);
+}
+
+TEST(TeamMap, SaysWhoHadASay) {
+  const Tiles tiles = random_tiles(8, 3);
+  const auto map = fused(tiles, poses_of(tiles));
+  std::set<std::uint64_t> robots;
+  for (const TileKey tile : known_tiles(map->map(), 1000)) {
+    const auto origin = map->origin_of(tile);
+    EXPECT_FALSE(origin.robots.empty());
+    EXPECT_TRUE(std::ranges::is_sorted(origin.robots));
+    robots.insert(origin.robots.begin(), origin.robots.end());
+  }
+  EXPECT_EQ(robots, (std::set<std::uint64_t>{1, 2, 3}));
+}
+
+TEST(TeamMap, PosesThatCannotBeDoNotTakePart) {
+  const Tiles tiles = random_tiles(9, 2);
+  SubmapPoses poses = poses_of(tiles);
+  for (auto& [submap, T] : poses)
+    if (submap.robot == 2) T = pose(1e9, 0, 0, 0);
+  Tiles first;
+  first[{1, 0}] = tiles.at({1, 0});
+  EXPECT_EQ(differing_nodes(fused(tiles, poses)->map(), fused(first, poses_of(first))->map()), 0U);
+}
+
+}  // namespace
+}  // namespace cairn::merging
