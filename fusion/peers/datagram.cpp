@@ -27,6 +27,7 @@ Result<Hello> read_hello(ByteReader& in) {
   const auto stamp = in.read<std::int64_t>();
   const auto length = in.read<std::uint8_t>();
   if (!length) return too_short();
+  if (*epoch > kLastEpoch) return Error{Errc::kMalformed, "an epoch that cannot be"};
   if (!possible(*stamp)) return Error{Errc::kMalformed, "a clock beyond 36 years"};
   if (*length > Hello::kMaxName) return Error{Errc::kMalformed, "a robot's name of more than 24 bytes"};
   const auto name = in.read_bytes(*length);
@@ -77,7 +78,7 @@ Result<Digest> read_digest(ByteReader& in) {
     const auto direct = epoch ? in.read<std::uint8_t>() : std::nullopt;
     if (!direct) return Error{Errc::kMalformed, "not a digest", {}, in.offset()};
     digest.layers.push_back({*robot, *epoch, *direct == 1, {}});
-    if (*direct > 1 || *robot == 0 || !read_ranges(in, digest.layers.back().known))
+    if (*direct > 1 || *robot == 0 || *epoch > kLastEpoch || !read_ranges(in, digest.layers.back().known))
       return Error{Errc::kMalformed, "not a digest", {}, in.offset()};
   }
   return digest;
@@ -128,7 +129,7 @@ Result<Items> read_items(ByteReader& in) {
   const auto epoch = in.read<Epoch>();
   const auto lowest = in.read<Version>();
   if (!lowest) return too_short();
-  if (*robot == 0) return Error{Errc::kMalformed, "items of no robot"};
+  if (*robot == 0 || *epoch > kLastEpoch) return Error{Errc::kMalformed, "items of no robot, or of no epoch"};
   items.robot = *robot;
   items.epoch = *epoch;
   const std::size_t ranges_at = in.offset();

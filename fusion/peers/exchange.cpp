@@ -23,7 +23,6 @@ Exchange::Exchange(RobotId self, std::string name, Epoch epoch, const ExchangeCo
 void Exchange::begin(Epoch epoch) {
   layers_.insert_or_assign(self_, Layer{epoch, Holding(config_.max_bytes_per_robot)});
   changes_[self_] = {true, {}};
-  overtaken_by_.reset();
   for (auto& [robot, link] : links_)
     std::erase_if(link.in_flight, [&](const auto& sent) { return sent.first.first == self_; });
 }
@@ -45,6 +44,19 @@ Link* Exchange::link_of(RobotId robot) {
   const auto link = links_.find(robot);
   if (link != links_.end()) return &link->second;
   return links_.size() < config_.max_robots ? &links_[robot] : nullptr;
+}
+
+/// Says everything again in a later epoch than the one that others know.
+void Exchange::outdo(Epoch epoch) {
+  const Holding said = std::move(layers_.at(self_).holding);
+  begin(std::min(epoch + 1, kLastEpoch));
+  for (const auto& [id, item] : said.items()) say(id, item.payload);
+}
+
+/// What a robot said before its present epoch is void, even where it has said nothing since.
+void Exchange::hear_of(RobotId robot, Epoch epoch) {
+  const auto layer = layers_.find(robot);
+  if (layer != layers_.end() && layer->second.epoch < epoch) (void)layer_of(robot, epoch);
 }
 
 /// Where the items of a robot's epoch go; null where they are of an earlier one, or of one robot too many.
@@ -76,15 +88,16 @@ Result<void> Exchange::receive(std::span<const std::byte> datagram, Time now) {
   }
   link->last_heard = now;
   link->received_bytes += datagram.size();
-  return std::visit([&](const auto& content) { return take(*link, content, now); }, decoded->content);
+  return std::visit([&](const auto& content) { return take(sender, *link, content, now); }, decoded->content);
 }
 
-Result<void> Exchange::take(Link& link, const Hello& hello, Time now) {
+Result<void> Exchange::take(RobotId sender, Link& link, const Hello& hello, Time now) {
   if (hello.epoch < link.epoch || (hello.epoch == link.epoch && hello.stamp <= link.echo.stamp)) return {};  // late
   if (hello.epoch != link.epoch) {  // it began anew, and may know nothing any more
     link.told = false;
     link.known.clear();
   }
+  hear_of(sender, hello.epoch);
   link.name = hello.name;
   link.epoch = hello.epoch;
   link.newest = hello.newest;
@@ -100,14 +113,17 @@ Duration Exchange::way_of(const Link& link) const {
   return link.clock.longest_way().value_or(config_.longest_way) + kTick;
 }
 
-Result<void> Exchange::take(Link& link, const Digest& digest, Time now) {
+Result<void> Exchange::take(RobotId /*sender*/, Link& link, const Digest& digest, Time now) {
   link.told = true;
   for (const Digest::Layer& layer : digest.layers) {
     if (link.known.size() < Digest::kMaxLayers || link.known.contains(layer.robot))
       link.known[layer.robot] = {layer.epoch, layer.direct, layer.known};
-    const bool of_the_past = layer.epoch == epoch() && !layer.known.ranges().empty() &&
-                             layer.known.ranges().back().last > layers_.at(self_).holding.newest();
-    if (layer.robot == self_ && (layer.epoch > epoch() || of_the_past)) overtaken_by_ = layer.epoch;
+    if (layer.robot != self_) {
+      hear_of(layer.robot, layer.epoch);
+    } else if (layer.epoch > epoch() ||
+               (layer.epoch == epoch() && layer.known.last() > layers_.at(self_).holding.newest())) {
+      outdo(layer.epoch);
+    }
   }
   std::erase_if(link.in_flight, [&](const auto& sent) {
     const auto told = std::ranges::find(digest.layers, sent.first.first, &Digest::Layer::robot);
@@ -117,7 +133,7 @@ Result<void> Exchange::take(Link& link, const Digest& digest, Time now) {
   return {};
 }
 
-Result<void> Exchange::take(Link& link, const Items& items, Time /*now*/) {
+Result<void> Exchange::take(RobotId /*sender*/, Link& link, const Items& items, Time /*now*/) {
   if (items.robot == self_) return {};  // from before this robot's last beginning
   Layer* layer = layer_of(items.robot, items.epoch);
   if (layer == nullptr) return {};

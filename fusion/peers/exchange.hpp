@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <functional>
 #include <map>
-#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -75,6 +74,8 @@ class Exchange {
   void set_urgency(Urgency urgency) { urgency_ = std::move(urgency); }
 
   [[nodiscard]] RobotId self() const { return self_; }
+  /// The last one begun; or a later one, after a peer turned out to hold something of this robot that it never said:
+  /// of a later epoch, or from before it forgot which one it was in. What it has said is said again then.
   [[nodiscard]] Epoch epoch() const { return layers_.at(self_).epoch; }
   /// Everyone's layers, one's own too.
   [[nodiscard]] const std::map<RobotId, Layer>& layers() const { return layers_; }
@@ -82,10 +83,6 @@ class Exchange {
   [[nodiscard]] bool hears(RobotId robot, Time now) const;
   /// What changed since the last call.
   [[nodiscard]] Changes take_changes();
-  /// Another holds something of this robot that this one never said: of a later epoch, or from before it forgot which
-  /// epoch it was in. Its own news would be taken for old; begin() with more than this is due. Nothing where all is
-  /// well.
-  [[nodiscard]] std::optional<Epoch> overtaken_by() const { return overtaken_by_; }
 
  private:
   [[nodiscard]] Duration way_of(const Link& link) const;
@@ -95,9 +92,11 @@ class Exchange {
     const Layer& layer;
   };
 
-  Result<void> take(Link& link, const Hello& hello, Time now);
-  Result<void> take(Link& link, const Digest& digest, Time now);
-  Result<void> take(Link& link, const Items& items, Time now);
+  Result<void> take(RobotId sender, Link& link, const Hello& hello, Time now);
+  Result<void> take(RobotId sender, Link& link, const Digest& digest, Time now);
+  Result<void> take(RobotId sender, Link& link, const Items& items, Time now);
+  void outdo(Epoch epoch);
+  void hear_of(RobotId robot, Epoch epoch);
   Link* link_of(RobotId robot);
   Layer* layer_of(RobotId robot, Epoch epoch);
   void send_hello(Time now, std::vector<Outgoing>& out);
@@ -115,7 +114,6 @@ class Exchange {
   std::map<RobotId, Layer> layers_;
   std::map<RobotId, Link> links_;
   Changes changes_;
-  std::optional<Epoch> overtaken_by_;
   double bytes_ = 0;  // that may be sent
   Time last_send_ = Time::min(), next_hello_ = Time::min(), next_digest_ = Time::min(), last_full_digest_ = Time::min();
   std::set<RobotId> to_digest_;            // of whom more is known than the last digest said, or was asked

@@ -15,6 +15,7 @@ using RobotId = std::uint64_t;
 /// Numbers a robot's beginnings: what it said in an earlier one no longer holds. The highest is the newest; its upper
 /// half counts, its lower half is random, so that a robot that forgot the count does not take up an old number.
 using Epoch = std::uint64_t;
+inline constexpr Epoch kLastEpoch = Epoch{1} << 62U;
 
 enum class ItemKind : std::uint8_t {
   kTile = 0,    ///< own observations of one tile of a submap; payload: encode_tile()

@@ -31,6 +31,8 @@ class VersionSet {
   [[nodiscard]] std::span<const VersionRange> ranges() const { return ranges_; }
   /// Whether every version from 1 to `last` is in it.
   [[nodiscard]] bool complete(Version last) const;
+  /// The highest in it; 0 where it is empty.
+  [[nodiscard]] Version last() const { return ranges_.empty() ? 0 : ranges_.back().last; }
   void clear() { ranges_.clear(); }
 
   friend bool operator==(const VersionSet&, const VersionSet&) = default;

@@ -58,7 +58,6 @@ class Fleet {
       if (up(arrived.to) && !robot(arrived.to).receive(arrived.bytes, clock(arrived.to))) ++refused_;
     for (auto& [id, robot] : robots_) {
       if (!robot.exchange) continue;
-      if (const auto later = robot.exchange->overtaken_by()) robot.exchange->begin(*later + 1);
       send(id, robot);
     }
   }
