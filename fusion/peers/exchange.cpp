@@ -110,7 +110,7 @@ Result<void> Exchange::take(RobotId sender, Link& link, const Hello& hello, Time
 
 /// Time for a datagram and whatever answers it.
 Duration Exchange::way_of(const Link& link) const {
-  return link.clock.longest_way().value_or(config_.longest_way) + kTick;
+  return std::min(config_.longest_way, link.clock.longest_way().value_or(config_.longest_way)) + kTick;
 }
 
 Result<void> Exchange::take(RobotId /*sender*/, Link& link, const Digest& digest, Time now) {

@@ -23,7 +23,7 @@ struct ExchangeConfig {
   Duration digest_period = std::chrono::seconds(1);  ///< of robots of whom more is known than before
   Duration digest_repeat = std::chrono::seconds(3);  ///< of all
   Duration lease = std::chrono::seconds(3);          ///< a peer that was not heard for so long is lost
-  Duration longest_way = std::chrono::seconds(1);    ///< there and back, while a peer's is not known
+  Duration longest_way = std::chrono::seconds(2);    ///< there and back: what takes longer is taken for lost
   Duration gather = std::chrono::milliseconds(300);  ///< items wait so long for others to share a datagram with
   std::size_t overhead_bytes = 100;                  ///< of RTPS, UDP and IP with each datagram
   std::size_t max_bytes_per_robot = Holding::kMaxBytes;
