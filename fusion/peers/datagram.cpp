@@ -25,7 +25,7 @@ Result<Hello> read_hello(ByteReader& in) {
   const auto epoch = in.read<Epoch>();
   const auto newest = in.read<Version>();
   const auto stamp = in.read<std::int64_t>();
-  const auto length = in.read<std::uint8_t>();
+  const auto length = stamp ? in.read<std::uint8_t>() : std::nullopt;
   if (!length) return too_short();
   if (*epoch > kLastEpoch) return Error{Errc::kMalformed, "an epoch that cannot be"};
   if (!possible(*stamp)) return Error{Errc::kMalformed, "a clock beyond 36 years"};

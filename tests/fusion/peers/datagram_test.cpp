@@ -139,6 +139,20 @@ TEST(Datagram, SaysWhatIsWrong) {
   EXPECT_FALSE(decode_datagram(encode(1, Hello{1, 1, Time::max(), "a", {}})).has_value());
 }
 
+TEST(Datagram, EveryPrefixIsRefused) {
+  std::mt19937 random(3);
+  Digest digest;
+  digest.layers.push_back({9, 6, false, superseded(random)});
+  digest.layers.push_back({10, 600, true, {}});
+  const Said said = random_items(random, 1);
+  std::size_t count = 0;
+  for (const auto& bytes : {encode(1, Hello{7, 123, Time{}, "robot_1", {{2, Time{}, Duration{7}}}}), encode(2, digest),
+                            encode(4, Items{2, 11, superseded(random), said.updates}, count)}) {
+    ASSERT_TRUE(decode_datagram(bytes).has_value());
+    for (std::size_t n = 0; n < bytes.size(); ++n) EXPECT_FALSE(decode_datagram(std::span(bytes).first(n)).has_value());
+  }
+}
+
 TEST(Datagram, DamageAndCutsAreRefusedOrGiveWhatCanBe) {
   std::mt19937 random(2);
   for (int i = 0; i < 3000; ++i) {
