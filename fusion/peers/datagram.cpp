@@ -87,6 +87,7 @@ Result<Digest> read_digest(ByteReader& in) {
 Result<void> check_payload(const ItemUpdate& update) {
   switch (update.id.kind()) {
     case ItemKind::kTile: {
+      if (is_uniform_tile(update.payload)) return {};
       const auto tile = decode_tile(update.payload);
       if (!tile) return tile.error();
       return {};

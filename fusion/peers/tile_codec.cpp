@@ -184,15 +184,20 @@ void encode_tile(const TileState& state, std::vector<std::byte>& out) {
   put_grades(out, state);
 }
 
+bool is_uniform_tile(std::span<const std::byte> bytes) {
+  if (bytes.size() != 1) return false;
+  const auto byte = std::to_integer<unsigned>(bytes[0]);
+  const bool occupied = (byte & kUniformOccupied) != 0, high = (byte & 2U) != 0;
+  return (byte & ~unsigned{kUniformBits}) == 0 && (byte & kUniform) != 0 && (occupied || !high);
+}
+
 Result<TileState> decode_tile(std::span<const std::byte> bytes) {
   ByteReader in(bytes);
   const auto flags = in.read<std::uint8_t>();
   if (!flags) return Error{Errc::kTruncated, "a tile of no bytes"};
   if ((*flags & kUniform) != 0) {
-    const TileState state = uniform_tile(*flags);
-    if ((*flags & ~kUniformBits) != 0 || !state.valid() || in.remaining() != 0)
-      return Error{Errc::kMalformed, "no such uniform tile"};
-    return state;
+    if (!is_uniform_tile(bytes)) return Error{Errc::kMalformed, "no such uniform tile"};
+    return uniform_tile(*flags);
   }
   TileState state;
   if ((*flags & ~kBits) != 0 || !read_mixed(in, *flags, state) || in.remaining() != 0 || uniform(state) ||

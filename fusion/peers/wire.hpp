@@ -21,14 +21,16 @@ inline void append_varint(std::vector<std::byte>& out, std::uint64_t value) {
 
 /// Nothing where the bytes end, exceed 64 bits or are more than needed.
 [[nodiscard]] inline std::optional<std::uint64_t> read_varint(ByteReader& in) {
-  std::uint64_t value = 0;
-  for (unsigned shift = 0; shift < 64; shift += 7) {
+  const auto first = in.read<std::uint8_t>();
+  if (!first || *first < 0x80) return first;
+  std::uint64_t value = *first & 0x7FU;
+  for (unsigned shift = 7; shift < 64; shift += 7) {
     const auto byte = in.read<std::uint8_t>();
     if (!byte) return std::nullopt;
     const std::uint64_t bits = *byte & 0x7FU;
     if (shift == 63 && bits > 1) return std::nullopt;
     value |= bits << shift;
-    if ((*byte & 0x80U) == 0) return bits == 0 && shift > 0 ? std::nullopt : std::optional(value);
+    if ((*byte & 0x80U) == 0) return bits == 0 ? std::nullopt : std::optional(value);
   }
   return std::nullopt;
 }
