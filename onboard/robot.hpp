@@ -79,6 +79,8 @@ class Robot {
 
   [[nodiscard]] const std::vector<TrackPoint>& track() const { return track_; }
   [[nodiscard]] const SemanticOcTree& map() const { return mapper_.tree(); }
+  /// See Mapper::take_changed_tiles(). After a new epoch began, all of the map's.
+  [[nodiscard]] std::vector<TileKey> take_changed_tiles() { return mapper_.take_changed_tiles(); }
 
  private:
   SE3 T_base_lidar_;

@@ -10,7 +10,7 @@ declare -rA packages=(
   # the onboard program, the command line and the simulator
   [build]="g++ cmake ninja-build pkg-config ccache libeigen3-dev liboctomap-dev libpcap-dev libyaml-cpp-dev
            libspdlog-dev libcli11-dev nlohmann-json3-dev libexpected-dev libzstd-dev libxxhash-dev libpng-dev libssl-dev
-           libgpiod-dev libembree-dev libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev"
+           libgpiod-dev libembree-dev cyclonedds-dev cyclonedds-tools libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev"
   [test]="libgtest-dev libgmock-dev libbenchmark-dev"
   [bench]="libbenchmark-dev jq"
   # tools/protocol.sh alone: PCL's libraries without libpcl-dev, which depends on VTK, Qt and Java; see there for the headers
@@ -24,7 +24,7 @@ declare -rA packages=(
   # for another architecture, into a sysroot: Debian has no Embree for arm64, so the simulator is left out there
   [sysroot]="libc6-dev libstdc++-12-dev linux-libc-dev libeigen3-dev liboctomap-dev libpcap-dev libyaml-cpp-dev
              libspdlog-dev libcli11-dev nlohmann-json3-dev libexpected-dev libzstd-dev libxxhash-dev libpng-dev libssl-dev
-             libgpiod-dev libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev
+             libgpiod-dev cyclonedds-dev libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev
              libgtest-dev libgmock-dev"
 )
 

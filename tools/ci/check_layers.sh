@@ -86,7 +86,7 @@ deny "only hal/workers and onboard/scheduler/threads start threads" \
   '^hal/workers\.[ch]pp$|^onboard/scheduler/(threads\.[ch]pp|executive_threads\.cpp)$' "${all[@]}"
 # Local sockets alone (AF_UNIX): the service manager's and the live view's, which housekeeping serves and no real-time
 # thread. Whatever comes from another machine enters by a driver.
-readonly local_sockets='onboard/app/(sd_notify|live_server)\.cpp|tools/cli/top/live_client\.cpp|tests/support/local_socket\.hpp'
+readonly local_sockets='onboard/app/(sd_notify|live_server)\.cpp|tools/cli/top/live_client\.cpp|tests/support/local_socket\.hpp|drivers/peers/local_link\.cpp'
 deny "sockets belong to drivers" "put it into drivers/*/udp_* or socketcan_*, behind a Source" \
   "$(inc '(sys/socket|sys/un|netinet/|netdb|net/if|netpacket/|linux/(can|if_|net))')" \
   "^(drivers|tests/drivers)/[a-z_]+/(udp|socketcan)_[a-z_]*\\.|^tests/vm/uvc_camera\\.cpp$|^($local_sockets)$" "${all[@]}"

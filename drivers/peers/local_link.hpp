@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+#include "drivers/peers/link_frame.hpp"
+#include "hal/result.hpp"
+
+namespace cairn::peers {
+
+/// One end of the local socket (SOCK_SEQPACKET) between a core and its peer process. Never waits: what the other end
+/// does not take in time is lost and counted. Either end may die and come back.
+class LocalLink {
+ public:
+  struct Counters {
+    std::uint64_t sent = 0, received = 0, lost = 0, refused = 0, connections = 0;
+  };
+
+  /// The core's end: the other one comes to it. A socket that a dead core left is replaced. Errors: kInvalidConfig
+  /// (path too long), kIo (another core serves it; the system refused).
+  static Result<LocalLink> listen(const std::filesystem::path& path);
+  /// The peer process's end; it connects when it can, and again when the core went away.
+  static LocalLink connect(std::filesystem::path path);
+  LocalLink(LocalLink&& other) noexcept;
+  LocalLink& operator=(LocalLink&&) = delete;
+  ~LocalLink();
+
+  /// Makes or takes a connection if there is none. True: there is one.
+  bool join();
+  /// False where it was lost.
+  bool send(const LinkFrame& frame);
+  /// The next frame, with its bytes in `memory`; nothing where none is there. Frames that cannot be are counted and
+  /// passed over.
+  [[nodiscard]] bool receive(std::vector<std::byte>& memory, LinkFrame& frame);
+  /// To be waited for with poll(); −1 without a connection.
+  [[nodiscard]] int readable_fd() const { return fd_; }
+  [[nodiscard]] const Counters& counters() const { return counters_; }
+
+ private:
+  LocalLink(std::filesystem::path path, int listener) : path_(std::move(path)), listener_(listener) {}
+  void drop();
+
+  std::filesystem::path path_;
+  int listener_ = -1;  // the core's alone
+  int fd_ = -1;
+  std::vector<std::byte> out_;
+  Counters counters_;
+};
+
+}  // namespace cairn::peers

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// The peer process: all that a robot hears of others comes in here, over Cyclone DDS, and goes to the core over a
+// local socket, and the other way round. It knows no device, keeps no state, and may die at any time.
+#include <fmt/format.h>
+#include <poll.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <csignal>
+#include <cstdio>
+#include <string>
+#include <vector>
+
+#include "drivers/peers/dds_team.hpp"
+#include "drivers/peers/local_link.hpp"
+#include "drivers/peers/udp_limiter.hpp"
+
+namespace cairn::peers {
+namespace {
+
+volatile std::sig_atomic_t g_stop = 0;
+
+struct Options {
+  DdsConfig dds;
+  std::string socket;
+  std::size_t bytes_per_second = 32000;
+  bool quiet = false;
+};
+
+/// From the core to the team.
+void send_all(LocalLink& link, DdsTeam& team, std::vector<std::byte>& memory) {
+  for (LinkFrame frame; link.receive(memory, frame);) {
+    if (frame.kind != LinkFrame::Kind::kSend) continue;
+    if (const auto sent = team.send(frame.robot, frame.bytes); !sent)
+      fmt::print(stderr, "cairn-peers: {}\n", to_string(sent.error()));
+  }
+}
+
+/// From the team to the core.
+void receive_all(DdsTeam& team, LocalLink& link, std::vector<DdsTeam::Received>& received) {
+  received.clear();
+  team.receive(received);
+  for (const auto& datagram : received)
+    if (datagram.bytes.size() <= LinkFrame::kMaxBytes)
+      link.send({LinkFrame::Kind::kReceived, datagram.sender, datagram.bytes});
+}
+
+int run(const Options& options) {
+  limit_udp({options.bytes_per_second});
+  auto team = DdsTeam::open(options.dds);
+  if (!team) {
+    fmt::print(stderr, "cairn-peers: {}\n", to_string(team.error()));
+    return 1;
+  }
+  LocalLink link = LocalLink::connect(options.socket);
+  std::vector<std::byte> memory;
+  std::vector<DdsTeam::Received> received;
+  while (g_stop == 0) {
+    constexpr int kRetryMs = 200;  // a core that is not there yet, or not any more
+    link.join();
+    std::array<pollfd, 2> waited{{{(*team)->readable_fd(), POLLIN, 0}, {link.readable_fd(), POLLIN, 0}}};
+    (void)::poll(waited.data(), waited.size(), kRetryMs);
+    receive_all(**team, link, received);
+    send_all(link, **team, memory);
+  }
+  const UdpCounters counters = udp_counters();
+  if (!options.quiet)
+    fmt::print(stderr, "cairn-peers: sent {} bytes in {} datagrams, dropped {} for the cap\n", counters.sent_bytes,
+               counters.sent, counters.dropped);
+  return 0;
+}
+
+}  // namespace
+}  // namespace cairn::peers
+
+int main(int argc, char** argv) {
+  using namespace cairn::peers;
+  Options options;
+  CLI::App app("the peer process of a robot: joins its core to the team over Cyclone DDS");
+  app.add_option("--robot", options.dds.robot, "this robot's id, its own in the team")->required();
+  app.add_option("--socket", options.socket, "local socket of the core")->required();
+  app.add_option("--peer", options.dds.peers, "address of a teammate; again for each")->required();
+  app.add_option("--interface", options.dds.interface, "network interface, by name or address");
+  app.add_option("--domain", options.dds.domain, "DDS domain of the team")->capture_default_str();
+  app.add_option("--bytes-per-second", options.bytes_per_second, "cap on all that is sent, headers included")
+      ->capture_default_str();
+  app.add_flag("--quiet", options.quiet, "no summary at the end");
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+  std::signal(SIGINT, [](int) { g_stop = 1; });
+  std::signal(SIGTERM, [](int) { g_stop = 1; });
+  return run(options);
+}

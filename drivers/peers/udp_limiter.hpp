@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace cairn::peers {
+
+/// A cap on all that this process sends over the network, whoever in it sends: the DDS library's discovery, heartbeats
+/// and answers too. sendmsg() of this program stands before the C library's; what goes to an internet address and is
+/// beyond the cap is dropped, as a bad link would drop it. Only in programs that link udp_limiter.cpp.
+struct UdpLimits {
+  std::size_t bytes_per_second = 0;  ///< UDP and IP headers included; 0: no cap
+};
+void limit_udp(const UdpLimits& limits);
+
+struct UdpCounters {
+  std::uint64_t sent_bytes = 0, sent = 0, dropped = 0;
+};
+[[nodiscard]] UdpCounters udp_counters();
+
+}  // namespace cairn::peers

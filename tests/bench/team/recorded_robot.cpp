@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/bench/team/recorded_robot.hpp"
+
+#include <algorithm>
+
+#include "drivers/recording/recording_reader.hpp"
+#include "drivers/velodyne/lidar.hpp"
+#include "onboard/app/robot_profile.hpp"
+
+namespace cairn::bench {
+
+namespace fs = std::filesystem;
+
+RecordedRobot::RecordedRobot(const RobotConfig& robot, const TeamConfig& config)
+    : team(config, config.id | std::uint64_t{1} << 32U), robot_(robot, workers_, workers_, monitor_) {}
+
+Result<std::unique_ptr<RecordedRobot>> RecordedRobot::open(const fs::path& dir, const TeamConfig& config) {
+  const auto recording = recording::load_recording(dir);
+  if (!recording) return recording.error();
+  auto truth = recording::read_tum(dir / "ground_truth.tum");
+  if (!truth) return truth.error();
+  const auto entry = std::ranges::find(recording->sources, recording::kVelodyne, &recording::SourceEntry::kind);
+  if (entry == recording->sources.end() || truth->empty())
+    return Error{Errc::kNotFound, "no LiDAR or no true pose in the recording", dir.string()};
+  const auto index = static_cast<std::size_t>(entry - recording->sources.begin());
+  auto source = recording::open_recorded_source(dir, *recording, index);
+  if (!source) return source.error();
+
+  RobotProfile profile;
+  profile.mapping.resolution_m = config.resolution_m;
+  RobotConfig robot_config = profile.robot();
+  robot_config.T_base_lidar = entry->T_base_sensor();
+  auto robot = std::unique_ptr<RecordedRobot>(new RecordedRobot(robot_config, config));
+  velodyne::Config lidar;
+  lidar.model = entry->model;
+  auto decoder = velodyne::Lidar::create(lidar, static_cast<SourceId>(index), robot->monitor_);
+  if (!decoder) return decoder.error();
+  robot->decoder_ = *std::move(decoder);
+  robot->source_ = *std::move(source);
+  robot->truth_ = *std::move(truth);
+  robot->start_ = robot->truth_.front().stamp;
+  return robot;
+}
+
+Result<void> RecordedRobot::advance(Time now) {
+  while (!ended_) {
+    if (!pending_) {
+      const auto poll = source_->next(packet_, {});
+      if (!poll) return poll.error();
+      ended_ = *poll == Poll::kEnd;
+      if (*poll != Poll::kPacket) continue;
+      pending_ = true;
+    }
+    if (packet_.arrival - start_ > now.time_since_epoch()) return {};
+    pending_ = false;
+    raw_bytes_ += packet_.bytes.size();
+    const auto scan = decoder_->decode(packet_);
+    if (scan && *scan != nullptr) take(**scan, now);
+  }
+  return {};
+}
+
+void RecordedRobot::take(const Scan& scan, Time now) {
+  Budget budget = Budget::steps(1000);
+  if (!robot_.locate(scan, budget, located_) || !robot_.extend_map(located_)) return;
+  for (const TileKey tile : robot_.take_changed_tiles()) team.observe(tile, read_tile(robot_.map(), tile), now);
+}
+
+SE3 RecordedRobot::T_world_odom() const {
+  const TrackPoint& last = robot_.track().back();
+  const auto next = std::ranges::lower_bound(truth_, last.stamp, {}, &recording::StampedPose::stamp);
+  if (next == truth_.begin()) return next->pose * last.T_odom_base.mean.inverse();
+  if (next == truth_.end()) return truth_.back().pose * last.T_odom_base.mean.inverse();
+  const auto before = std::prev(next);
+  const double f = to_seconds(last.stamp - before->stamp) / to_seconds(next->stamp - before->stamp);
+  const SE3 truth(before->pose.quaternion().slerp(f, next->pose.quaternion()),
+                  (1 - f) * before->pose.translation() + f * next->pose.translation());
+  return truth * last.T_odom_base.mean.inverse();
+}
+
+}  // namespace cairn::bench

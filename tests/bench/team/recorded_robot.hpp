@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <vector>
+
+#include "drivers/recording/trajectory_file.hpp"
+#include "fusion/team.hpp"
+#include "hal/monitor.hpp"
+#include "hal/ports.hpp"
+#include "hal/result.hpp"
+#include "hal/workers.hpp"
+#include "onboard/robot.hpp"
+
+namespace cairn::bench {
+
+/// A robot of a team whose LiDAR is a simulated recording: odometry, mapping and its part in the team, in virtual time.
+class RecordedRobot {
+ public:
+  /// Errors: those of the recording's files; kNotFound without a LiDAR or ground truth.
+  static Result<std::unique_ptr<RecordedRobot>> open(const std::filesystem::path& recording, const TeamConfig& config);
+
+  /// Takes in what the LiDAR sent until `now`, which counts from the recording's start.
+  Result<void> advance(Time now);
+  [[nodiscard]] bool ended() const { return ended_; }
+
+  /// Where odom lies in the world, by where the robot truly is and where it thinks it is.
+  [[nodiscard]] SE3 T_world_odom() const;
+  [[nodiscard]] const Robot& robot() const { return robot_; }
+  [[nodiscard]] std::uint64_t raw_bytes() const { return raw_bytes_; }
+
+  Team team;
+  std::uint64_t sent_bytes = 0, received_bytes = 0;
+
+ private:
+  RecordedRobot(const RobotConfig& robot, const TeamConfig& config);
+  void take(const Scan& scan, Time now);
+
+  Monitor monitor_;
+  Workers workers_{1};
+  Robot robot_;
+  std::unique_ptr<Source> source_;
+  std::unique_ptr<ScanDecoder> decoder_;
+  std::vector<recording::StampedPose> truth_;
+  Packet packet_;
+  bool pending_ = false, ended_ = false;
+  Time start_{};
+  std::uint64_t raw_bytes_ = 0;
+  LocatedScan located_;
+};
+
+}  // namespace cairn::bench
