@@ -8,16 +8,19 @@
 
 namespace cairn::peers {
 
-/// Never lets more than `rate` bytes through in any second: what has gathered is at most half of that, and it refills
-/// at half of it, so that a burst after a pause and the refill of the same second are the rate together.
+/// Never lets more than `bytes_per_second` through in any second: what may gather in a pause (an eighth of that, and two
+/// datagrams at least) and what is refilled within a second are the rate together.
 class TokenBucket {
  public:
-  explicit TokenBucket(double bytes_per_second) : rate_(bytes_per_second), level_(bytes_per_second / 2) {}
+  explicit TokenBucket(double bytes_per_second)
+      : burst_(std::min(bytes_per_second / 2, std::max(kTwoDatagrams, bytes_per_second / 8))),
+        refill_(bytes_per_second - burst_),
+        level_(burst_) {}
 
   /// Whether `bytes` may go now; they are counted then.
   [[nodiscard]] bool take(std::size_t bytes, Time now) {
     if (now > last_) {
-      level_ = std::min(rate_ / 2, level_ + rate_ / 2 * to_seconds(now - last_));
+      level_ = std::min(burst_, level_ + refill_ * to_seconds(now - last_));
       last_ = now;
     }
     if (static_cast<double>(bytes) > level_) return false;
@@ -26,7 +29,9 @@ class TokenBucket {
   }
 
  private:
-  double rate_, level_;
+  static constexpr double kTwoDatagrams = 2800;
+
+  double burst_, refill_, level_;
   Time last_{};
 };
 

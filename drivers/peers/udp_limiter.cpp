@@ -13,7 +13,7 @@
 namespace cairn::peers {
 namespace {
 
-constexpr std::size_t kHeaders = 28;  // IPv4 and UDP
+constexpr std::size_t kHeaders = 14 + 20 + 8;  // Ethernet, IPv4, UDP
 
 class Limiter {
  public:

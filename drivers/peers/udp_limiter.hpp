@@ -10,7 +10,7 @@ namespace cairn::peers {
 /// and answers too. sendmsg() of this program stands before the C library's; what goes to an internet address and is
 /// beyond the cap is dropped, as a bad link would drop it. Only in programs that link udp_limiter.cpp.
 struct UdpLimits {
-  std::size_t bytes_per_second = 0;  ///< UDP and IP headers included; 0: no cap
+  std::size_t bytes_per_second = 0;  ///< UDP, IP and Ethernet headers included; 0: no cap
 };
 void limit_udp(const UdpLimits& limits);
 

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+#include <poll.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "drivers/peers/local_link.hpp"
+#include "hal/clock.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace cairn::peers {
+
+/// A peer process and the core's end of its socket.
+class Peer {
+ public:
+  Peer(std::uint64_t robot, const std::filesystem::path& folder, std::string domain, std::string cap = "1000000")
+      : robot_(std::to_string(robot)),
+        socket_(folder / ("peers" + robot_ + ".sock")),
+        domain_(std::move(domain)),
+        cap_(std::move(cap)),
+        link(LocalLink::listen(socket_).value()) {
+    start();
+  }
+  Peer(const Peer&) = delete;
+  Peer& operator=(const Peer&) = delete;
+  ~Peer() { stop(SIGTERM); }
+
+  void start() {
+    std::vector<std::string> words{CAIRN_PEERS,          "--robot",     robot_, "--socket", socket_, "--peer",
+                                   "127.0.0.1",          "--interface", "lo",   "--domain", domain_, "--quiet",
+                                   "--bytes-per-second", cap_};
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    ASSERT_EQ(::posix_spawn(&process_, CAIRN_PEERS, nullptr, nullptr, arguments.data(), environ), 0);
+  }
+  void signal(int number) const { ::kill(process_, number); }
+  int stop(int signal) {
+    int status = 0;
+    if (process_ > 0) {
+      ::kill(process_, signal);
+      ::waitpid(process_, &status, 0);
+    }
+    process_ = 0;
+    return status;
+  }
+  /// Bytes that came within a moment.
+  std::vector<std::vector<std::byte>> received() {
+    link.join();
+    pollfd waited{link.readable_fd(), POLLIN, 0};
+    (void)::poll(&waited, 1, 20);
+    std::vector<std::vector<std::byte>> all;
+    std::vector<std::byte> memory;
+    for (LinkFrame frame; link.receive(memory, frame);) all.emplace_back(frame.bytes.begin(), frame.bytes.end());
+    return all;
+  }
+
+ private:
+  std::string robot_;
+  std::filesystem::path socket_;
+  std::string domain_, cap_;
+  ::pid_t process_ = 0;
+
+ public:
+  LocalLink link;
+};
+
+inline std::vector<std::byte> datagram(unsigned kind, std::size_t size) {
+  std::vector<std::byte> bytes(size, std::byte{7});
+  bytes[0] = std::byte{1};
+  bytes[1] = static_cast<std::byte>(kind);
+  return bytes;
+}
+
+/// Sends until the other side has it: discovery takes a moment, and nothing is kept for who is not there.
+inline bool arrives(Peer& from, Peer& to, std::uint64_t robot, const std::vector<std::byte>& bytes) {
+  const LiveClock clock;
+  for (const Time end = clock.now() + std::chrono::seconds(30); clock.now() < end;) {
+    from.link.join();
+    from.link.send({LinkFrame::Kind::kSend, robot, bytes});
+    for (const auto& got : to.received())
+      if (got == bytes) return true;
+  }
+  return false;
+}
+
+}  // namespace cairn::peers
