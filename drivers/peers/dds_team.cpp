@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/peers/dds_team.hpp"
 
+#include <cairn.h>  // of idl/cairn.idl
 #include <dds/dds.h>
 #include <fmt/format.h>
 #include <sys/eventfd.h>
@@ -11,7 +12,6 @@
 #include <map>
 #include <utility>
 
-#include "cairn.h"
 #include "drivers/peers/link_frame.hpp"
 
 namespace cairn::peers {

@@ -72,7 +72,7 @@ for driver in drivers/*/; do
 done
 deny "decoding is pure: it never knows its transport" "decode a std::span; the transport calls the decoder" \
   "$(inc '(drivers/[a-z_]+/(udp|pcap|v4l2|socketcan|libgpiod)_?|sys/socket|pcap|gpiod)')" \
-  '/(udp|pcap|v4l2|socketcan|libgpiod|import|record)[a-z0-9_]*\.|^drivers/recording/' "${drivers[@]}"
+  '/(udp|pcap|v4l2|socketcan|libgpiod|import|record)[a-z0-9_]*\.|^drivers/recording/|^drivers/peers/(local_link|peer_process)\.' "${drivers[@]}"
 
 # Time, threads, devices
 deny "only hal/clock.cpp reads the machine's clock" "take a Clock or a Time as argument; CPU time is thread_cpu_time()" \
