@@ -90,9 +90,10 @@ TileBox Placement::touched_by(TileKey tile) const {
   const auto first = first_voxel(tile);
   const Fixed centre =
       moved(team_from_submap_, {2 * first[0] + kTileEdge, 2 * first[1] + kTileEdge, 2 * first[2] + kTileEdge});
+  constexpr std::int64_t kHalf = std::int64_t{1} << (kBits - 1), kSlack = std::int64_t{1} << (kBits - 10);
   TileBox box;
   for (std::size_t i = 0; i < 3; ++i) {
-    std::int64_t reach = std::int64_t{1} << kBits;  // a voxel's centre decides
+    std::int64_t reach = kSlack - kHalf;  // it is the voxels' centres that must lie within
     for (std::size_t k = 0; k < 3; ++k) reach += std::abs(team_from_submap_.rotation[i][k]) * kTileEdge / 2;
     box.low[static_cast<Eigen::Index>(i)] = tile_coordinate(centre[i] - reach);
     box.high[static_cast<Eigen::Index>(i)] = tile_coordinate(centre[i] + reach);

@@ -11,6 +11,7 @@ namespace cairn::merging {
 namespace {
 
 constexpr unsigned kRegionBits = 9;  // 8³ tiles
+constexpr unsigned kTurns = 4;       // of so many steps one is for what is shown
 constexpr int kMarkedAtOnce = 16;    // tiles in a step
 constexpr int kTilesAcross = 1 << 13;
 constexpr float kSteps = 1024;  // of log-odds
@@ -46,11 +47,12 @@ void TeamMap::put(const SubmapKey& submap, TileKey tile, const TileState& state,
     layer.erase(tile);
   else
     layer.insert_or_assign(tile, ReceivedTile{state, stamp});
-  for (View* view : {&shown_, next_ ? &*next_ : nullptr}) {
-    if (view == nullptr) continue;
-    const auto placement = view->placements.find(submap);
-    if (placement != view->placements.end()) mark(*view, placement->second, tile);
-  }
+  const auto mark_in = [&](const View& view, Dirty& dirty) {
+    const auto placement = view.placements.find(submap);
+    if (placement != view.placements.end()) mark(dirty, placement->second, tile);
+  };
+  mark_in(shown_, shown_.dirty);
+  if (next_) mark_in(*next_, next_->later);
 }
 
 void TeamMap::drop(std::uint64_t robot) {
@@ -80,9 +82,9 @@ void TeamMap::begin_wanted() {
   next_ = std::move(view);
 }
 
-void TeamMap::mark(View& view, const Placement& placement, TileKey tile) {
+void TeamMap::mark(Dirty& dirty, const Placement& placement, TileKey tile) {
   for_each_tile(placement.touched_by(tile),
-                [&](TileKey touched) { view.dirty[touched.morton >> kRegionBits].insert(touched); });
+                [&](TileKey touched) { dirty[touched.morton >> kRegionBits].insert(touched); });
 }
 
 void TeamMap::mark_some(View& view) const {
@@ -91,7 +93,7 @@ void TeamMap::mark_some(View& view) const {
   if (layer != layers_.end()) {
     auto tile = view.marked ? layer->second.upper_bound(*view.marked) : layer->second.begin();
     for (int i = 0; i < kMarkedAtOnce && tile != layer->second.end(); ++i, ++tile) {
-      mark(view, placement->second, tile->first);
+      mark(view.dirty, placement->second, tile->first);
       view.marked = tile->first;
     }
     if (tile != layer->second.end()) return;
@@ -149,17 +151,22 @@ void TeamMap::step(View& view) {
     fuse_tile(view, take_nearest(view));
 }
 
+void TeamMap::show_next() {
+  shown_ = std::move(*next_);
+  shown_.dirty = std::exchange(shown_.later, {});
+  next_.reset();
+  begin_wanted();
+}
+
 bool TeamMap::fuse(Budget& budget) {
   while (!up_to_date() && budget.one_more()) {
-    if (!complete(shown_)) {
+    // What is shown is kept up to date, but must not starve what is to come: tiles may change faster than both can be.
+    const bool for_shown = !complete(shown_) && (!next_ || complete(*next_) || ++turn_ % kTurns == 0);
+    if (for_shown)
       step(shown_);
-      continue;
-    }
-    if (!complete(*next_)) step(*next_);
-    if (!complete(*next_)) continue;
-    shown_ = std::move(*next_);
-    next_.reset();
-    begin_wanted();
+    else if (!complete(*next_))
+      step(*next_);
+    if (next_ && complete(*next_)) show_next();
   }
   return up_to_date();
 }

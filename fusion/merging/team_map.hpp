@@ -69,25 +69,27 @@ class TeamMap {
   [[nodiscard]] Origin origin_of(TileKey tile) const;
 
  private:
+  using Dirty = std::map<std::uint64_t, std::set<TileKey>>;  // by region: tiles to be fused
   /// One map, for one set of poses.
   struct View {
     SubmapPoses poses;
     std::map<SubmapKey, Placement> placements;
     std::unique_ptr<SemanticOcTree> fused;
-    std::map<std::uint64_t, std::set<TileKey>> dirty;  // by region: tiles to be fused
-    std::optional<std::uint64_t> region;               // being worked on
+    Dirty dirty, later;                   // later: changed while the view was being built
+    std::optional<std::uint64_t> region;  // being worked on
     // Of a new view: whose tiles are marking what they touch, and the last that has; none: all have.
     std::optional<SubmapKey> marking;
     std::optional<TileKey> marked;
   };
   [[nodiscard]] View view_of(const SubmapPoses& poses) const;
   [[nodiscard]] static bool complete(const View& view) { return !view.marking && view.dirty.empty(); }
-  static void mark(View& view, const Placement& placement, TileKey tile);
+  static void mark(Dirty& dirty, const Placement& placement, TileKey tile);
   void mark_some(View& view) const;
   void step(View& view);
   [[nodiscard]] TileKey take_nearest(View& view) const;
   void fuse_tile(View& view, TileKey tile);
   void begin_wanted();
+  void show_next();
 
   double resolution_m_;
   std::map<SubmapKey, TileLayer> layers_;
@@ -95,6 +97,7 @@ class TeamMap {
   std::optional<View> next_;
   SubmapPoses wanted_;
   bool redo_ = false;  // shown_ and next_ hold what is to be forgotten
+  unsigned turn_ = 0;
   Eigen::Vector3d focus_ = Eigen::Vector3d::Zero();
   RememberedFold fold_;
   std::vector<TileVoxels> voxels_;  // of a tile, by submap; reused

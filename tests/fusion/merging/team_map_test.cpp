@@ -151,6 +151,20 @@ TEST(TeamMap, IsOfOneSetOfPosesAtAnyTime) {
   EXPECT_GT(steps, 50);
 }
 
+TEST(TeamMap, NewPosesComeThroughWhileTilesGoOnChanging) {
+  const Tiles tiles = random_tiles(7, 2), others = random_tiles(8, 2);
+  auto map = fused(tiles, poses_of(tiles));
+  map->place(poses_of(tiles, 2));
+  int rounds = 0;
+  for (; map->poses().at({2, 0}).matrix() != poses_of(tiles, 2).at({2, 0}).matrix(); ++rounds) {
+    ASSERT_LT(rounds, 200);
+    put_all(*map, rounds % 2 == 0 ? others : tiles);  // more than can be fused
+    Budget few = Budget::steps(30);
+    EXPECT_FALSE(map->fuse(few));
+  }
+  EXPECT_GT(rounds, 5);
+}
+
 TEST(TeamMap, SaysWhoHadASay) {
   const Tiles tiles = random_tiles(8, 3);
   const auto map = fused(tiles, poses_of(tiles));
