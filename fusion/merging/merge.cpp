@@ -14,6 +14,7 @@ namespace cairn::merging {
 namespace {
 
 constexpr int kEdge = 1 << SemanticOcTree::kDepth;
+constexpr std::int64_t kNodesOfBrick = 64;  // what looking into a brick counts for, and its voxels on top of it
 
 /// Builds the fused tree from the root down, and stops dividing where nobody's map divides.
 class Fusion {
@@ -30,7 +31,8 @@ class Fusion {
       if (options.own == robot) own_ = views_.size();
       views_.emplace_back(*contribution.map, contribution.T_fused_map, fused.getResolution());
     }
-    octets_.resize(views_.size());
+    contents_.resize(views_.size());
+    bricks_.resize(views_.size());
     places_.resize(SemanticOcTree::kDepth + 2, {});
     for (const Resampled& view : views_) places_[0].push_back(view.root());
   }
@@ -49,50 +51,49 @@ class Fusion {
   /// Fills in the node of one cube; false when nobody knows anything of it, and the node is to be taken back.
   // NOLINTNEXTLINE(misc-no-recursion)
   bool fuse(const Eigen::Vector3i& first, int edge, std::size_t depth, SemanticNode* node) {
-    if (edge == 2) return fuse_octet(first, depth, node);
     if (++nodes_ >= max_nodes_) return false;
     bool mixed = false;
     forget_opinions();
     places_[depth + 1] = places_[depth];
     for (std::size_t i = 0; i < views_.size(); ++i) {
-      const Content content = views_[i].look(first, edge, places_[depth + 1][i]);
-      mixed = mixed || content.kind == Content::Kind::kMixed;
-      if (content.kind == Content::Kind::kUniform) add_opinion(i, content.log_odds);
+      contents_[i] = views_[i].look(first, edge, places_[depth + 1][i]);
+      mixed = mixed || contents_[i].kind == Content::Kind::kMixed;
+      if (contents_[i].kind == Content::Kind::kUniform) add_opinion(i, contents_[i].log_odds);
     }
-    if (mixed) return divide(first, edge, depth, node);
+    if (mixed) return edge == kBrickEdge ? fuse_brick(first, depth, node) : divide(first, edge, depth, node);
     if (opinions_.empty()) return false;
     node->setLogOdds(folded());
     return true;
   }
 
-  /// The last two levels at once.
-  bool fuse_octet(const Eigen::Vector3i& first, std::size_t depth, SemanticNode* node) {
-    nodes_ += 1 + SemanticNode::kChildren;
-    if (nodes_ >= max_nodes_) return false;
-    for (std::size_t i = 0; i < views_.size(); ++i) octets_[i] = views_[i].octet(first, places_[depth][i]);
-    NodeWriter& writer = fused_.writer(0);
-    bool made = false;
-    for (unsigned k = 0; k < SemanticNode::kChildren; ++k) {
-      const float fused = fused_voxel(k);
-      if (fused != SemanticNode::kAbsent) writer.child(node, k, made)->setLogOdds(fused);
+  /// The last three levels at once, of a cube that somebody's map divides.
+  bool fuse_brick(const Eigen::Vector3i& first, std::size_t depth, SemanticNode* node) {
+    for (std::size_t i = 0; i < views_.size(); ++i) {
+      if (contents_[i].kind == Content::Kind::kMixed)
+        views_[i].read(first, places_[depth + 1][i], bricks_[i]);
+      else
+        bricks_[i].fill(contents_[i].kind == Content::Kind::kUniform ? contents_[i].log_odds : SemanticNode::kAbsent);
     }
-    if (made) writer.refresh(node);
-    return made;
+    for (std::size_t k = 0; k < kBrickVoxels; ++k) fused_brick_[k] = fused_voxel(k);
+    const std::int64_t known =
+        kBrickVoxels - std::count(fused_brick_.begin(), fused_brick_.end(), SemanticNode::kAbsent);
+    nodes_ += kNodesOfBrick + known;
+    return nodes_ < max_nodes_ && write_brick(fused_brick_, fused_.writer(0), node);
   }
 
-  /// Of voxel `k` of the octets at hand. One opinion stays what it is, under any policy.
-  float fused_voxel(unsigned k) {
+  /// Of voxel `k` of the bricks at hand. One opinion stays what it is, under any policy.
+  float fused_voxel(std::size_t k) {
     float only = SemanticNode::kAbsent;
     int known = 0;
-    for (const auto& octet : octets_)
-      if (octet[k] != SemanticNode::kAbsent) {
-        only = octet[k];
-        ++known;
-      }
+    for (const Brick& brick : bricks_) {
+      const bool here = brick[k] != SemanticNode::kAbsent;
+      only = here ? brick[k] : only;
+      known += here ? 1 : 0;
+    }
     if (known <= 1) return only;
     forget_opinions();
-    for (std::size_t i = 0; i < octets_.size(); ++i)
-      if (octets_[i][k] != SemanticNode::kAbsent) add_opinion(i, octets_[i][k]);
+    for (std::size_t i = 0; i < bricks_.size(); ++i)
+      if (bricks_[i][k] != SemanticNode::kAbsent) add_opinion(i, bricks_[i][k]);
     return folded();
   }
 
@@ -153,8 +154,10 @@ class Fusion {
   std::vector<Resampled> views_;
   std::optional<std::size_t> own_;
   std::vector<std::vector<Resampled::Place>> places_;  // by depth
-  std::vector<std::array<float, 8>> octets_;           // by view
-  std::vector<float> opinions_;                        // about the cube at hand
+  std::vector<Content> contents_;                      // by view, of the cube at hand
+  std::vector<Brick> bricks_;                          // by view
+  Brick fused_brick_;
+  std::vector<float> opinions_;  // about the cube at hand
   std::optional<float> own_opinion_;
   std::vector<Memo> memos_ = std::vector<Memo>(std::size_t{1} << kMemoBits);
   std::int64_t nodes_ = 0, max_nodes_ = 0;

@@ -20,23 +20,14 @@ Resampled::Place child(const Resampled::Place& p, unsigned i) {
   return {p.node->block() + i, p.first + p.edge / 2 * Eigen::Vector3i(bit(0), bit(1), bit(2)), p.edge / 2};
 }
 
-using Keys = Eigen::Array<int, 3, 8>;
+/// Voxels that lie in a turned brick, from the lowest brick they touch: it is less than three bricks wide.
+constexpr int kWindowEdge = 3 * kBrickEdge;
 
-const SemanticNode* below(const SemanticNode* node, const Eigen::Array3i& key, int half) {
-  return node->block() +
-         (((key.x() & half) != 0 ? 1 : 0) | ((key.y() & half) != 0 ? 2 : 0) | ((key.z() & half) != 0 ? 4 : 0));
-}
-
-/// All bits in which keys differ; more than the tree has if one of them lies outside.
-int differing_bits(const Keys& keys) {
-  int bits = 0;
-  for (int i = 0; i < 8; ++i)
-    for (int axis = 0; axis < 3; ++axis) bits |= keys(axis, i) < 0 ? kTreeEdge : keys(axis, i) ^ keys(axis, 0);
-  return bits;
-}
-
-bool holds(const Resampled::Place& p, const Eigen::Array3i& key) {
-  return (key >= p.first.array()).all() && (key < p.first.array() + p.edge).all();
+std::array<int, kWindowEdge> indices_along(int axis, const Eigen::Vector3i& lowest_brick) {
+  std::array<int, kWindowEdge> indices{};
+  for (int i = 0; i < kWindowEdge; ++i)
+    indices[static_cast<std::size_t>(i)] = BrickWindow::index(axis, kBrickEdge * lowest_brick[axis] + i);
+  return indices;
 }
 
 Content content_of(const SemanticNode* leaf) {
@@ -62,13 +53,27 @@ bool add(const Resampled::Box& box, const Resampled::Place& p, Content& so_far, 
 }  // namespace
 
 Resampled::Resampled(const SemanticOcTree& map, const SE3& T_grid_map, double grid_resolution_m)
-    : root_(map.getRoot()) {
+    : root_(map.getRoot()), window_(map.getRoot()) {
   const double ratio = grid_resolution_m / map.getResolution();
   const SE3 T_map_grid = T_grid_map.inverse();
   scaled_rotation_ = ratio * T_map_grid.rotation();
   reach_ = scaled_rotation_.cwiseAbs();
   offset_ = (T_map_grid.translation() / map.getResolution()).array() + kTreeEdge / 2.0;
   aligned_ = ratio == 1 && T_map_grid.matrix() == Eigen::Matrix4d::Identity();
+  if (!aligned_) measure_steps();
+}
+
+void Resampled::measure_steps() {
+  least_step_ = (kBrickEdge - 1) * scaled_rotation_.cwiseMin(0).rowwise().sum().array() - kSlack;
+  greatest_step_ = (kBrickEdge - 1) * scaled_rotation_.cwiseMax(0).rowwise().sum().array() + kSlack;
+  for (int z = 0; z < kBrickEdge; ++z)
+    for (int y = 0; y < kBrickEdge; ++y)
+      for (int x = 0; x < kBrickEdge; ++x) {
+        const Eigen::Vector3d step = scaled_rotation_ * Eigen::Vector3d(x, y, z);
+        const int at = brick_index(0, x) + brick_index(1, y) + brick_index(2, z);
+        for (int axis = 0; axis < 3; ++axis)
+          steps_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(at)] = step[axis];
+      }
 }
 
 Resampled::Place Resampled::root() const { return {root_, Eigen::Vector3i::Zero(), kTreeEdge}; }
@@ -85,20 +90,6 @@ Resampled::Box Resampled::box_of(const Eigen::Vector3i& first, int edge) const {
   return {key(in_map - half - slack), key(in_map + half + slack)};
 }
 
-Keys Resampled::keys_of(const Eigen::Vector3i& first) const {
-  const Eigen::Vector3d centre = first.cast<double>().array() + 0.5 - kTreeEdge / 2.0;
-  const Eigen::Vector3d corner = scaled_rotation_ * centre + offset_;
-  Keys keys;
-  for (int axis = 0; axis < 3; ++axis)
-    for (int i = 0; i < 8; ++i) {
-      const double at = corner[axis] + (i & 1) * scaled_rotation_(axis, 0) + (i >> 1 & 1) * scaled_rotation_(axis, 1) +
-                        (i >> 2) * scaled_rotation_(axis, 2);
-      // Rounds down what is not negative; what is outside of the tree becomes −1.
-      keys(axis, i) = at >= 0 && at < kTreeEdge ? static_cast<int>(at) : -1;
-    }
-  return keys;
-}
-
 Content Resampled::look_aligned(const Eigen::Vector3i& first, int edge, Place& place) const {
   while (place.edge > edge && place.node->block() != nullptr) {
     const Eigen::Array3i high = (first.array() >= place.first.array() + place.edge / 2).cast<int>();
@@ -107,34 +98,28 @@ Content Resampled::look_aligned(const Eigen::Vector3i& first, int edge, Place& p
   return place.node->block() != nullptr ? Content{Content::Kind::kMixed, 0} : content_of(place.node);
 }
 
-std::array<float, 8> Resampled::octet(const Eigen::Vector3i& first, Place place) const {
-  std::array<float, 8> values{};
-  values.fill(SemanticNode::kAbsent);
-  if (place.node == nullptr) return values;
-  if (aligned_ && look_aligned(first, 2, place).kind == Content::Kind::kMixed) {
-    for (std::size_t i = 0; i < values.size(); ++i) values[i] = place.node->block()[i].getLogOdds();
-    return values;
-  }
-  if (place.edge < kTreeEdge && place.node->block() == nullptr) {
-    values.fill(place.node->getLogOdds());
-    return values;
-  }
-  const Keys keys = keys_of(first);
-  const SemanticNode* common = root_;
-  int half = kTreeEdge / 2;
-  const int differing = differing_bits(keys);
-  if (holds(place, keys.col(0)) && differing < place.edge) {  // but for rounding it always does
-    common = place.node;
-    half = place.edge / 2;
-  }
-  for (; half > differing && common->block() != nullptr; half /= 2) common = below(common, keys.col(0), half);
-  for (int i = 0; i < 8; ++i) {
-    if (keys.col(i).minCoeff() < 0) continue;
-    const SemanticNode* node = common;
-    for (int h = half; node->block() != nullptr; h /= 2) node = below(node, keys.col(i), h);
-    values[static_cast<std::size_t>(i)] = node->getLogOdds();
-  }
-  return values;
+void Resampled::read(const Eigen::Vector3i& first, const Place& place, Brick& brick) {
+  if (aligned_)
+    read_brick(*place.node, brick);
+  else
+    read_turned(first, brick);
+}
+
+void Resampled::read_turned(const Eigen::Vector3i& first, Brick& brick) {
+  const Eigen::Vector3d centre = first.cast<double>().array() + 0.5 - kTreeEdge / 2.0;
+  const Eigen::Vector3d in_map = scaled_rotation_ * centre + offset_;
+  const auto brick_of = [](const Eigen::Vector3d& v) -> Eigen::Vector3i {
+    return (v.array() / kBrickEdge).floor().cast<int>();
+  };
+  const Eigen::Vector3i low = brick_of(in_map + least_step_);
+  window_.hold(low, brick_of(in_map + greatest_step_));
+  const Eigen::Vector3d in_window = in_map - (kBrickEdge * low).cast<double>();
+  const auto x = indices_along(0, low), y = indices_along(1, low), z = indices_along(2, low);
+  const auto whole = [](double voxels) { return static_cast<std::size_t>(voxels); };
+  const float* voxels = window_.voxels();
+  for (std::size_t i = 0; i < kBrickVoxels; ++i)
+    brick[i] = voxels[x[whole(in_window.x() + steps_[0][i])] + y[whole(in_window.y() + steps_[1][i])] +
+                      z[whole(in_window.z() + steps_[2][i])]];
 }
 
 Content Resampled::look(const Eigen::Vector3i& first, int edge, Place& place) const {

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 
+#include "fusion/merging/brick.hpp"
 #include "hal/se3.hpp"
 #include "onboard/mapping/semantic_octree.hpp"
 
@@ -34,28 +35,31 @@ class Resampled {
     Eigen::Vector3i low, high;
   };
 
-  /// Cubes will be given in voxels of `grid_resolution_m`, counted from the corner of the grid's tree.
+  /// Cubes will be given in voxels of `grid_resolution_m`, counted from the corner of the grid's tree. They are not
+  /// larger than the map's.
   Resampled(const SemanticOcTree& map, const SE3& T_grid_map, double grid_resolution_m);
 
   [[nodiscard]] Place root() const;
   /// What the cube of `edge`³ voxels from `first` on holds. `place` is one that holds it, and becomes a smaller one.
   [[nodiscard]] Content look(const Eigen::Vector3i& first, int edge, Place& place) const;
-  /// The same for the eight voxels of a cube of edge 2, in the order of a node's children; SemanticNode::kAbsent where
-  /// nothing is known. `place` is one that holds the cube. Nearly all of a map is voxels, so this is what merging
-  /// costs.
-  [[nodiscard]] std::array<float, 8> octet(const Eigen::Vector3i& first, Place place) const;
+  /// The voxels of a brick that look() has called mixed, with the place it gave. Nearly all of a map is voxels, so this
+  /// is what merging costs.
+  void read(const Eigen::Vector3i& first, const Place& place, Brick& brick);
 
  private:
-  /// Voxels of the map that the eight centres of a cube of edge 2 fall into; −1 outside of its tree.
-  [[nodiscard]] Eigen::Array<int, 3, 8> keys_of(const Eigen::Vector3i& first) const;
+  void measure_steps();
   [[nodiscard]] Box box_of(const Eigen::Vector3i& first, int edge) const;
-
+  void read_turned(const Eigen::Vector3i& first, Brick& brick);
   [[nodiscard]] Content look_aligned(const Eigen::Vector3i& first, int edge, Place& place) const;
 
   const SemanticNode* root_;
   bool aligned_;                             // the map's voxels are the grid's: each cube is a node or lies in a leaf
   Eigen::Matrix3d scaled_rotation_, reach_;  // from voxels of the grid to voxels of the map
   Eigen::Vector3d offset_;
+  // From a brick's first voxel to each of its voxels, by axis.
+  std::array<std::array<double, kBrickVoxels>, 3> steps_{};
+  Eigen::Vector3d least_step_, greatest_step_;
+  BrickWindow window_;
 };
 
 }  // namespace cairn::merging

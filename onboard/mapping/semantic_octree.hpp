@@ -57,7 +57,11 @@ class SemanticOcTree : private NodePoolHolder, public octomap::OccupancyOcTreeBa
   /// Deep copy, in depth-first order and so defragmented; metadata and sensor model included.
   SemanticOcTree(const SemanticOcTree& other);
   SemanticOcTree& operator=(const SemanticOcTree&) = delete;
-  ~SemanticOcTree() override { clear(); }
+  /// The nodes go with the pool, unvisited.
+  ~SemanticOcTree() override {
+    if (root != nullptr) root->set_block(nullptr);
+    clear();
+  }
 
   // OctoMap's virtual functions.
   [[nodiscard]] SemanticOcTree* create() const override { return new SemanticOcTree(resolution); }

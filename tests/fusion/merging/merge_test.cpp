@@ -138,6 +138,16 @@ TEST(Merge, EmptyMapsAndImpossiblePosesAreClear) {
   EXPECT_EQ((*lost)->size(), 0U);
 }
 
+TEST(Merge, LonelyVoxelsAreNotTooLargeWhereverTheyLie) {
+  auto dust = std::make_shared<SemanticOcTree>(0.1);
+  std::mt19937 random(5);
+  const auto key = [&] { return static_cast<octomap::key_type>(20000 + random() % 30000); };
+  for (int i = 0; i < 3000; ++i) dust->setNodeValue(octomap::OcTreeKey(key(), key(), key()), 1.0F);
+  const auto merged = merge({{1, {1, random_box(1), {}}}, {2, {1, dust, some_pose(0.4)}}});
+  ASSERT_TRUE(merged);
+  EXPECT_GT((*merged)->size(), dust->size() / 2);
+}
+
 TEST(Merge, OneCubeThatStandsForMillionsIsRefused) {
   auto cube = std::make_shared<SemanticOcTree>(0.1);
   bool made = false;
