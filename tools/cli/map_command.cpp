@@ -23,6 +23,7 @@
 #include "onboard/app/report/report_json.hpp"
 #include "onboard/app/report/trajectory_error.hpp"
 #include "onboard/mapping/map_file.hpp"
+#include "tools/cli/map_check_command.hpp"
 #include "tools/cli/save_map.hpp"
 
 namespace cairn::cli {
@@ -196,13 +197,15 @@ CLI::App* add(Commands& commands, CLI::App& map, const std::string& name, const 
 }  // namespace
 
 void add_map_command(Commands& commands) {
-  CLI::App& map = *commands.app.add_subcommand("map", "what is in a map, how two differ, a picture, other formats");
+  CLI::App& map = *commands.app.add_subcommand(
+      "map", "what is in a map, how two differ, whether the parts of one agree, a picture, other formats");
   map.require_subcommand(1);
   const auto options = std::make_shared<Options>();
   add(commands, map, "info", "counts, size, volume, entropy and sensor model", options, info);
   CLI::App* two =
       add(commands, map, "compare", "two maps of one frame and resolution, voxel by voxel", options, compare_maps);
   two->add_option("other", options->other, "the second map")->required();
+  add_map_check_command(commands, map);
   CLI::App* picture = add(commands, map, "render", "a PNG of the map", options, render);
   picture->add_option("--out", options->out, "file to write")->required();
   picture->add_option("--view", options->view, "top, side or front")->capture_default_str();

@@ -5,7 +5,8 @@
 
 namespace cairn::cli {
 
-/// `cairn map info|compare|render|export FILE…`: what is in a map, how two differ, a picture, another format.
+/// `cairn map info|compare|check|render|export FILE…`: what is in a map, how two differ, whether the parts of one
+/// agree, a picture, another format.
 void add_map_command(Commands& commands);
 
 }  // namespace cairn::cli
