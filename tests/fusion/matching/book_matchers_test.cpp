@@ -5,35 +5,27 @@
 #include "fusion/matching/matcher.hpp"
 #include "fusion/matching/oicp.hpp"
 #include "fusion/matching/pmm.hpp"
-#include "tests/support/map_pairs.hpp"
+#include "tests/fusion/matching/featured_pair.hpp"
 
 namespace cairn::matching {
 namespace {
 
 class BookMatchers : public testing::TestWithParam<std::string_view> {
  protected:
-  static void SetUpTestSuite() {
-    pair = new support::MapPair(support::two_robots(support::corridor(), {0, 1.6, 10}, {0.6, 2.2, 10}, 3, 0.75, 0.2));
-    a = new MapFeatures(*MapFeatures::build(*pair->a));
-    b = new MapFeatures(*MapFeatures::build(*pair->b));
+  static const FeaturedPair& corridor() {
+    static const FeaturedPair made(
+        support::two_robots(support::corridor(), {0, 1.6, 10}, {0.6, 2.2, 10}, 3, 0.75, 0.2));
+    return made;
   }
-  static void TearDownTestSuite() {
-    delete b;
-    delete a;
-    delete pair;
-  }
-  [[nodiscard]] static double error(const SE3& T) { return (T.inverse() * pair->T_a_b).translation().norm(); }
-  static support::MapPair* pair;
-  static MapFeatures *a, *b;
+  [[nodiscard]] double error(const SE3& T) const { return (T.inverse() * pair.T_a_b).translation().norm(); }
+  const support::MapPair& pair = corridor().pair;
+  const MapFeatures &a = corridor().a, &b = corridor().b;
 };
-support::MapPair* BookMatchers::pair = nullptr;
-MapFeatures* BookMatchers::a = nullptr;
-MapFeatures* BookMatchers::b = nullptr;
 
 TEST_P(BookMatchers, ComesNearerFromNearby) {
-  const auto matcher = make_matcher(GetParam(), *a, *b);
+  const auto matcher = make_matcher(GetParam(), a, b);
   ASSERT_TRUE(matcher);
-  const SE3 start = pair->T_a_b * SE3::from_xyz_rpy((Vector6() << 0.15, -0.25, 0.05, 0, 0, 0.04).finished());
+  const SE3 start = pair.T_a_b * SE3::from_xyz_rpy((Vector6() << 0.15, -0.25, 0.05, 0, 0, 0.04).finished());
   Budget budget = Budget::steps(kAmpleSteps), again = Budget::steps(kAmpleSteps);
   const UncertainPose initial{start, default_prior_covariance()};
   const auto r = (*matcher)->match(initial, budget);
@@ -45,9 +37,9 @@ TEST_P(BookMatchers, ComesNearerFromNearby) {
 }
 
 TEST_P(BookMatchers, OneStepIsAResult) {
-  const auto matcher = make_matcher(GetParam(), *a, *b);
+  const auto matcher = make_matcher(GetParam(), a, b);
   Budget budget = Budget::steps(1);
-  const auto r = (*matcher)->match(UncertainPose{pair->T_a_b, default_prior_covariance()}, budget);
+  const auto r = (*matcher)->match(UncertainPose{pair.T_a_b, default_prior_covariance()}, budget);
   ASSERT_TRUE(r);
   EXPECT_EQ(r->iterations, 1);
 }

@@ -101,7 +101,10 @@ TEST(MapFeatures, CellsFitTilesAtAnyResolution) {
 }
 
 TEST(MapEntropy, IsTheBooksFormula) {
-  const std::vector<Voxel> voxels{{{}, {}, 0.5F, 0}, {{}, {}, 1.0F, 0}, {{}, {}, 0.75F, 0}};
+  const Voxel anywhere{Eigen::Vector3f::Zero(), Eigen::Vector3i::Zero(), 0.5F, 0};
+  std::vector<Voxel> voxels(3, anywhere);
+  voxels[1].occupancy = 1.0F;
+  voxels[2].occupancy = 0.75F;
   const double at75 = -0.75 * std::log2(0.75), at25 = -0.25 * std::log2(0.25);
   EXPECT_NEAR(book_map_entropy(voxels), (0.5 + 0 + at75) / 3, 1e-12);
   EXPECT_NEAR(binary_map_entropy(voxels), (1 + 0 + at75 + at25) / 3, 1e-12);

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-#include "tests/support/map_pairs.hpp"
+#include "tests/fusion/matching/featured_pair.hpp"
 
 namespace cairn::matching {
 namespace {
@@ -25,34 +25,25 @@ SE3 start(const SE3& truth, double x, double y, double yaw) {
 
 class OfLobby : public testing::Test {
  protected:
-  static void SetUpTestSuite() {
-    pair = new support::MapPair(support::two_robots(support::lobby(), {0, 2.5, 14}, {1.2, 3.8, 14}, 7));
-    a = new MapFeatures(*MapFeatures::build(*pair->a));
-    b = new MapFeatures(*MapFeatures::build(*pair->b));
+  static const FeaturedPair& lobby() {
+    static const FeaturedPair made(support::two_robots(support::lobby(), {0, 2.5, 14}, {1.2, 3.8, 14}, 7));
+    return made;
   }
-  static void TearDownTestSuite() {
-    delete b;
-    delete a;
-    delete pair;
-  }
-  static MatchResult match(const std::optional<UncertainPose>& initial, int steps = kAmpleSteps) {
+  [[nodiscard]] MatchResult match(const std::optional<UncertainPose>& initial, int steps = kAmpleSteps) const {
     Budget budget = Budget::steps(steps);
-    auto result = (*make_matcher("default", *a, *b))->match(initial, budget);
+    auto result = (*make_matcher("default", a, b))->match(initial, budget);
     EXPECT_TRUE(result);
     return *result;
   }
-  static support::MapPair* pair;
-  static MapFeatures *a, *b;
+  const support::MapPair& pair = lobby().pair;
+  const MapFeatures &a = lobby().a, &b = lobby().b;
 };
-support::MapPair* OfLobby::pair = nullptr;
-MapFeatures* OfLobby::a = nullptr;
-MapFeatures* OfLobby::b = nullptr;
 
 TEST_F(OfLobby, EveryCornerOfTheWindowLeadsToTheTruth) {
   for (const double x : {-2.0, 2.0})
     for (const double yaw : {-0.26, 0.26}) {
-      const auto r = match(UncertainPose{start(pair->T_a_b, x, -x, yaw), default_prior_covariance()});
-      const Outcome e = error_of(r.T_a_b.mean, pair->T_a_b);
+      const auto r = match(UncertainPose{start(pair.T_a_b, x, -x, yaw), default_prior_covariance()});
+      const Outcome e = error_of(r.T_a_b.mean, pair.T_a_b);
       EXPECT_LT(e.m, 0.03);
       EXPECT_LT(e.rad, 0.003);
       EXPECT_TRUE(r.accepted) << r.reason;
@@ -63,13 +54,13 @@ TEST_F(OfLobby, EveryCornerOfTheWindowLeadsToTheTruth) {
 
 TEST_F(OfLobby, WithoutAGuessToo) {
   const auto r = match(std::nullopt);
-  const Outcome e = error_of(r.T_a_b.mean, pair->T_a_b);
+  const Outcome e = error_of(r.T_a_b.mean, pair.T_a_b);
   EXPECT_LT(e.m, 0.03);
   EXPECT_TRUE(r.accepted) << r.reason;
 }
 
 TEST_F(OfLobby, TheSameEveryTime) {
-  const UncertainPose initial{start(pair->T_a_b, 1, 1, 0.1), default_prior_covariance()};
+  const UncertainPose initial{start(pair.T_a_b, 1, 1, 0.1), default_prior_covariance()};
   const auto first = match(initial), second = match(initial);
   EXPECT_EQ(first.T_a_b.mean.matrix(), second.T_a_b.mean.matrix());
   EXPECT_EQ(first.T_a_b.covariance, second.T_a_b.covariance);
@@ -77,24 +68,24 @@ TEST_F(OfLobby, TheSameEveryTime) {
 }
 
 TEST_F(OfLobby, IsBetterTheMoreStepsItHasAndNeverTakesMore) {
-  const UncertainPose initial{start(pair->T_a_b, 1, -1, 0.1), default_prior_covariance()};
+  const UncertainPose initial{start(pair.T_a_b, 1, -1, 0.1), default_prior_covariance()};
   for (const int steps : {1, 2, 20, 60}) {
     const auto r = match(initial, steps);
     EXPECT_LE(r.iterations, steps);
     EXPECT_TRUE(r.T_a_b.mean.matrix().allFinite());
   }
   const auto rough = match(initial, 1), fine = match(initial);
-  EXPECT_LE(error_of(fine.T_a_b.mean, pair->T_a_b).m, error_of(rough.T_a_b.mean, pair->T_a_b).m);
+  EXPECT_LE(error_of(fine.T_a_b.mean, pair.T_a_b).m, error_of(rough.T_a_b.mean, pair.T_a_b).m);
 }
 
 TEST_F(OfLobby, AGuessThatCannotBeIsRefused) {
-  UncertainPose nan{pair->T_a_b, default_prior_covariance()};
+  UncertainPose nan{pair.T_a_b, default_prior_covariance()};
   nan.mean = SE3(Eigen::Quaterniond::Identity(), {std::numeric_limits<double>::quiet_NaN(), 0, 0});
-  UncertainPose flat{pair->T_a_b, default_prior_covariance()};
+  UncertainPose flat{pair.T_a_b, default_prior_covariance()};
   flat.covariance(1, 1) = 0;
   for (const auto& initial : {nan, flat}) {
     Budget budget = Budget::steps(100);
-    const auto r = (*make_matcher("default", *a, *b))->match(initial, budget);
+    const auto r = (*make_matcher("default", a, b))->match(initial, budget);
     ASSERT_FALSE(r);
     EXPECT_EQ(r.error().code, Errc::kInvalidConfig);
   }
