@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Our methods from the 125 starts of tools/protocol.sh, with what their acceptance says, for the real OctoMaps cut in
 // halves and for two robots in closed-form scenes, without PCL or recordings. CPU times of this thread.
-//   matching_protocol [PAIR|all] [METHOD|all] [STRIDE] [SEED]     PAIR: fr_079 geb079 corridor lobby office carpark
+//   matching_protocol [PAIR|all] [METHOD|all] [STARTS] [SEED]     PAIR: fr_079 geb079 corridor lobby office carpark
 //   forest
 #include <Eigen/Cholesky>
 #include <cstdio>
@@ -55,7 +55,7 @@ void print(const support::MapPair& pair, std::string_view method, const Figures&
   std::fflush(stdout);
 }
 
-void run(const support::MapPair& pair, std::string_view method, int stride) {
+void run(const support::MapPair& pair, std::string_view method, int count) {
   const Duration t0 = thread_cpu_time();
   const auto a = MapFeatures::build(*pair.a), b = MapFeatures::build(*pair.b);
   if (!a || !b) return (void)std::printf("%s: too large\n", pair.name.c_str());
@@ -65,7 +65,7 @@ void run(const support::MapPair& pair, std::string_view method, int stride) {
   std::printf("%-10s %zu and %zu occupied voxels, %zu and %zu fine surfels\n", pair.name.c_str(),
               occupied_voxels(*pair.a)->size(), occupied_voxels(*pair.b)->size(), a->fine().size(), b->fine().size());
   Figures f;
-  for (const int i : protocol::chosen_starts(stride)) {
+  for (const int i : protocol::chosen_starts(count)) {
     const SE3 from = protocol::start_pose(pair.T_a_b, protocol::starts()[static_cast<std::size_t>(i)]);
     Budget budget = Budget::steps(kAmpleSteps);
     const Duration start = thread_cpu_time();
@@ -114,10 +114,10 @@ std::vector<support::MapPair> pairs(const std::string& wanted, unsigned seed, do
 int main(int argc, char** argv) {
   using namespace cairn::matching;
   const std::string wanted = argc > 1 ? argv[1] : "all", method = argc > 2 ? argv[2] : "default";
-  const int stride = argc > 3 ? std::max(1, std::atoi(argv[3])) : 1;
+  const int starts = argc > 3 ? std::max(1, std::atoi(argv[3])) : cairn::protocol::kStarts;
   const auto seed = static_cast<unsigned>(argc > 4 ? std::atoi(argv[4]) : 1);
   const double share = argc > 5 ? std::atof(argv[5]) : 0.4;
   for (const auto& pair : pairs(wanted, seed, share))
     for (const std::string_view name : method_names())
-      if (method == "all" || method == name) run(pair, name, stride);
+      if (method == "all" || method == name) run(pair, name, starts);
 }

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <map>
+
 #include "tools/protocol/figures.hpp"
 
 namespace cairn::protocol {
@@ -26,32 +28,35 @@ void add_default(const PairOutcome& scene, std::vector<Claim>& claims) {
 /// The lesser number is to be the first one's.
 Claim less(std::string claim, double first, double second, const char* unit, int digits) {
   return {std::move(claim), fmt::format("{:.{}f} against {:.{}f}{}", first, digits, second, digits, unit),
-          first < second};
+          first < second, true};
+}
+
+/// By both of the entropies that the tables give.
+Claim less(std::string claim, const FusedEntropy& first, const FusedEntropy& second) {
+  return {std::move(claim),
+          fmt::format("{:.4f} against {:.4f} bit; as −p log2 p {:.4f} against {:.4f}", first.binary, second.binary,
+                      first.book, second.book),
+          first.binary < second.binary && first.book < second.book, true};
 }
 
 void add_entropies(const PairOutcome& scene, std::vector<Claim>& claims) {
   const FusedEntropy *filter = scene.entropy("relative_entropy"), *average = scene.entropy("average"),
-                     *stitch = scene.entropy("stitch");
+                     *stitch = scene.entropy("stitch"), *both = scene.entropy("side_by_side");
   if (filter == nullptr || average == nullptr || stitch == nullptr) return;
-  const FusedEntropy* both = scene.entropy("side_by_side");
-  const std::string in = " (" + scene.pair.name + ", ";
-  claims.push_back(less("relative entropy < average" + in + "binary entropy)", filter->binary, average->binary, "", 4));
-  claims.push_back(less("relative entropy < average" + in + "−p log2 p)", filter->book, average->book, "", 4));
-  claims.push_back(less("average < stitch" + in + "binary entropy)", average->binary, stitch->binary, "", 4));
-  claims.push_back(less("average < stitch" + in + "−p log2 p)", average->book, stitch->book, "", 4));
-  if (both != nullptr)
-    claims.push_back(
-        less("relative entropy < both maps side by side" + in + "−p log2 p)", filter->book, both->book, "", 4));
+  const std::string where = scene.pair.name + ": fused entropy of ";
+  claims.push_back(less(where + "relative entropy < average", *filter, *average));
+  claims.push_back(less(where + "average < stitch", *average, *stitch));
+  if (both != nullptr) claims.push_back(less(where + "relative entropy < both maps side by side", *filter, *both));
 }
 
 void add_edges(const PairOutcome& scene, std::vector<Claim>& claims) {
   const MethodRun *level1 = scene.run("pmm_level1"), *icp = scene.run("edge_icp");
   if (level1 == nullptr || icp == nullptr) return;
   const Figures a = figures_of(level1->attempts), b = figures_of(icp->attempts);
-  claims.push_back(less("PMM level 1 takes fewer iterations than ICP on edges (" + scene.pair.name + ")", a.iterations,
+  claims.push_back(less(scene.pair.name + ": PMM level 1 takes fewer iterations than ICP on edges", a.iterations,
                         b.iterations, "", 1));
-  claims.push_back(less("ICP on edges succeeds from fewer starts than PMM level 1 (" + scene.pair.name + ")",
-                        100 * b.success, 100 * a.success, " %", 1));
+  claims.push_back(less(scene.pair.name + ": ICP on edges succeeds from fewer starts than PMM level 1", 100 * b.success,
+                        100 * a.success, " %", 1));
 }
 
 void add_heterogeneous(const Outcome& outcome, std::vector<Claim>& claims) {
@@ -76,15 +81,22 @@ void add_heterogeneous(const Outcome& outcome, std::vector<Claim>& claims) {
   if (!counts.empty()) claims.push_back({"EM's correspondences fall as the LiDAR's map fills", counts, falling});
 }
 
+/// One for each scene, over the steps of its overlap down to 20 %.
 void add_overlaps(const Outcome& outcome, std::vector<Claim>& claims) {
-  for (const PairOutcome* p : outcome.of_kind(kOverlap)) {
+  std::map<std::string, Claim> by_scene;
+  for (const PairOutcome* p : outcome.by_falling_overlap()) {
     const MethodRun* run = p->run("default");
     if (run == nullptr || p->pair.overlap < 0.195) continue;
     const double success = figures_of(run->attempts).success;
-    claims.push_back({fmt::format("{} at {:.0f} % overlap: the default succeeds from ≥ 90 % of the starts",
-                                  p->pair.scene, 100 * p->pair.overlap),
-                      fmt::format("{:.0f} %", 100 * success), success >= 0.9});
+    const auto [at, first] = by_scene.try_emplace(
+        p->pair.scene,
+        Claim{p->pair.scene + ": the default succeeds from ≥ 90 % of the starts at each overlap down to 20 %", "",
+              true});
+    Claim& claim = at->second;
+    claim.figures += fmt::format("{}{:.1f} % at {:.0f} %", first ? "" : ", ", 100 * success, 100 * p->pair.overlap);
+    claim.holds = claim.holds && success >= 0.9;
   }
+  for (auto& [scene, claim] : by_scene) claims.push_back(std::move(claim));
 }
 
 }  // namespace
@@ -94,9 +106,9 @@ std::vector<Claim> claims_of(const Outcome& outcome) {
   const auto scenes = outcome.of_kind(kScene);
   for (const PairOutcome* scene : scenes) add_default(*scene, claims);
   add_overlaps(outcome, claims);
+  add_heterogeneous(outcome, claims);
   for (const PairOutcome* scene : scenes) add_entropies(*scene, claims);
   for (const PairOutcome* scene : scenes) add_edges(*scene, claims);
-  add_heterogeneous(outcome, claims);
   return claims;
 }
 

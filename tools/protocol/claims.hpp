@@ -8,11 +8,12 @@
 
 namespace cairn::protocol {
 
-/// Something that the book says, or that is asked of the default matcher, and what this run says to it.
+/// Something that is asked of Cairn, or that the book says, and what this run says to it.
 struct Claim {
   std::string claim;
   std::string figures;  ///< by which it holds or does not
   bool holds = false;
+  bool books = false;  ///< the book says so
 };
 
 /// Those for which the outcome has the runs.

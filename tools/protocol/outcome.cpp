@@ -1,8 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/protocol/outcome.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
+#include <functional>
+#include <map>
+#include <tuple>
 
 #include "fusion/merging/merge.hpp"
 #include "onboard/app/report/map_measures.hpp"
@@ -92,6 +98,30 @@ std::vector<const PairOutcome*> Outcome::of_kind(std::string_view kind) const {
   for (const PairOutcome& p : pairs)
     if (p.pair.kind == kind) chosen.push_back(&p);
   return chosen;
+}
+
+std::vector<const PairOutcome*> Outcome::by_falling_overlap() const {
+  auto cut = of_kind(kOverlap);
+  std::stable_sort(cut.begin(), cut.end(), [](const PairOutcome* a, const PairOutcome* b) {
+    return std::tie(a->pair.scene, b->pair.overlap) < std::tie(b->pair.scene, a->pair.overlap);
+  });
+  return cut;
+}
+
+std::string Outcome::starts_told(std::string_view kind) const {
+  std::map<std::size_t, std::vector<std::string_view>, std::greater<>> methods;
+  const auto chosen = of_kind(kind);
+  for (const std::string_view method : table_methods())
+    for (const PairOutcome* p : chosen)
+      if (const MethodRun* run = p->run(method)) {
+        methods[run->attempts.size()].push_back(title_of(method));
+        break;
+      }
+  std::string told;
+  for (const auto& [starts, titles] : methods)
+    told += told.empty() ? fmt::format("From {} starts", starts)
+                         : fmt::format("; from {}: {}", starts, fmt::join(titles, ", "));
+  return told.empty() ? told : told + ". ";
 }
 
 std::span<const std::string_view> table_methods() {

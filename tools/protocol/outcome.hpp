@@ -37,6 +37,10 @@ struct Outcome {
   std::vector<PairOutcome> pairs;
 
   [[nodiscard]] std::vector<const PairOutcome*> of_kind(std::string_view kind) const;
+  /// Those of kind kOverlap, scene by scene.
+  [[nodiscard]] std::vector<const PairOutcome*> by_falling_overlap() const;
+  /// From how many starts the methods were run on pairs of a kind: "From 125 starts; from 25: ICP (PCL), EM."
+  [[nodiscard]] std::string starts_told(std::string_view kind) const;
 };
 
 /// All methods in the order of the tables: PCL's, the book's, the default.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// PCL's ICP, point-to-plane ICP, GICP and NDT on the pairs of the protocol: pcl_baselines PAIR [STRIDE] leaves pcl.json
+// PCL's ICP, point-to-plane ICP, GICP and NDT on the pairs of the protocol: pcl_baselines PAIR [STARTS] leaves pcl.json
 // in the pair's folder. Built by tools/protocol.sh alone; no other program of the project knows PCL.
 //
 // As in the book (section 4.6.3) pairs are sought within 2 m, in at most 30 iterations; everything else is PCL's
@@ -72,7 +72,7 @@ struct Clouds {
 
 /// `set_up` gives the clouds to the method; what it, and a first look, cost is the preparation.
 template <class Registration, class SetUp>
-MethodRun run(const MapPair& pair, std::string method, int stride, const SetUp& set_up) {
+MethodRun run(const MapPair& pair, std::string method, int count, const SetUp& set_up) {
   MethodRun run{std::move(method), 0, {}, {}};
   Registration registration;
   Duration began = thread_cpu_time();
@@ -83,7 +83,7 @@ MethodRun run(const MapPair& pair, std::string method, int stride, const SetUp& 
   registration.align(moved, pair.T_a_b.matrix().cast<float>());
   registration.setMaximumIterations(kIterations);
   run.preparation_s = to_seconds(thread_cpu_time() - began);
-  for (const int start : chosen_starts(stride)) {
+  for (const int start : chosen_starts(count)) {
     const SE3 from = start_pose(pair.T_a_b, starts().at(static_cast<std::size_t>(start)));
     began = thread_cpu_time();
     registration.align(moved, from.matrix().cast<float>());
@@ -95,7 +95,7 @@ MethodRun run(const MapPair& pair, std::string method, int stride, const SetUp& 
   return run;
 }
 
-std::vector<MethodRun> run_all(const MapPair& pair, int stride) {
+std::vector<MethodRun> run_all(const MapPair& pair, int count) {
   const Clouds clouds{cloud_of(*pair.a, matching::kMaxVoxels), cloud_of(*pair.b, kMostSources),
                       cloud_of(*pair.b, matching::kMaxVoxels)};
   const auto points = [&](auto& registration) {
@@ -103,13 +103,13 @@ std::vector<MethodRun> run_all(const MapPair& pair, int stride) {
     registration.setInputSource(clouds.b);
   };
   std::vector<MethodRun> runs;
-  runs.push_back(run<Icp>(pair, "icp", stride, points));
-  runs.push_back(run<PlaneIcp>(pair, "p2plane", stride, [&](PlaneIcp& registration) {
+  runs.push_back(run<Icp>(pair, "icp", count, points));
+  runs.push_back(run<PlaneIcp>(pair, "p2plane", count, [&](PlaneIcp& registration) {
     registration.setInputTarget(with_normals(clouds.a, clouds.a));
     registration.setInputSource(with_normals(clouds.b, clouds.all_of_b));
   }));
-  runs.push_back(run<Gicp>(pair, "gicp", stride, points));
-  runs.push_back(run<Ndt>(pair, "ndt", stride, [&](Ndt& registration) {
+  runs.push_back(run<Gicp>(pair, "gicp", count, points));
+  runs.push_back(run<Ndt>(pair, "ndt", count, [&](Ndt& registration) {
     registration.setResolution(kNdtCellM);
     registration.setTransformationEpsilon(
         1e-6);  // PCL's default is above the square of a whole step: it would not move
@@ -123,12 +123,12 @@ std::vector<MethodRun> run_all(const MapPair& pair, int stride) {
 
 int main(int argc, char** argv) {
   using namespace cairn;
-  if (argc < 2) return std::cerr << "pcl_baselines PAIR [STRIDE]\n", 2;
+  if (argc < 2) return std::cerr << "pcl_baselines PAIR [STARTS]\n", 2;
   const std::filesystem::path dir = argv[1];
-  const int stride = argc > 2 ? std::max(1, std::atoi(argv[2])) : 1;
+  const int starts = argc > 2 ? std::clamp(std::atoi(argv[2]), 1, protocol::kStarts) : protocol::kStarts;
   const auto pair = protocol::load_pair(dir);
   const auto saved =
-      pair ? protocol::save_runs(protocol::run_all(*pair, stride), dir / "pcl.json") : Result<void>(pair.error());
+      pair ? protocol::save_runs(protocol::run_all(*pair, starts), dir / "pcl.json") : Result<void>(pair.error());
   if (saved) return 0;
   std::cerr << "pcl_baselines: " << to_string(saved.error()) << '\n';
   return 1;

@@ -25,7 +25,7 @@ class Frame {
  private:
   static double share(const Axis& axis, double v) {
     const auto scale = [&](double s) { return axis.logarithmic ? std::log10(s) : s; };
-    const double cut = std::clamp(v, axis.low, axis.high);
+    const double cut = std::clamp(v, std::min(axis.low, axis.high), std::max(axis.low, axis.high));
     return (scale(cut) - scale(axis.low)) / (scale(axis.high) - scale(axis.low));
   }
   Axis x_, y_;

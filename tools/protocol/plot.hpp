@@ -8,7 +8,8 @@
 
 namespace cairn::protocol {
 
-/// One side of a plot. A logarithmic one is cut at its ends.
+/// One side of a plot; `low` stands at its left or lower end and may be the larger number. A logarithmic one is cut at
+/// its ends.
 struct Axis {
   std::string label;
   double low = 0, high = 1;

@@ -60,7 +60,8 @@ Json to_json(const Outcome& outcome) {
   }
   json["claims"] = Json::array();
   for (const Claim& c : claims_of(outcome))
-    json["claims"].push_back({{"claim", c.claim}, {"figures", c.figures}, {"holds", c.holds}});
+    json["claims"].push_back(
+        {{"claim", c.claim}, {"of", c.books ? "book" : "Cairn"}, {"figures", c.figures}, {"holds", c.holds}});
   return json;
 }
 

@@ -33,7 +33,9 @@ std::vector<std::string> our_methods(const MapPair& pair) {
   return {"oicp", "edge_icp", "pmm_level1", "pmm", "em", "default"};
 }
 
-Result<MethodRun> run_method(const MapPair& pair, const std::string& method, int stride) {
+bool is_fast(std::string_view method) { return method == "edge_icp" || method == "pmm_level1" || method == "default"; }
+
+Result<MethodRun> run_method(const MapPair& pair, const std::string& method, int count) {
   MethodRun run;
   run.method = method;
   const Duration began = thread_cpu_time();
@@ -47,7 +49,7 @@ Result<MethodRun> run_method(const MapPair& pair, const std::string& method, int
     run.correspondences = em->mean_correspondences();
   std::optional<VoxelDistance> distance;
   if (pair.kind == kHeterogeneous) distance.emplace(pair);
-  for (const int start : chosen_starts(stride)) {
+  for (const int start : chosen_starts(count)) {
     auto attempt = attempt_from(pair, **matcher, start);
     if (!attempt) return attempt.error();
     if (distance) attempt->rms_m = distance->rms(attempt->T_a_b);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/protocol/starts.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -26,9 +27,14 @@ const std::vector<Start>& starts() {
   return all;
 }
 
-std::vector<int> chosen_starts(int stride) {
+std::vector<int> chosen_starts(int count) {
   std::vector<int> chosen;
-  for (int i = kExactStart % stride; i < static_cast<int>(starts().size()); i += stride) chosen.push_back(i);
+  for (int n = 0; n < std::min(count, kStarts); ++n) {
+    // Digits to the base of 5; the combinations make an orthogonal array of every prefix of 5 and 25.
+    const int a = n % 5, b = n / 5 % 5, c = n / 25;
+    const auto step = [](int sum) { return (kExactStart % 5 + sum) % 5; };
+    chosen.push_back(25 * step(a) + 5 * step(2 * a + b) + step(3 * a + b + c));
+  }
   return chosen;
 }
 

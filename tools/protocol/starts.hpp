@@ -16,9 +16,10 @@ struct Start {
 
 /// All 125: x and y from −2 to 2 m by 1 m, yaw from −15° to 15° by 7.5°; x slowest.
 [[nodiscard]] const std::vector<Start>& starts();
-/// Numbers of the starts that a run of every `stride`-th takes; the exact start (number 62) is always one of them.
-[[nodiscard]] std::vector<int> chosen_starts(int stride);
-inline constexpr int kExactStart = 62;
+inline constexpr int kStarts = 125, kExactStart = 62;
+/// Numbers of `count` of the starts, spread over all of them: the exact start first; among the first 5 each x, y and
+/// yaw comes once, among the first 25 each pair of two of them.
+[[nodiscard]] std::vector<int> chosen_starts(int count);
 
 /// The pose that a method is given: turned about b's own z axis, then moved in frame a.
 [[nodiscard]] SE3 start_pose(const SE3& T_a_b, const Start& start);

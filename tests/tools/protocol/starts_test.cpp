@@ -32,14 +32,30 @@ TEST(Starts, EachIsOffByWhatItSays) {
   }
 }
 
-TEST(Starts, AnyStrideTakesTheExactOne) {
-  for (const int stride : {1, 2, 5, 7, 124}) {
-    const auto chosen = chosen_starts(stride);
-    int exact = 0;
-    for (const int i : chosen) exact += starts().at(static_cast<std::size_t>(i)).distance_m() == 0 && i == kExactStart;
-    EXPECT_EQ(exact, 1) << stride;
+TEST(Starts, AFewAreSpreadOverAll) {
+  const auto few = chosen_starts(25);
+  std::set<std::pair<double, double>> x_y, x_yaw, y_yaw;
+  std::set<double> x, y, yaw;
+  for (std::size_t n = 0; n < few.size(); ++n) {
+    const Start& s = starts().at(static_cast<std::size_t>(few[n]));
+    x_y.emplace(s.x_m, s.y_m);
+    x_yaw.emplace(s.x_m, s.yaw_deg);
+    y_yaw.emplace(s.y_m, s.yaw_deg);
+    if (n >= 5) continue;
+    x.insert(s.x_m);
+    y.insert(s.y_m);
+    yaw.insert(s.yaw_deg);
   }
-  EXPECT_EQ(chosen_starts(1).size(), 125U);
+  for (const auto& pairs : {x_y, x_yaw, y_yaw}) EXPECT_EQ(pairs.size(), 25U);
+  for (const auto& values : {x, y, yaw}) EXPECT_EQ(values.size(), 5U);
+}
+
+TEST(Starts, AnyNumberOfThemBeginsWithTheExactOneAndTakesNoneTwice) {
+  for (const int count : {1, 2, 5, 7, 25, 124, 125, 1000}) {
+    const auto chosen = chosen_starts(count);
+    EXPECT_EQ(chosen.front(), kExactStart);
+    EXPECT_EQ(std::set<int>(chosen.begin(), chosen.end()).size(), static_cast<std::size_t>(std::min(count, kStarts)));
+  }
   EXPECT_EQ(error_of(start_pose(kTruth, starts()[kExactStart]), kTruth).m, 0);
 }
 
