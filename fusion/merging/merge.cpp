@@ -8,31 +8,35 @@
 #include <utility>
 #include <vector>
 
+#include "fusion/merging/remembered_fold.hpp"
 #include "fusion/merging/resampling.hpp"
 
 namespace cairn::merging {
 namespace {
 
 constexpr int kEdge = 1 << SemanticOcTree::kDepth;
-constexpr std::int64_t kNodesOfBrick = 64;  // what looking into a brick counts for, and its voxels on top of it
+constexpr std::int64_t kNodesOfTile = 64;  // what looking into a tile counts for, and its voxels on top of it
+
+Limits limits_of(const SemanticOcTree& map) {
+  const SensorModel model = map.sensor_model();
+  return {model.min, model.max, model.occupied};
+}
 
 /// Builds the fused tree from the root down, and stops dividing where nobody's map divides.
 class Fusion {
  public:
   Fusion(const Contributions& contributions, const MergeOptions& options, SemanticOcTree& fused)
-      : options_(options), fused_(fused) {
+      : options_(options), fused_(fused), limits_(limits_of(fused)), fold_(options.policy, limits_) {
     std::int64_t came_in = 0;
     for (const auto& [robot, contribution] : contributions)
       came_in += static_cast<std::int64_t>(contribution.map->size());
     max_nodes_ = std::min(options.max_nodes, kSpareNodes + kNodesPerNode * came_in);
-    const SensorModel model = fused.sensor_model();
-    limits_ = {model.min, model.max, model.occupied};
     for (const auto& [robot, contribution] : contributions) {
       if (options.own == robot) own_ = views_.size();
       views_.emplace_back(*contribution.map, contribution.T_fused_map, fused.getResolution());
     }
     contents_.resize(views_.size());
-    bricks_.resize(views_.size());
+    tiles_.resize(views_.size());
     places_.resize(SemanticOcTree::kDepth + 2, {});
     for (const Resampled& view : views_) places_[0].push_back(view.root());
   }
@@ -60,40 +64,39 @@ class Fusion {
       mixed = mixed || contents_[i].kind == Content::Kind::kMixed;
       if (contents_[i].kind == Content::Kind::kUniform) add_opinion(i, contents_[i].log_odds);
     }
-    if (mixed) return edge == kBrickEdge ? fuse_brick(first, depth, node) : divide(first, edge, depth, node);
+    if (mixed) return edge == kTileEdge ? fuse_tile(first, depth, node) : divide(first, edge, depth, node);
     if (opinions_.empty()) return false;
     node->setLogOdds(folded());
     return true;
   }
 
   /// The last three levels at once, of a cube that somebody's map divides.
-  bool fuse_brick(const Eigen::Vector3i& first, std::size_t depth, SemanticNode* node) {
+  bool fuse_tile(const Eigen::Vector3i& first, std::size_t depth, SemanticNode* node) {
     for (std::size_t i = 0; i < views_.size(); ++i) {
       if (contents_[i].kind == Content::Kind::kMixed)
-        views_[i].read(first, places_[depth + 1][i], bricks_[i]);
+        views_[i].read(first, places_[depth + 1][i], tiles_[i]);
       else
-        bricks_[i].fill(contents_[i].kind == Content::Kind::kUniform ? contents_[i].log_odds : SemanticNode::kAbsent);
+        tiles_[i].fill(contents_[i].kind == Content::Kind::kUniform ? contents_[i].log_odds : SemanticNode::kAbsent);
     }
-    for (std::size_t k = 0; k < kBrickVoxels; ++k) fused_brick_[k] = fused_voxel(k);
-    const std::int64_t known =
-        kBrickVoxels - std::count(fused_brick_.begin(), fused_brick_.end(), SemanticNode::kAbsent);
-    nodes_ += kNodesOfBrick + known;
-    return nodes_ < max_nodes_ && write_brick(fused_brick_, fused_.writer(0), node);
+    for (std::size_t k = 0; k < kTileVoxels; ++k) fused_tile_[k] = fused_voxel(k);
+    const std::int64_t known = kTileVoxels - std::count(fused_tile_.begin(), fused_tile_.end(), SemanticNode::kAbsent);
+    nodes_ += kNodesOfTile + known;
+    return nodes_ < max_nodes_ && write_voxels(fused_tile_, fused_.writer(0), node);
   }
 
-  /// Of voxel `k` of the bricks at hand. One opinion stays what it is, under any policy.
+  /// Of voxel `k` of the tiles at hand. One opinion stays what it is, under any policy.
   float fused_voxel(std::size_t k) {
     float only = SemanticNode::kAbsent;
     int known = 0;
-    for (const Brick& brick : bricks_) {
-      const bool here = brick[k] != SemanticNode::kAbsent;
-      only = here ? brick[k] : only;
+    for (const TileVoxels& tile : tiles_) {
+      const bool here = tile[k] != SemanticNode::kAbsent;
+      only = here ? tile[k] : only;
       known += here ? 1 : 0;
     }
     if (known <= 1) return only;
     forget_opinions();
-    for (std::size_t i = 0; i < bricks_.size(); ++i)
-      if (bricks_[i][k] != SemanticNode::kAbsent) add_opinion(i, bricks_[i][k]);
+    for (std::size_t i = 0; i < tiles_.size(); ++i)
+      if (tiles_[i][k] != SemanticNode::kAbsent) add_opinion(i, tiles_[i][k]);
     return folded();
   }
 
@@ -127,39 +130,24 @@ class Fusion {
     return any;
   }
 
-  /// fold() of the opinions. Log-odds are sums of few different steps, so that the same pairs come again and again.
-  float remembered_fold() {
-    if (opinions_.size() != 2) return fold(options_.policy, opinions_, limits_);
-    const auto bits = [&](std::size_t i) { return std::bit_cast<std::uint32_t>(opinions_[i]); };
-    Memo& memo = memos_[(bits(0) * 0x9E3779B1U + bits(1) * 0x85EBCA77U) >> (32 - kMemoBits)];
-    if (bits(0) != memo.first || bits(1) != memo.second)
-      memo = {bits(0), bits(1), fold(options_.policy, opinions_, limits_)};
-    return memo.fused;
-  }
   float folded() {
-    const float fused = remembered_fold();
+    const float fused = fold_(opinions_);
     const bool outranked = own_opinion_ && (*own_opinion_ >= limits_.occupied) != (fused >= limits_.occupied);
     return outranked ? *own_opinion_ : fused;
   }
 
-  struct Memo {
-    std::uint32_t first = 0, second = 0;
-    float fused = 0;  // right for two opinions of zero, too
-  };
-  static constexpr unsigned kMemoBits = 12;
-
   const MergeOptions& options_;
   SemanticOcTree& fused_;
   Limits limits_;
+  RememberedFold fold_;
   std::vector<Resampled> views_;
   std::optional<std::size_t> own_;
   std::vector<std::vector<Resampled::Place>> places_;  // by depth
   std::vector<Content> contents_;                      // by view, of the cube at hand
-  std::vector<Brick> bricks_;                          // by view
-  Brick fused_brick_;
+  std::vector<TileVoxels> tiles_;                      // by view
+  TileVoxels fused_tile_;
   std::vector<float> opinions_;  // about the cube at hand
   std::optional<float> own_opinion_;
-  std::vector<Memo> memos_ = std::vector<Memo>(std::size_t{1} << kMemoBits);
   std::int64_t nodes_ = 0, max_nodes_ = 0;
 };
 

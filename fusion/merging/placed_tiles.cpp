@@ -8,13 +8,16 @@ namespace cairn::merging {
 namespace {
 
 constexpr int kBits = 30;  // after the binary point
-constexpr int kHalfTree = 1 << 15, kTileEdge = 8, kTiles = 1 << 13;
+constexpr int kHalfTree = 1 << 15, kTiles = 1 << 13;
 constexpr double kOne = static_cast<double>(std::int64_t{1} << kBits);
 
 int tile_coordinate(std::int64_t fixed) {
   const std::int64_t voxel = (fixed >> kBits) + kHalfTree;
   return static_cast<int>(voxel >> 3);
 }
+
+/// Along one axis, of a voxel with this index in its tile, divided by tile_index() of the axis.
+constexpr int coordinate(int index) { return (index & 1) | (index >> 2 & 2) | (index >> 4 & 4); }
 
 std::array<int, 3> first_voxel(TileKey tile) {
   return {tile.first_voxel(0) - kHalfTree, tile.first_voxel(1) - kHalfTree, tile.first_voxel(2) - kHalfTree};
@@ -128,8 +131,8 @@ bool Placement::read(const TileLayer& layer, TileKey tile, TileVoxels& voxels) c
     return static_cast<int>((corner[i] + R[i][0] * x + R[i][1] * y + R[i][2] * z) >> kBits) + kHalfTree;
   };
   bool any = false;
-  for (int at = 0; at < 512; ++at) {
-    const int x = at & 7, y = at >> 3 & 7, z = at >> 6;
+  for (int at = 0; at < kTileVoxels; ++at) {
+    const int x = coordinate(at), y = coordinate(at >> 1), z = coordinate(at >> 2);
     const float value = window.log_odds(key(0, x, y, z), key(1, x, y, z), key(2, x, y, z));
     voxels[static_cast<std::size_t>(at)] = value;
     any = any || value != SemanticNode::kAbsent;

@@ -20,13 +20,13 @@ Resampled::Place child(const Resampled::Place& p, unsigned i) {
   return {p.node->block() + i, p.first + p.edge / 2 * Eigen::Vector3i(bit(0), bit(1), bit(2)), p.edge / 2};
 }
 
-/// Voxels that lie in a turned brick, from the lowest brick they touch: it is less than three bricks wide.
-constexpr int kWindowEdge = 3 * kBrickEdge;
+/// Voxels that lie in a turned tile, from the lowest tile they touch: it is less than three tiles wide.
+constexpr int kWindowEdge = 3 * kTileEdge;
 
-std::array<int, kWindowEdge> indices_along(int axis, const Eigen::Vector3i& lowest_brick) {
+std::array<int, kWindowEdge> indices_along(int axis, const Eigen::Vector3i& lowest_tile) {
   std::array<int, kWindowEdge> indices{};
   for (int i = 0; i < kWindowEdge; ++i)
-    indices[static_cast<std::size_t>(i)] = BrickWindow::index(axis, kBrickEdge * lowest_brick[axis] + i);
+    indices[static_cast<std::size_t>(i)] = TileWindow::index(axis, kTileEdge * lowest_tile[axis] + i);
   return indices;
 }
 
@@ -64,13 +64,13 @@ Resampled::Resampled(const SemanticOcTree& map, const SE3& T_grid_map, double gr
 }
 
 void Resampled::measure_steps() {
-  least_step_ = (kBrickEdge - 1) * scaled_rotation_.cwiseMin(0).rowwise().sum().array() - kSlack;
-  greatest_step_ = (kBrickEdge - 1) * scaled_rotation_.cwiseMax(0).rowwise().sum().array() + kSlack;
-  for (int z = 0; z < kBrickEdge; ++z)
-    for (int y = 0; y < kBrickEdge; ++y)
-      for (int x = 0; x < kBrickEdge; ++x) {
+  least_step_ = (kTileEdge - 1) * scaled_rotation_.cwiseMin(0).rowwise().sum().array() - kSlack;
+  greatest_step_ = (kTileEdge - 1) * scaled_rotation_.cwiseMax(0).rowwise().sum().array() + kSlack;
+  for (int z = 0; z < kTileEdge; ++z)
+    for (int y = 0; y < kTileEdge; ++y)
+      for (int x = 0; x < kTileEdge; ++x) {
         const Eigen::Vector3d step = scaled_rotation_ * Eigen::Vector3d(x, y, z);
-        const int at = brick_index(0, x) + brick_index(1, y) + brick_index(2, z);
+        const int at = tile_index(0, x) + tile_index(1, y) + tile_index(2, z);
         for (int axis = 0; axis < 3; ++axis)
           steps_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(at)] = step[axis];
       }
@@ -98,28 +98,28 @@ Content Resampled::look_aligned(const Eigen::Vector3i& first, int edge, Place& p
   return place.node->block() != nullptr ? Content{Content::Kind::kMixed, 0} : content_of(place.node);
 }
 
-void Resampled::read(const Eigen::Vector3i& first, const Place& place, Brick& brick) {
+void Resampled::read(const Eigen::Vector3i& first, const Place& place, TileVoxels& tile) {
   if (aligned_)
-    read_brick(*place.node, brick);
+    read_voxels(*place.node, tile);
   else
-    read_turned(first, brick);
+    read_turned(first, tile);
 }
 
-void Resampled::read_turned(const Eigen::Vector3i& first, Brick& brick) {
+void Resampled::read_turned(const Eigen::Vector3i& first, TileVoxels& tile) {
   const Eigen::Vector3d centre = first.cast<double>().array() + 0.5 - kTreeEdge / 2.0;
   const Eigen::Vector3d in_map = scaled_rotation_ * centre + offset_;
-  const auto brick_of = [](const Eigen::Vector3d& v) -> Eigen::Vector3i {
-    return (v.array() / kBrickEdge).floor().cast<int>();
+  const auto tile_of = [](const Eigen::Vector3d& v) -> Eigen::Vector3i {
+    return (v.array() / kTileEdge).floor().cast<int>();
   };
-  const Eigen::Vector3i low = brick_of(in_map + least_step_);
-  window_.hold(low, brick_of(in_map + greatest_step_));
-  const Eigen::Vector3d in_window = in_map - (kBrickEdge * low).cast<double>();
+  const Eigen::Vector3i low = tile_of(in_map + least_step_);
+  window_.hold(low, tile_of(in_map + greatest_step_));
+  const Eigen::Vector3d in_window = in_map - (kTileEdge * low).cast<double>();
   const auto x = indices_along(0, low), y = indices_along(1, low), z = indices_along(2, low);
   const auto whole = [](double voxels) { return static_cast<std::size_t>(voxels); };
   const float* voxels = window_.voxels();
-  for (std::size_t i = 0; i < kBrickVoxels; ++i)
-    brick[i] = voxels[x[whole(in_window.x() + steps_[0][i])] + y[whole(in_window.y() + steps_[1][i])] +
-                      z[whole(in_window.z() + steps_[2][i])]];
+  for (std::size_t i = 0; i < kTileVoxels; ++i)
+    tile[i] = voxels[x[whole(in_window.x() + steps_[0][i])] + y[whole(in_window.y() + steps_[1][i])] +
+                     z[whole(in_window.z() + steps_[2][i])]];
 }
 
 Content Resampled::look(const Eigen::Vector3i& first, int edge, Place& place) const {

@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include "fusion/merging/brick.hpp"
+#include "fusion/merging/tile_window.hpp"
 #include "hal/se3.hpp"
 #include "onboard/mapping/semantic_octree.hpp"
 
@@ -42,24 +42,24 @@ class Resampled {
   [[nodiscard]] Place root() const;
   /// What the cube of `edge`³ voxels from `first` on holds. `place` is one that holds it, and becomes a smaller one.
   [[nodiscard]] Content look(const Eigen::Vector3i& first, int edge, Place& place) const;
-  /// The voxels of a brick that look() has called mixed, with the place it gave. Nearly all of a map is voxels, so this
+  /// The voxels of a tile that look() has called mixed, with the place it gave. Nearly all of a map is voxels, so this
   /// is what merging costs.
-  void read(const Eigen::Vector3i& first, const Place& place, Brick& brick);
+  void read(const Eigen::Vector3i& first, const Place& place, TileVoxels& tile);
 
  private:
   void measure_steps();
   [[nodiscard]] Box box_of(const Eigen::Vector3i& first, int edge) const;
-  void read_turned(const Eigen::Vector3i& first, Brick& brick);
+  void read_turned(const Eigen::Vector3i& first, TileVoxels& tile);
   [[nodiscard]] Content look_aligned(const Eigen::Vector3i& first, int edge, Place& place) const;
 
   const SemanticNode* root_;
   bool aligned_;                             // the map's voxels are the grid's: each cube is a node or lies in a leaf
   Eigen::Matrix3d scaled_rotation_, reach_;  // from voxels of the grid to voxels of the map
   Eigen::Vector3d offset_;
-  // From a brick's first voxel to each of its voxels, by axis.
-  std::array<std::array<double, kBrickVoxels>, 3> steps_{};
+  // From a tile's first voxel to each of its voxels, by axis.
+  std::array<std::array<double, kTileVoxels>, 3> steps_{};
   Eigen::Vector3d least_step_, greatest_step_;
-  BrickWindow window_;
+  TileWindow window_;
 };
 
 }  // namespace cairn::merging

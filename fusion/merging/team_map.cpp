@@ -13,13 +13,13 @@ namespace {
 constexpr unsigned kRegionBits = 9;  // 8³ tiles
 constexpr unsigned kTurns = 4;       // of so many steps one is for what is shown
 constexpr int kMarkedAtOnce = 16;    // tiles in a step
-constexpr int kTilesAcross = 1 << 13;
+constexpr int kTeamTiles = 1 << 13;
 constexpr float kSteps = 1024;  // of log-odds
 constexpr Limits kLimits{TileState::kFree.front(), TileState::kOccupied.front(), 0};
 
 template <class Visit>
 void for_each_tile(const TileBox& box, const Visit& visit) {
-  const Eigen::Vector3i low = box.low.cwiseMax(0), high = box.high.cwiseMin(kTilesAcross - 1);
+  const Eigen::Vector3i low = box.low.cwiseMax(0), high = box.high.cwiseMin(kTeamTiles - 1);
   const auto voxel = [](int tile) { return static_cast<std::uint16_t>(tile * 8); };
   for (int z = low.z(); z <= high.z(); ++z)
     for (int y = low.y(); y <= high.y(); ++y)

@@ -14,26 +14,13 @@ unsigned child_on_path(TileKey tile, unsigned depth) {
 
 constexpr float kWeakFree = -0.6F;  // OctoMap's miss is −0.4: free, but seen once only
 
-/// A cube inside a tile.
-struct Cube {
-  unsigned x, y, z, edge;
-  [[nodiscard]] Cube child(unsigned i) const {
-    const unsigned half = edge / 2;
-    return {x + (i & 1U) * half, y + (i >> 1 & 1U) * half, z + (i >> 2 & 1U) * half, half};
-  }
-};
-
-void fill(TileState& state, const Cube& cube, float log_odds, float threshold) {
-  for (unsigned z = cube.z; z < cube.z + cube.edge; ++z)
-    for (unsigned y = cube.y; y < cube.y + cube.edge; ++y)
-      for (unsigned x = cube.x; x < cube.x + cube.edge; ++x) state.set(x, y, z, log_odds, threshold);
-}
-
-// NOLINTNEXTLINE(misc-no-recursion): three levels
-void read(TileState& state, const SemanticNode& node, const Cube& cube, float threshold) {
-  if (node.block() == nullptr) return fill(state, cube, node.getLogOdds(), threshold);
-  for (unsigned i = 0; i < SemanticNode::kChildren; ++i)
-    if (node.block()[i].present()) read(state, node.block()[i], cube.child(i), threshold);
+template <class Visit>
+void for_each_voxel(const Visit& visit) {
+  for (int z = 0; z < kTileEdge; ++z)
+    for (int y = 0; y < kTileEdge; ++y)
+      for (int x = 0; x < kTileEdge; ++x)
+        visit(static_cast<unsigned>(x), static_cast<unsigned>(y), static_cast<unsigned>(z),
+              static_cast<std::size_t>(tile_index(0, x) | tile_index(1, y) | tile_index(2, z)));
 }
 
 /// Frees what is below a node and keeps the count of nodes.
@@ -52,31 +39,6 @@ void clear_below(NodeWriter& writer, SemanticNode* node) {
 bool childless(const SemanticNode* node) {
   return std::none_of(node->block(), node->block() + SemanticNode::kChildren,
                       [](const SemanticNode& child) { return child.present(); });
-}
-
-/// Gives a childless node what is known of a cube; false where that is nothing.
-// NOLINTNEXTLINE(misc-no-recursion): three levels
-bool write(NodeWriter& writer, SemanticNode* node, const TileVoxels& voxels, const Cube& cube) {
-  if (cube.edge == 1) {
-    const float value = voxels[cube.x + TileState::kEdge * (cube.y + TileState::kEdge * cube.z)];
-    node->setLogOdds(value);
-    return value != SemanticNode::kAbsent;
-  }
-  bool any = false, made = false;
-  for (unsigned i = 0; i < SemanticNode::kChildren; ++i) {
-    SemanticNode* child = writer.child(node, i, made);
-    if (write(writer, child, voxels, cube.child(i))) {
-      any = true;
-      continue;
-    }
-    child->setLogOdds(SemanticNode::kAbsent);
-    writer.count(-1);
-  }
-  if (any)
-    writer.refresh(node);
-  else
-    writer.drop_block(node);
-  return any;
 }
 
 /// The nodes from the root to a tile.
@@ -133,13 +95,19 @@ TileState read_tile(const SemanticOcTree& map, TileKey tile) {
     node = node->block() + child_on_path(tile, depth);
     if (!node->present()) return state;
   }
-  if (node != nullptr) read(state, *node, {0, 0, 0, TileState::kEdge}, map.sensor_model().occupied);
+  if (node == nullptr) return state;
+  TileVoxels voxels;
+  read_voxels(*node, voxels);
+  const float threshold = map.sensor_model().occupied;
+  for_each_voxel([&](unsigned x, unsigned y, unsigned z, std::size_t i) {
+    if (voxels[i] != SemanticNode::kAbsent) state.set(x, y, z, voxels[i], threshold);
+  });
   return state;
 }
 
 void write_tile(SemanticOcTree& map, TileKey tile, const TileState& state) {
   TileVoxels voxels;
-  for (unsigned i = 0; i < voxels.size(); ++i) voxels[i] = state.log_odds(i & 7U, i >> 3 & 7U, i >> 6);
+  for_each_voxel([&](unsigned x, unsigned y, unsigned z, std::size_t i) { voxels[i] = state.log_odds(x, y, z); });
   write_tile(map, tile, voxels);
 }
 
@@ -149,7 +117,7 @@ void write_tile(SemanticOcTree& map, TileKey tile, const TileVoxels& voxels) {
   NodeWriter& writer = map.writer(0);
   const Path path = path_to(map, writer, tile);
   clear_below(writer, path.back());
-  bool known = write(writer, path.back(), voxels, {0, 0, 0, TileState::kEdge});
+  bool known = write_voxels(voxels, writer, path.back());
   for (unsigned depth = kTileDepth; depth-- > 0;) {
     if (!known) {
       path[depth + 1]->setLogOdds(SemanticNode::kAbsent);

@@ -8,6 +8,7 @@
 
 #include "onboard/mapping/map_tile.hpp"
 #include "onboard/mapping/semantic_octree.hpp"
+#include "onboard/mapping/tile_voxels.hpp"
 
 namespace cairn {
 
@@ -45,8 +46,6 @@ struct TileState {
 /// removes the tile.
 void write_tile(SemanticOcTree& map, TileKey tile, const TileState& state);
 
-/// Log-odds of the voxels of a tile, x fastest; SemanticNode::kAbsent where nothing is known.
-using TileVoxels = std::array<float, 512>;
 /// The same for any log-odds.
 void write_tile(SemanticOcTree& map, TileKey tile, const TileVoxels& voxels);
 

@@ -110,7 +110,7 @@ TEST(TileState, WrittenTilesAreReadBackAndTheTreeStaysSound) {
       ASSERT_EQ(read_tile(map, tile), state);
     }
     EXPECT_EQ(known_tiles(map, kAll), keys);
-    for (const auto& [tile, state] : oracle) write_tile(map, tile, {});
+    for (const auto& [tile, state] : oracle) write_tile(map, tile, TileState{});
     EXPECT_EQ(map.size(), 0U);
   }
 }
@@ -134,7 +134,7 @@ TEST(TileState, ALeafAboveTheTileIsTakenApart) {
   }
   EXPECT_EQ(known_tiles(map, kAll).size(), 8U);
   EXPECT_EQ(map.size(), 13U);  // the eight are one leaf, at depth 12
-  write_tile(map, {3}, {});
+  write_tile(map, TileKey{3}, TileState{});
   EXPECT_EQ(known_tiles(map, kAll).size(), 7U);
   EXPECT_EQ(known_tiles(map, 5).size(), 5U);
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fusion/merging/brick.hpp"
+#include "fusion/merging/tile_window.hpp"
 
 #include <gtest/gtest.h>
 
@@ -21,68 +21,67 @@ void set(SemanticOcTree& map, const Eigen::Vector3i& key, float log_odds) {
 }
 
 int voxel(const Eigen::Vector3i& key) {
-  return brick_index(0, key.x() & 7) + brick_index(1, key.y() & 7) + brick_index(2, key.z() & 7);
+  return tile_index(0, key.x() & 7) + tile_index(1, key.y() & 7) + tile_index(2, key.z() & 7);
 }
 
 /// Few different values, so that cubes of equal voxels are collapsed on every level.
-Brick random_brick(std::mt19937& random) {
+TileVoxels random_voxels(std::mt19937& random) {
   const std::array values{SemanticNode::kAbsent, -1.0F, 2.0F};
-  Brick brick;
+  TileVoxels tile;
   for (const int run : {64, 8, 1})
-    for (int from = 0; from < kBrickVoxels; from += run)
-      if (run == 64 || random() % 3 == 0) std::fill_n(brick.begin() + from, run, values.at(random() % values.size()));
-  return brick;
+    for (int from = 0; from < kTileVoxels; from += run)
+      if (run == 64 || random() % 3 == 0) std::fill_n(tile.begin() + from, run, values.at(random() % values.size()));
+  return tile;
 }
 
-TEST(Brick, WhatIsWrittenIsThereInTheTreeAndIsReadAgain) {
+TEST(TileVoxels, WhatIsWrittenIsThereInTheTreeAndIsReadAgain) {
   std::mt19937 random(1);
   for (int round = 0; round < 50; ++round) {
-    Brick brick = random_brick(random), read;
-    if (round == 0) brick.fill(2.0F);
+    TileVoxels tile = random_voxels(random), read;
+    if (round == 0) tile.fill(2.0F);
     SemanticOcTree map(0.1);
-    set(map, {32760, 32760, 32760}, 0);  // nodes down to the brick, which is then emptied
+    set(map, {32760, 32760, 32760}, 0);  // nodes down to the tile, which is then emptied
     SemanticNode* leaf = map.getRoot();
     bool made = false;
     for (int depth = 0; depth < 13; ++depth) leaf = map.writer(0).child(leaf, depth == 0 ? 0 : 7, made);
     map.writer(0).free_below(leaf);
     map.writer(0).count(-3);
-    ASSERT_TRUE(write_brick(brick, map.writer(0), leaf));
+    ASSERT_TRUE(write_voxels(tile, map.writer(0), leaf));
     map.settle_count();
-    read_brick(*leaf, read);
-    EXPECT_EQ(read, brick);
+    read_voxels(*leaf, read);
+    EXPECT_EQ(read, tile);
     map.canonicalise();
     EXPECT_EQ(map.size(), map.calcNumNodes());
-    for (int i = 0; i < kBrickVoxels; ++i) {
+    for (int i = 0; i < kTileVoxels; ++i) {
       const Eigen::Vector3i key(32760 + (i & 7), 32760 + (i >> 3 & 7), 32760 + (i >> 6));
-      ASSERT_EQ(value_at(map, key), brick.at(static_cast<std::size_t>(voxel(key))));
+      ASSERT_EQ(value_at(map, key), tile.at(static_cast<std::size_t>(voxel(key))));
     }
   }
 }
 
-TEST(Brick, OfNothingKnownNothingIsWritten) {
+TEST(TileVoxels, OfNothingKnownNothingIsWritten) {
   SemanticOcTree map(0.1);
   bool made = false;
   SemanticNode* root = map.root_or_new(made);
-  Brick brick;
-  brick.fill(SemanticNode::kAbsent);
-  EXPECT_FALSE(write_brick(brick, map.writer(0), root));
+  TileVoxels tile;
+  tile.fill(SemanticNode::kAbsent);
+  EXPECT_FALSE(write_voxels(tile, map.writer(0), root));
   EXPECT_EQ(root->block(), nullptr);
 }
 
-/// Bricks that share a place of the window, the tree's corners and what lies beyond them.
-TEST(BrickWindow, HoldsWhatTheTreeHasWhateverWasHeldBefore) {
+/// Tiles that share a place of the window, the tree's corners and what lies beyond them.
+TEST(TileWindow, HoldsWhatTheTreeHasWhateverWasHeldBefore) {
   std::mt19937 random(2);
   const std::array coordinates{0, 5, 32767, 32768, 32768 + 9, 32768 + 128, 32768 + 129, 65535};
   const auto any = [&] { return coordinates.at(random() % coordinates.size()); };
   SemanticOcTree map(0.1);
   for (int i = 0; i < 200; ++i) set(map, {any(), any(), any()}, static_cast<float>(random() % 5) - 2.0F);
-  BrickWindow window(map.getRoot());
+  TileWindow window(map.getRoot());
   for (int i = 0; i < 2000; ++i) {
-    const Eigen::Vector3i key(any(), any(), any()), brick = key.array() / kBrickEdge;
-    window.hold(brick.array() - 1, brick.array() + 1);
+    const Eigen::Vector3i key(any(), any(), any()), tile = key.array() / kTileEdge;
+    window.hold(tile.array() - 1, tile.array() + 1);
     const auto held = [&](const Eigen::Vector3i& k) {
-      return window
-          .voxels()[BrickWindow::index(0, k.x()) + BrickWindow::index(1, k.y()) + BrickWindow::index(2, k.z())];
+      return window.voxels()[TileWindow::index(0, k.x()) + TileWindow::index(1, k.y()) + TileWindow::index(2, k.z())];
     };
     ASSERT_EQ(held(key), value_at(map, key)) << key.transpose();
     const Eigen::Vector3i beside = key.array() + static_cast<int>(random() % 17) - 8;
@@ -91,8 +90,8 @@ TEST(BrickWindow, HoldsWhatTheTreeHasWhateverWasHeldBefore) {
   }
 }
 
-TEST(BrickWindow, OfAnEmptyMapNothingIsKnown) {
-  BrickWindow window(nullptr);
+TEST(TileWindow, OfAnEmptyMapNothingIsKnown) {
+  TileWindow window(nullptr);
   window.hold({0, 0, 0}, {1, 1, 1});
   EXPECT_EQ(window.voxels()[0], SemanticNode::kAbsent);
 }

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <array>
+#include <vector>
+
+#include "onboard/mapping/tile_voxels.hpp"
+
+namespace cairn::merging {
+
+/// Tiles of a map that lie near each other, read from its tree once each: a map that is turned against the grid is
+/// looked up voxel by voxel, and in an array that costs a fraction of a descent in the tree. A window that moves with
+/// the cubes asked for: the place of a tile is its coordinates modulo the window's extent, so memory is bounded.
+class TileWindow {
+ public:
+  explicit TileWindow(const SemanticNode* root) : root_(root) {}
+
+  /// Reads what is not yet there of the tiles from `low` to `high` (both inclusive, in tiles from the tree's corner;
+  /// outside of the tree nothing is known). At most kExtent of them along each axis.
+  void hold(const Eigen::Vector3i& low, const Eigen::Vector3i& high);
+  /// The log-odds of the voxel with these keys is voxels()[Σ index(axis, key)], if its tile is held.
+  [[nodiscard]] const float* voxels() const { return voxels_.data(); }
+  [[nodiscard]] static int index(int axis, int key) {
+    const int tile = (key >> 3) & (kExtent[static_cast<std::size_t>(axis)] - 1);
+    return tile * kStride[static_cast<std::size_t>(axis)] + tile_index(axis, key & (kTileEdge - 1));
+  }
+
+ private:
+  static constexpr std::array<int, 3> kExtent{16, 16, 4};  // tiles; powers of two
+  static constexpr std::array<int, 3> kStride{kTileVoxels, kTileVoxels* kExtent[0],
+                                              kTileVoxels* kExtent[0] * kExtent[1]};
+  static constexpr std::size_t kTiles = std::size_t{kExtent[0]} * kExtent[1] * kExtent[2];
+
+  void read(const Eigen::Vector3i& tile, float* into) const;
+
+  const SemanticNode* root_;
+  std::vector<float> voxels_;
+  std::vector<Eigen::Vector3i> held_;  // which tile is at each place
+};
+
+}  // namespace cairn::merging
