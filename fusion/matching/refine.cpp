@@ -11,6 +11,7 @@ namespace {
 constexpr float kThin = 0.999F;  // 1 less the variance along a normal over that across it
 constexpr int kMinPairs = 20;
 constexpr float kOneFace = 0.1F;  // weight of a pair of a wall's middle and its face
+constexpr float kClutter = 0.1F;  // weight of a pair without a plane
 constexpr float kLevel = 0.85F;
 
 using Matrix36f = Eigen::Matrix<float, 3, 6>;
@@ -29,6 +30,11 @@ Eigen::Matrix3f information(const Eigen::Vector3f& n_target, const Eigen::Vector
   return sum.inverse();
 }
 
+/// A height alone; along it as if both normals were upright.
+Eigen::Matrix3f information_of_height(const Eigen::Vector3f& up) {
+  return 0.5F * Eigen::Matrix3f::Identity() + (0.5F / (1 - kThin) - 0.5F) * up * up.transpose();
+}
+
 /// Geman–McClure's weight of a pair by its distance along the normals.
 float credit(float cost, float robust_m) {
   const float distance = cost * 2 * (1 - kThin) / (robust_m * robust_m);
@@ -36,6 +42,16 @@ float credit(float cost, float robust_m) {
 }
 
 }  // namespace
+
+bool level(const Surfel& target, const Surfel& source) {
+  return std::abs(target.normal.z()) > kLevel && std::abs(source.normal.z()) > kLevel;
+}
+
+float weight(const Surfel& target, const Surfel& source) {
+  const auto height_variance = [](const Surfel& s) { return 1 - kThin * s.normal.z() * s.normal.z(); };
+  if (level(target, source)) return 2 * (1 - kThin) / (height_variance(target) + height_variance(source));
+  return target.flat() && source.flat() ? 1 : kClutter;
+}
 
 NormalEquations plane_to_plane(std::span<const Surfel> target, const NearestGrid& nearest,
                                std::span<const Surfel> source, const SE3& T, float gate_m, float robust_m) {
@@ -50,9 +66,8 @@ NormalEquations plane_to_plane(std::span<const Surfel> target, const NearestGrid
     const Eigen::Vector3f e = R.transpose() * (q - r.point), n = R.transpose() * r.normal;
     // The two faces of a trunk or a thin wall, seen by one robot each, are not one place.
     if (r.oriented && s.oriented && n.dot(s.normal) < 0) continue;
-    // The voxels of sloping ground are terraces, whose edges would hold fast in the wrong place.
-    const bool level = std::abs(r.normal.z()) > kLevel && std::abs(s.normal.z()) > kLevel;
-    Eigen::Matrix3f W = level ? information(R.row(2).transpose(), Eigen::Vector3f::UnitZ()) : information(n, s.normal);
+    Eigen::Matrix3f W = level(r, s) ? information_of_height(R.row(2).transpose()) : information(n, s.normal);
+    W *= weight(r, s);
     if (one_face(r, s)) W *= kOneFace;
     if (robust_m > 0) W *= credit(e.dot(W * e), robust_m);
     Matrix36f J;

@@ -32,9 +32,16 @@ struct NormalEquations {
   double cost = 0;
   int pairs = 0;
 };
+/// Whether a pair is of level ground or a ceiling. Of the pairs that are, the height alone counts: the voxels of
+/// sloping ground are terraces, whose edges would hold fast in the wrong place.
+[[nodiscard]] bool level(const Surfel& target, const Surfel& source);
+/// What a pair counts along its normals; two upright planes count 1. Clutter, which has no plane, errs by three times
+/// as much. Level ground counts the less the more its planes lean, as that is where a floor changes from one layer of
+/// voxels to the next.
+[[nodiscard]] float weight(const Surfel& target, const Surfel& source);
 /// Σ eᵀ (Σ_t + R Σ_s Rᵀ)⁻¹ e over the pairs within the gate, e = T x_s − x_t, with the covariance of a surfel thin
-/// along its normal (4.17, with R on the side that makes both covariances speak of the target's frame). Pairs that were
-/// seen from opposite sides are left out.
+/// along its normal (4.17, with R on the side that makes both covariances speak of the target's frame), times weight().
+/// Pairs that were seen from opposite sides are left out.
 [[nodiscard]] NormalEquations plane_to_plane(std::span<const Surfel> target, const NearestGrid& nearest,
                                              std::span<const Surfel> source, const SE3& T, float gate_m,
                                              float robust_m = 0);

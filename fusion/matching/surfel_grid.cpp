@@ -8,8 +8,7 @@ namespace cairn::matching {
 namespace {
 
 constexpr int kTileVoxels = 1 << TileKey::kVoxelBits;
-constexpr int kMinVoxels = 5;             // in 27 cells, for a normal
-constexpr float kPlaneVariation = 0.05F;  // below, the point is moved onto the plane
+constexpr int kMinVoxels = 5;  // in 27 cells, for a normal
 
 int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
@@ -118,7 +117,7 @@ Surfel SurfelGrid::fit(const Cell& cell) const {
   s.normal = solver.eigenvectors().col(0);
   s.variation = std::max(solver.eigenvalues()[0], 0.0F) / solver.eigenvalues().sum();
   // The staircase of voxels along a slanted wall is an artefact of the grid.
-  if (s.variation < kPlaneVariation) s.point -= s.normal * s.normal.dot(s.point - (centre(cell) + mean));
+  if (s.flat()) s.point -= s.normal * s.normal.dot(s.point - (centre(cell) + mean));
   return s;
 }
 

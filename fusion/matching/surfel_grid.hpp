@@ -14,7 +14,7 @@ namespace cairn::matching {
 
 /// What the occupied voxels in and around one cell look like: a point on the surface and its normal.
 struct Surfel {
-  /// m, map frame; on the local plane where there is one
+  /// m, map frame; on the local plane where the surfel is flat()
   Eigen::Vector3f point = Eigen::Vector3f::Zero();
   /// Unit length, sign arbitrary; zero where too few voxels are near.
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
@@ -24,6 +24,8 @@ struct Surfel {
   bool oriented = false;
   bool thin = false;  ///< free space was observed on both sides
 
+  /// Whether there is a plane to speak of; elsewhere the point is the mean of the cell's voxels.
+  [[nodiscard]] bool flat() const { return variation < 0.1F; }
   /// Walls, edges and clutter tell places apart; floors and ceilings agree everywhere (prototype's finding 2).
   [[nodiscard]] bool structure() const { return std::abs(normal.z()) < 0.7F || variation > 0.05F; }
 };
