@@ -8,8 +8,8 @@
 
 namespace cairn::peers {
 
-/// Never lets more than `bytes_per_second` through in any second: what may gather in a pause (an eighth of that, and two
-/// datagrams at least) and what is refilled within a second are the rate together.
+/// Never lets more than `bytes_per_second` through in any second: what may gather in a pause (an eighth of that, and
+/// two datagrams at least) and what is refilled within a second are the rate together.
 class TokenBucket {
  public:
   explicit TokenBucket(double bytes_per_second)
@@ -17,13 +17,13 @@ class TokenBucket {
         refill_(bytes_per_second - burst_),
         level_(burst_) {}
 
-  /// Whether `bytes` may go now; they are counted then.
-  [[nodiscard]] bool take(std::size_t bytes, Time now) {
+  /// Whether `bytes` may go now; they are counted then. What is not urgent leaves a third of the burst to what is.
+  [[nodiscard]] bool take(std::size_t bytes, Time now, bool urgent = false) {
     if (now > last_) {
       level_ = std::min(burst_, level_ + refill_ * to_seconds(now - last_));
       last_ = now;
     }
-    if (static_cast<double>(bytes) > level_) return false;
+    if (static_cast<double>(bytes) > level_ - (urgent ? 0 : burst_ / 3)) return false;
     level_ -= static_cast<double>(bytes);
     return true;
   }

@@ -22,9 +22,9 @@ class Limiter {
     limited_ = limits.bytes_per_second > 0;
     bucket_ = TokenBucket(static_cast<double>(limits.bytes_per_second));
   }
-  bool pass(std::size_t bytes) {
+  bool pass(std::size_t bytes, bool urgent) {
     const std::scoped_lock lock(mutex_);
-    const bool passes = !limited_ || bucket_.take(bytes, clock_.now());
+    const bool passes = !limited_ || bucket_.take(bytes, clock_.now(), urgent);
     counters_.sent += passes ? 1 : 0;
     counters_.sent_bytes += passes ? bytes : 0;
     counters_.dropped += passes ? 0 : 1;
@@ -48,6 +48,11 @@ Limiter& limiter() {
   return limiter;
 }
 
+/// Discovery goes to even ports, data to odd ones (RTPS 2.5, 9.6.1). Without discovery nobody finds anybody.
+bool is_discovery(const sockaddr& to) {
+  return to.sa_family == AF_INET && ntohs(reinterpret_cast<const sockaddr_in&>(to).sin_port) % 2 == 0;
+}
+
 std::size_t length_of(const msghdr& message) {
   std::size_t bytes = 0;
   for (std::size_t i = 0; i < message.msg_iovlen; ++i) bytes += message.msg_iov[i].iov_len;
@@ -68,6 +73,7 @@ extern "C" ssize_t sendmsg(int socket, const msghdr* message, int flags) {
   const auto* to = static_cast<const sockaddr*>(message->msg_name);
   const bool internet = to != nullptr && (to->sa_family == AF_INET || to->sa_family == AF_INET6);
   const std::size_t bytes = cairn::peers::length_of(*message);
-  if (internet && !cairn::peers::limiter().pass(bytes + cairn::peers::kHeaders)) return static_cast<ssize_t>(bytes);
+  if (internet && !cairn::peers::limiter().pass(bytes + cairn::peers::kHeaders, cairn::peers::is_discovery(*to)))
+    return static_cast<ssize_t>(bytes);
   return real(socket, message, flags);
 }

@@ -8,7 +8,8 @@ namespace cairn::peers {
 
 /// A cap on all that this process sends over the network, whoever in it sends: the DDS library's discovery, heartbeats
 /// and answers too. sendmsg() of this program stands before the C library's; what goes to an internet address and is
-/// beyond the cap is dropped, as a bad link would drop it. Only in programs that link udp_limiter.cpp.
+/// beyond the cap is dropped, as a bad link would drop it; data before discovery. Only in programs that link
+/// udp_limiter.cpp.
 struct UdpLimits {
   std::size_t bytes_per_second = 0;  ///< UDP, IP and Ethernet headers included; 0: no cap
 };

@@ -53,10 +53,10 @@ class Peer {
     return status;
   }
   /// Bytes that came within a moment.
-  std::vector<std::vector<std::byte>> received() {
+  std::vector<std::vector<std::byte>> received(int wait_ms = 20) {
     link.join();
     pollfd waited{link.readable_fd(), POLLIN, 0};
-    (void)::poll(&waited, 1, 20);
+    (void)::poll(&waited, 1, wait_ms);
     std::vector<std::vector<std::byte>> all;
     std::vector<std::byte> memory;
     for (LinkFrame frame; link.receive(memory, frame);) all.emplace_back(frame.bytes.begin(), frame.bytes.end());
@@ -86,7 +86,7 @@ inline bool arrives(Peer& from, Peer& to, std::uint64_t robot, const std::vector
   for (const Time end = clock.now() + std::chrono::seconds(30); clock.now() < end;) {
     from.link.join();
     from.link.send({LinkFrame::Kind::kSend, robot, bytes});
-    for (const auto& got : to.received())
+    for (const auto& got : to.received(100))
       if (got == bytes) return true;
   }
   return false;

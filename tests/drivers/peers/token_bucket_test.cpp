@@ -22,7 +22,7 @@ TEST(TokenBucket, NoSecondIsAboveTheCap) {
     for (int i = 0; i < 5000; ++i) {
       now += milliseconds(random() % 50 == 0 ? 3000 : random() % 20);
       const std::size_t bytes = 40 + random() % 1200;
-      if (!bucket.take(bytes, now)) continue;
+      if (!bucket.take(bytes, now, random() % 4 == 0)) continue;
       sent.emplace_back(now, bytes);
       in_window += bytes;
       while (sent.front().first + std::chrono::seconds(1) <= now) {
@@ -40,6 +40,16 @@ TEST(TokenBucket, ASteadySenderGetsMostOfTheCap) {
   for (int ms = 0; ms < 60'000; ms += 5)
     if (bucket.take(300, Time{milliseconds(ms)})) through += 300;
   EXPECT_GE(through, 60U * 5000);
+}
+
+TEST(TokenBucket, WhatIsUrgentGetsThroughAFloodOfTheRest) {
+  TokenBucket bucket(8000);
+  int refused = 0;
+  for (int ms = 0; ms < 10'000; ++ms) {
+    (void)bucket.take(1200, Time{milliseconds(ms)});
+    if (ms % 500 == 0 && !bucket.take(700, Time{milliseconds(ms)}, true)) ++refused;
+  }
+  EXPECT_EQ(refused, 0);
 }
 
 }  // namespace
