@@ -24,6 +24,8 @@ class LocalLink {
   static Result<LocalLink> listen(const std::filesystem::path& path);
   /// The peer process's end; it connects when it can, and again when the core went away.
   static LocalLink connect(std::filesystem::path path);
+  LocalLink(const LocalLink&) = delete;
+  LocalLink& operator=(const LocalLink&) = delete;
   LocalLink(LocalLink&& other) noexcept;
   LocalLink& operator=(LocalLink&&) = delete;
   ~LocalLink();

@@ -26,7 +26,7 @@ Limits limits_of(const SemanticOcTree& map) {
 class Fusion {
  public:
   Fusion(const Contributions& contributions, const MergeOptions& options, SemanticOcTree& fused)
-      : options_(options), fused_(fused), limits_(limits_of(fused)), fold_(options.policy, limits_) {
+      : fused_(fused), limits_(limits_of(fused)), fold_(options.policy, limits_) {
     std::int64_t came_in = 0;
     for (const auto& [robot, contribution] : contributions)
       came_in += static_cast<std::int64_t>(contribution.map->size());
@@ -136,7 +136,6 @@ class Fusion {
     return outranked ? *own_opinion_ : fused;
   }
 
-  const MergeOptions& options_;
   SemanticOcTree& fused_;
   Limits limits_;
   RememberedFold fold_;
