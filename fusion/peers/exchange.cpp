@@ -83,7 +83,6 @@ Result<void> Exchange::receive(std::span<const std::byte> datagram, Time now) {
     return decoded.error();
   }
   if (!hears(sender, now)) {  // it is new, or back: both sides want to know what the other has
-    link->first_heard = now;
     last_full_digest_ = Time::min();
   }
   link->last_heard = now;

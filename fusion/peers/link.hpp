@@ -24,7 +24,6 @@ struct Link {
   };
   std::string name;
   Time last_heard = Time::min();
-  Time first_heard = Time::min();
   Epoch epoch = 0;                       ///< by its last hello
   Version newest = 0;                    ///< that it has said, by its last hello
   Hello::Echo echo{0, Time::min(), {}};  ///< its last hello, to be sent back; `age` is not kept here
