@@ -10,6 +10,7 @@ namespace {
 constexpr std::size_t kLookedAt = 1024;                     // missing items among which the most urgent are found
 constexpr Duration kTick = std::chrono::milliseconds(200);  // robots do not answer at once
 constexpr std::size_t kManyGaps = 8;   // in what a peer knows, of which nothing is missing: worth a datagram
+constexpr double kBadLink = 0.1;       // share of items that are lost
 constexpr std::size_t kEchoes = 2;     // in a hello
 constexpr double kDigestShare = 0.25;  // of the bytes, at most
 
@@ -127,7 +128,9 @@ Result<void> Exchange::take(RobotId /*sender*/, Link& link, const Digest& digest
   std::erase_if(link.in_flight, [&](const auto& sent) {
     const auto told = std::ranges::find(digest.layers, sent.first.first, &Digest::Layer::robot);
     if (told == digest.layers.end()) return false;
-    return sent.second + way_of(link) < now || told->known.contains(sent.first.second);  // lost, or arrived
+    const bool arrived = told->known.contains(sent.first.second), lost = sent.second + way_of(link) < now;
+    if (arrived || lost) link.note_fate(arrived);
+    return arrived || lost;
   });
   return {};
 }
@@ -235,9 +238,14 @@ void Exchange::sort_by_urgency(std::vector<ItemUpdate>& updates, const Address& 
 }
 
 void Exchange::send_layer(Time now, const Address& address, Link& link, std::vector<Outgoing>& out) {
-  // A digest would have told by now.
-  const Duration patience = way_of(link) + config_.digest_period + kTick;
-  std::erase_if(link.in_flight, [&](const auto& sent) { return sent.second + patience < now; });
+  // A digest would have told by now. On a bad link with bytes to spare, sending twice is better than waiting for it.
+  const bool hasten = link.loss > kBadLink && bytes_ > static_cast<double>(config_.bytes_per_second) / 2;
+  const Duration patience = way_of(link) + (hasten ? Duration::zero() : config_.digest_period + kTick);
+  std::erase_if(link.in_flight, [&](const auto& sent) {
+    const bool overdue = sent.second + patience < now;
+    if (overdue && !hasten) link.note_fate(false);
+    return overdue;
+  });
   Missing missing = missing_at(link, address);
   const bool waited = now >= link.last_items + config_.gather;
   if (missing.updates.empty() && (missing.superseded.ranges().size() < kManyGaps || !waited)) return;

@@ -34,6 +34,8 @@ struct Link {
   std::map<RobotId, Known> known;                         ///< not of more robots than a digest has
   std::map<std::pair<RobotId, Version>, Time> in_flight;  ///< items sent lately, of which no digest has told yet
   Time last_items = Time::min();                          ///< sent to it
+  double loss = 0;                                        ///< share of the items sent lately that did not arrive
+  void note_fate(bool arrived) { loss += 0.02 * ((arrived ? 0 : 1) - loss); }
   std::uint64_t received_bytes = 0, sent_bytes = 0, received_items = 0, sent_items = 0;
   std::uint64_t repeated_items = 0;  ///< received, and known already
   std::uint64_t refused = 0;         ///< datagrams that cannot be
