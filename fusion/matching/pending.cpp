@@ -9,9 +9,7 @@
 namespace cairn::matching {
 namespace {
 
-constexpr int kAgreements = 3;                              // to be accepted,
-constexpr int kFewAgreements = 2;                           // and where they rest on
-constexpr double kAmpleGroundM2 = 200;                      // this much structure
+constexpr int kAgreements = 3;                              // to be accepted
 constexpr double kAgrees = 0.9;                             // least probability of an agreement,
 constexpr double kLeastGroundM2 = 60;                       // and the structure it needs
 constexpr double kNewGround = 0.1, kLeastNewGroundM2 = 10;  // what it must add to the last one's
@@ -60,11 +58,8 @@ void suspend(Hypothesis& h, const std::string& why) {
   h.reason = why;
 }
 
-int needed(double ground_m2) { return ground_m2 >= kAmpleGroundM2 ? kFewAgreements : kAgreements; }
-
-std::string so_often(const Hypothesis& h) {
-  return "agreed on new ground " + std::to_string(h.agreements) + " of " + std::to_string(needed(h.ground_m2)) +
-         " times";
+std::string so_often(int agreements) {
+  return "agreed on new ground " + std::to_string(agreements) + " of " + std::to_string(kAgreements) + " times";
 }
 
 /// `rival`: the probability of the likeliest other place.
@@ -79,12 +74,11 @@ void judge(Hypothesis& h, const Look& look, const Decision& now, double rival) {
     return;
   }
   const bool agrees = h.probability_correct >= kAgrees && rival < kRivalled;
-  h.reason = agrees ? so_often(h) : rival < kRivalled ? now.reason : "another pose may be as good";
+  h.reason = agrees ? so_often(h.agreements) : rival < kRivalled ? now.reason : "another pose may be as good";
   if (!agrees || !on_new_ground(h, look.evidence)) return;
   h.ground_m2 = look.evidence.agreeing_m2;
-  ++h.agreements;
-  h.reason = so_often(h);
-  if (h.agreements >= needed(h.ground_m2)) h.standing = Standing::kAccepted;
+  h.reason = so_often(++h.agreements);
+  if (h.agreements >= kAgreements) h.standing = Standing::kAccepted;
 }
 
 }  // namespace

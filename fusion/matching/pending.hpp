@@ -24,12 +24,11 @@ struct Hypothesis {
 };
 
 /// Where one map may lie in another while both grow. No single comparison decides: a hypothesis is accepted when it has
-/// agreed three times (twice, where the agreeing structure is 200 m² or more), each time on new ground and while no
-/// other place was at all likely; it is dropped when the maps contradict it twice in a row, and an accepted one is
-/// suspended when another place becomes likely. Where geometry repeats, rivals are as good as each other and none is
-/// accepted, until something tells them apart. A pure function of the rounds it was given; within a round the order of
-/// the looks does not matter. The rules were chosen on the seeds that decide() was fitted on;
-/// tests/bench/matching_missions measures them on others.
+/// agreed three times, each time on new ground and while no other place was at all likely; it is dropped when the maps
+/// contradict it twice in a row, and an accepted one is suspended when another place becomes likely. Where geometry
+/// repeats, rivals are as good as each other and none is accepted, until something tells them apart. A pure function of
+/// the rounds it was given; within a round the order of the looks does not matter. The rules were chosen on the seeds
+/// that decide() was fitted on; tests/bench/matching_missions measures them on others.
 class PendingHypotheses {
  public:
   static constexpr std::size_t kMostPending = 6, kMostDropped = 6;
