@@ -52,6 +52,7 @@ void Team::take_tile(RobotId robot, peers::ItemId id, Time now) {
   const auto state = peers::decode_tile(items.at(id).payload);  // checked when it was received
   if (!state) return;
   map_.put({robot, id.submap()}, id.tile(), *state, now);
+  if (id.submap() != 0) return;  // it has a frame of its own
   Mapped& mapped = mapped_[robot];
   if (!mapped.tree) mapped.tree = std::make_shared<SemanticOcTree>(config_.resolution_m);
   if (mapped.tree.use_count() > 1) mapped.tree = std::make_shared<SemanticOcTree>(*mapped.tree);  // a job reads it

@@ -77,7 +77,9 @@ int main(int argc, char** argv) {
   using namespace cairn::peers;
   Options options;
   CLI::App app("the peer process of a robot: joins its core to the team over Cyclone DDS");
-  app.add_option("--robot", options.dds.robot, "this robot's id, its own in the team")->required();
+  app.add_option("--robot", options.dds.robot, "this robot's id, its own in the team, not 0")
+      ->required()
+      ->check(CLI::Range(std::uint64_t{1}, ~std::uint64_t{0}));
   app.add_option("--socket", options.socket, "local socket of the core")->required();
   app.add_option("--peer", options.dds.peers, "address of a teammate; again for each")->required();
   app.add_option("--interface", options.dds.interface, "network interface, by name or address");

@@ -36,7 +36,7 @@ Result<Hello> read_hello(ByteReader& in) {
   if (*echoes > Hello::kMaxEchoes) return Error{Errc::kMalformed, "more than 32 echoes"};
   hello = {*epoch, *newest, Time{Duration{*stamp}}, {}, {}};
   for (const std::byte c : *name) hello.name += static_cast<char>(c);
-  if (!std::ranges::all_of(hello.name, [](char c) { return c > ' ' && c <= '~'; }))
+  if (!std::ranges::all_of(hello.name, is_printable))
     return Error{Errc::kMalformed, "a robot's name that cannot be printed"};
   for (unsigned i = 0; i < *echoes; ++i) {
     const auto robot = in.read<RobotId>();

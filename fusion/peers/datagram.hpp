@@ -65,6 +65,7 @@ struct Datagram {
   std::variant<Hello, Digest, Items> content;
 };
 
+/// What of a name is not printable ASCII becomes '?'; what is too long is cut.
 [[nodiscard]] std::vector<std::byte> encode(RobotId sender, const Hello& hello);
 /// Layers that do not fit, of the last ones, are left out; ranges of versions too, the highest first.
 [[nodiscard]] std::vector<std::byte> encode(RobotId sender, const Digest& digest);

@@ -88,7 +88,7 @@ std::vector<std::byte> encode(RobotId sender, const Hello& hello) {
   append_le(out, ns(hello.stamp));
   const std::size_t length = std::min(hello.name.size(), Hello::kMaxName);
   append_le(out, static_cast<std::uint8_t>(length));
-  for (std::size_t i = 0; i < length; ++i) append_le(out, hello.name[i]);
+  for (std::size_t i = 0; i < length; ++i) append_le(out, is_printable(hello.name[i]) ? hello.name[i] : '?');
   const std::size_t echoes = std::min(hello.echoes.size(), Hello::kMaxEchoes);
   append_le(out, static_cast<std::uint8_t>(echoes));
   for (std::size_t i = 0; i < echoes; ++i) {

@@ -83,9 +83,7 @@ Result<void> Exchange::receive(std::span<const std::byte> datagram, Time now) {
     link->conduct.fault(now);
     return decoded.error();
   }
-  if (!hears(sender, now)) {  // it is new, or back: both sides want to know what the other has
-    last_full_digest_ = Time::min();
-  }
+  if (!hears(sender, now)) last_full_digest_ = Time::min();  // new, or back: it wants to know what this one has
   link->last_heard = now;
   link->received_bytes += datagram.size();
   return std::visit([&](const auto& content) { return take(sender, *link, content, now); }, decoded->content);

@@ -26,6 +26,7 @@ using peers::RobotId;
 
 std::map<std::string, double> g_options{
     {"resolution", 0.1}, {"loss", 0.2}, {"jitter_ms", 300}, {"rate", 16000}, {"after", 30}};
+constexpr std::size_t kOverhead = 100;  // of RTPS, UDP and IP, about
 constexpr Duration kTick = std::chrono::milliseconds(100);
 
 /// Occupied voxels of two maps, where the first knows something: both over either. The world may be one voxel off.
@@ -121,11 +122,7 @@ class TeamRun {
     robot.team.step(now_, out);
     const RobotId self = robot.team.exchange().self();
     for (const auto& datagram : out)
-      for (RobotId id = 1; id <= robots_.size(); ++id)
-        if (id != self && (datagram.to == 0 || datagram.to == id)) {
-          robot.sent_bytes += datagram.bytes.size() + 100;
-          network_.send({self, id, datagram.bytes}, now_);
-        }
+      robot.sent_bytes += network_.send(self, robots_.size(), datagram, now_) * (datagram.bytes.size() + kOverhead);
     if (auto job = robot.team.next_match(now_)) {
       const Duration before = thread_cpu_time();
       Budget budget = Budget::steps(matching::kAmpleSteps);

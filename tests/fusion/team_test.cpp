@@ -62,9 +62,7 @@ class Ride {
     std::vector<peers::Outgoing> out;
     robot.team.step(now_, out);
     const RobotId self = robot.team.exchange().self();
-    for (const auto& datagram : out)
-      for (RobotId id = 1; id <= robots_.size(); ++id)
-        if (id != self && (datagram.to == 0 || datagram.to == id)) network_.send({self, id, datagram.bytes}, now_);
+    for (const auto& datagram : out) network_.send(self, robots_.size(), datagram, now_);
     if (auto job = robot.team.next_match(now_)) {
       Budget budget = Budget::steps(matching::kAmpleSteps);
       cairn::run(*job, budget);

@@ -91,9 +91,7 @@ class Fleet {
   void send(RobotId id, Robot& robot) {
     out_.clear();
     robot.exchange->send(clock(id), out_);
-    for (const peers::Outgoing& datagram : out_)
-      for (const auto& [other, _] : robots_)
-        if (other != id && (datagram.to == 0 || datagram.to == other)) network.send({id, other, datagram.bytes}, now_);
+    for (const peers::Outgoing& datagram : out_) network.send(id, robots_.size(), datagram, now_);
   }
 
   static bool knows_all(const Exchange& robot, const Exchange& origin) {

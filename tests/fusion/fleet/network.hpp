@@ -46,6 +46,16 @@ class Network {
     if (chance(quality_.duplicates)) on_the_way_.emplace(now + quality_.delay + part_of(quality_.jitter), datagram);
     if (chance(quality_.replays)) on_the_way_.emplace(now + part_of(std::chrono::seconds(60)), datagram);
   }
+  /// To whom it is for, of robots 1 … `robots`; says how many that were.
+  std::size_t send(RobotId from, RobotId robots, const peers::Outgoing& datagram, Time now) {
+    std::size_t copies = 0;
+    for (RobotId id = 1; id <= robots; ++id) {
+      if (id == from || (datagram.to != 0 && datagram.to != id)) continue;
+      send({from, id, datagram.bytes}, now);
+      ++copies;
+    }
+    return copies;
+  }
   /// What arrives until `now`, in order.
   [[nodiscard]] std::vector<Delivery> arrived(Time now) {
     std::vector<Delivery> arrived;

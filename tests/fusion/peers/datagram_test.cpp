@@ -61,6 +61,12 @@ TEST(Datagram, HellosComeBack) {
   EXPECT_EQ(back.echoes[0].age, hello.echoes[0].age);
 }
 
+TEST(Datagram, AnyNameThatAProfileHasCanBeRead) {
+  EXPECT_EQ(content_of<Hello>(encode(1, Hello{1, 1, Time{}, "robot 1", {}})).name, "robot 1");
+  EXPECT_EQ(content_of<Hello>(encode(1, Hello{1, 1, Time{}, "two\nlines", {}})).name, "two?lines");
+  EXPECT_EQ(content_of<Hello>(encode(1, Hello{1, 1, Time{}, std::string(99, 'x'), {}})).name, std::string(24, 'x'));
+}
+
 TEST(Datagram, DigestsComeBack) {
   Digest digest;
   digest.layers.push_back({1, 5, true, {}});
@@ -135,7 +141,9 @@ TEST(Datagram, SaysWhatIsWrong) {
   EXPECT_EQ(decode_datagram(std::vector<std::byte>(2000)).error().code, Errc::kLimit);
   EXPECT_EQ(decode_datagram({}).error().code, Errc::kTruncated);
   EXPECT_FALSE(decode_datagram(encode(0, Hello{})).has_value());
-  EXPECT_FALSE(decode_datagram(encode(1, Hello{1, 1, Time{}, "two\nlines", {}})).has_value());
+  auto named = encode(1, Hello{1, 1, Time{}, "a", {}});
+  *std::ranges::find(named, std::byte{'a'}) = std::byte{'\n'};
+  EXPECT_FALSE(decode_datagram(named).has_value());
   EXPECT_FALSE(decode_datagram(encode(1, Hello{1, 1, Time::max(), "a", {}})).has_value());
 }
 
