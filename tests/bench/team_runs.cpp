@@ -2,7 +2,8 @@
 // A team on simulated recordings, in virtual time over an emulated link: who finds whom and when, how exactly, what it
 // takes to send, and whether all end with one map that fits the world.
 //   team_runs RECORDINGS… [key=value …]     RECORDINGS: a folder of robot_1, robot_2, …
-//   keys: resolution (0.1 m), loss (0.2), jitter_ms (300), rate (bytes/s, 16000), after (s of silence at the end, 30)
+//   keys: resolution (0.1 m), loss (0.2), jitter_ms (300), rate (bytes/s, 16000), after (s of silence at the end, 30),
+//   out (a folder for the team's map of each robot)
 #include <xxhash.h>
 
 #include <array>
@@ -26,6 +27,7 @@ using peers::RobotId;
 
 std::map<std::string, double> g_options{
     {"resolution", 0.1}, {"loss", 0.2}, {"jitter_ms", 300}, {"rate", 16000}, {"after", 30}};
+fs::path g_out;
 constexpr std::size_t kOverhead = 100;  // of RTPS, UDP and IP, about
 constexpr Duration kTick = std::chrono::milliseconds(100);
 
@@ -98,6 +100,7 @@ class TeamRun {
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       const RecordedRobot& robot = *robots_[i];
       const auto& map = robot.team.map().map();
+      if (!g_out.empty()) (void)save_cairn(map, g_out / ("team_" + std::to_string(i + 1) + ".cairn"));
       std::printf(
           "%s robot_%zu: team of %zu, map %016llx, sent %.0f kB, received %.0f kB, raw %.1f MB (1/%.0f), "
           "slice max %.2f ms\n",
@@ -202,7 +205,9 @@ int main(int argc, char** argv) {
   std::vector<std::filesystem::path> folders;
   for (int i = 1; i < argc; ++i) {
     const char* equals = std::strchr(argv[i], '=');
-    if (equals != nullptr)
+    if (std::strncmp(argv[i], "out=", 4) == 0)
+      cairn::bench::g_out = argv[i] + 4;
+    else if (equals != nullptr)
       cairn::bench::g_options[std::string(argv[i], static_cast<std::size_t>(equals - argv[i]))] = std::atof(equals + 1);
     else
       folders.emplace_back(argv[i]);
