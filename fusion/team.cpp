@@ -2,6 +2,7 @@
 #include "fusion/team.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "fusion/peers/tile_codec.hpp"
@@ -13,30 +14,55 @@ using peers::RobotId;
 
 constexpr double kMovedM = 0.02, kTurnedRad = 0.003;  // an edge that is said again
 
+constexpr std::uint16_t kKnownEdges = 0x8000;  // those before are found by comparing maps
+
 bool moved(const SE3& from, const SE3& to) {
   const SE3 change = from.inverse() * to;
   return change.translation().norm() > kMovedM || rotation_angle(change) > kTurnedRad;
+}
+
+peers::ExchangeConfig with_voxels(peers::ExchangeConfig config, double resolution_m) {
+  config.voxel_um = static_cast<std::uint32_t>(std::lround(1e6 * resolution_m));
+  return config;
 }
 
 }  // namespace
 
 Team::Team(const TeamConfig& config, peers::Epoch epoch)
     : config_(config),
-      exchange_(config.id, config.name, epoch, config.exchange),
+      exchange_(config.id, config.name, epoch, with_voxels(config.exchange, config.resolution_m)),
       own_tiles_(config.own_tiles),
       map_(config.resolution_m, config.policy) {}
 
+void Team::begin(peers::Epoch epoch) {
+  own_tiles_.clear();
+  exchange_.begin(epoch);
+}
+
 void Team::step(Time now, std::vector<peers::Outgoing>& out) {
   own_tiles_.say(exchange_, now);  // what this robot sees
-  take_news(now);                  // what everyone has said
-  agree();                         // where everyone is
-  exchange_.send(now, out);        // what others miss
+  say_known_poses();
+  take_news(now);            // what everyone has said
+  agree();                   // where everyone is
+  focus();                   // what is wanted first
+  exchange_.send(now, out);  // what others miss
+}
+
+void Team::say_known_poses() {
+  std::uint16_t edge = kKnownEdges;
+  for (const auto& [peer, known] : known_poses_) {
+    const auto layer = exchange_.layers().find(peer);
+    if (layer != exchange_.layers().end())
+      exchange_.say(peers::ItemId::edge(edge),
+                    encode(peers::Edge{0, peer, layer->second.epoch, 0, known.first, known.second}));
+    ++edge;
+  }
 }
 
 void Team::take_news(Time now) {
   for (const auto& [robot, change] : exchange_.take_changes()) {
     if (change.anew) {
-      mapped_.erase(robot);
+      walls_.erase(robot);
       map_.drop(robot);
       edges_changed_ = true;
     }
@@ -53,12 +79,34 @@ void Team::take_tile(RobotId robot, peers::ItemId id, Time now) {
   if (!state) return;
   map_.put({robot, id.submap()}, id.tile(), *state, now);
   if (id.submap() != 0) return;  // it has a frame of its own
-  Mapped& mapped = mapped_[robot];
-  if (!mapped.tree) mapped.tree = std::make_shared<SemanticOcTree>(config_.resolution_m);
-  if (mapped.tree.use_count() > 1) mapped.tree = std::make_shared<SemanticOcTree>(*mapped.tree);  // a job reads it
-  mapped.occupied_tiles += state->any_occupied() ? 1 : 0;
-  mapped.occupied_tiles -= read_tile(*mapped.tree, id.tile()).any_occupied() ? 1 : 0;
-  write_tile(*mapped.tree, id.tile(), *state);
+  if (state->any_occupied())
+    walls_[robot].insert(id.tile());
+  else
+    walls_[robot].erase(id.tile());
+}
+
+std::size_t Team::walls_of(RobotId robot) const {
+  const auto found = walls_.find(robot);
+  return found == walls_.end() ? 0 : found->second.size();
+}
+
+/// Of its first submap: others have frames of their own.
+SaidTiles Team::said_by(RobotId robot) const {
+  SaidTiles said{config_.resolution_m, {}, {}};
+  for (const auto& [id, item] : exchange_.layers().at(robot).holding.items()) {
+    if (id.kind() != peers::ItemKind::kTile || id.submap() != 0) continue;
+    said.tiles.push_back({id.tile(), said.payloads.size(), item.payload.size()});
+    said.payloads.insert(said.payloads.end(), item.payload.begin(), item.payload.end());
+  }
+  return said;
+}
+
+SemanticOcTree SaidTiles::map() const {
+  SemanticOcTree map(resolution_m);
+  for (const Tile& tile : tiles)
+    if (const auto state = peers::decode_tile(std::span(payloads).subspan(tile.begin, tile.bytes)))
+      write_tile(map, tile.key, *state);
+  return map;
 }
 
 std::vector<PairClaim> Team::claims() const {
@@ -86,6 +134,11 @@ void Team::agree() {
   map_.place(submaps);
 }
 
+void Team::focus() {
+  const auto own = poses_.T_team_odom.find(config_.id);
+  if (own != poses_.T_team_odom.end()) map_.set_focus(own->second * position_odom_);
+}
+
 /// What is known about a pair is void when one of the two has begun anew.
 Team::Pair& Team::pair_with(RobotId peer, peers::Epoch epoch) {
   const auto [entry, added] = pairs_.try_emplace(peer);
@@ -103,14 +156,13 @@ Team::Pair& Team::pair_with(RobotId peer, peers::Epoch epoch) {
 }
 
 bool Team::worth_comparing(RobotId peer, const Pair& pair, Time now) const {
-  const auto own = mapped_.find(config_.id), other = mapped_.find(peer);
-  if (!pair.match || own == mapped_.end() || other == mapped_.end()) return false;
-  const auto grown = [&](const Mapped& mapped, std::size_t then) {
-    return static_cast<double>(mapped.occupied_tiles) >= config_.match_growth * static_cast<double>(then);
+  const std::size_t own = walls_of(config_.id), other = walls_of(peer);
+  const auto grown = [&](std::size_t tiles, std::size_t then) {
+    return static_cast<double>(tiles) >= config_.match_growth * static_cast<double>(then);
   };
-  return std::min(own->second.occupied_tiles, other->second.occupied_tiles) >= config_.least_tiles &&
+  return pair.match && std::min(own, other) >= config_.least_tiles &&
          (pair.last == Time::min() || now >= pair.last + config_.match_period) &&
-         (grown(own->second, pair.own_tiles) || grown(other->second, pair.peer_tiles));
+         (grown(own, pair.own_tiles) || grown(other, pair.peer_tiles));
 }
 
 std::optional<MatchJob> Team::next_match(Time now) {
@@ -128,19 +180,15 @@ std::optional<MatchJob> Team::next_match(Time now) {
   }
   if (next == nullptr) return std::nullopt;
   next->last = now;
-  next->own_tiles = mapped_.at(config_.id).occupied_tiles;
-  next->peer_tiles = mapped_.at(with).occupied_tiles;
+  next->own_tiles = walls_of(config_.id);
+  next->peer_tiles = walls_of(with);
   match_out_ = true;
-  return MatchJob{with,
-                  next->own_epoch,
-                  next->peer_epoch,
-                  mapped_.at(config_.id).tree,
-                  mapped_.at(with).tree,
-                  std::move(next->match)};
+  return MatchJob{with, next->own_epoch, next->peer_epoch, said_by(config_.id), said_by(with), std::move(next->match)};
 }
 
 void run(MatchJob& job, Budget& budget) {
-  const auto own = matching::MapFeatures::build(*job.own), other = matching::MapFeatures::build(*job.other);
+  const SemanticOcTree own_map = job.own.map(), other_map = job.other.map();  // features read them
+  const auto own = matching::MapFeatures::build(own_map), other = matching::MapFeatures::build(other_map);
   if (own && other) job.match->update(*own, *other, budget);
 }
 
@@ -168,25 +216,6 @@ void Team::say_edge(RobotId peer, Pair& pair) {
   }
   pair.said = edge;
   exchange_.say(peers::ItemId::edge(pair.edge), encode(edge));
-}
-
-PeerStanding Team::standing(RobotId peer, Time now) const {
-  if (poses_.T_team_odom.contains(peer)) return {true, "merged"};
-  const auto& layers = exchange_.layers();
-  const auto link = exchange_.links().find(peer);
-  if (link == exchange_.links().end() && !layers.contains(peer)) return {false, "never heard of"};
-  if (!layers.contains(peer)) return {false, "it has said nothing of its map yet"};
-  const auto mapped = mapped_.find(peer), own = mapped_.find(config_.id);
-  const auto tiles = [&](auto it) { return it == mapped_.end() ? std::size_t{0} : it->second.occupied_tiles; };
-  if (std::min(tiles(mapped), tiles(own)) < config_.least_tiles)
-    return {false, "too little mapped: " + std::to_string(tiles(own)) + " and " + std::to_string(tiles(mapped)) +
-                       " tiles with walls, " + std::to_string(config_.least_tiles) + " needed"};
-  if (peer < config_.id) return {false, exchange_.hears(peer, now) ? "it compares the two maps" : "no link"};
-  const auto pair = pairs_.find(peer);
-  if (pair == pairs_.end() || !pair->second.match) return {false, "being compared"};
-  const auto hypotheses = pair->second.match->hypotheses().all();
-  if (hypotheses.empty()) return {false, "no place found where the maps overlap"};
-  return {false, hypotheses.front().reason};
 }
 
 }  // namespace cairn

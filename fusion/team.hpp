@@ -5,6 +5,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -33,11 +34,23 @@ struct TeamConfig {
   std::size_t least_tiles = 60;                     ///< with something occupied, on both sides, to be compared at all
 };
 
-/// Two maps to be compared, away from everyone else's work, and what is known of the pair.
+/// A robot's tiles as they were said: small enough to be copied for whoever makes a map of them.
+struct SaidTiles {
+  struct Tile {
+    TileKey key;
+    std::size_t begin = 0, bytes = 0;  ///< in `payloads`
+  };
+  double resolution_m = 0;
+  std::vector<Tile> tiles;
+  std::vector<std::byte> payloads;
+  [[nodiscard]] SemanticOcTree map() const;
+};
+
+/// Two maps to be compared, away from everyone else's work, and what is known of the pair. It owns all it needs.
 struct MatchJob {
   peers::RobotId peer = 0;
   peers::Epoch own_epoch = 0, peer_epoch = 0;
-  std::shared_ptr<const SemanticOcTree> own, other;
+  SaidTiles own, other;
   std::unique_ptr<matching::GrowingMatch> match;
 };
 /// Does the job: seconds, for a machine that has nothing else to do.
@@ -56,8 +69,17 @@ class Team {
  public:
   Team(const TeamConfig& config, peers::Epoch epoch);
 
+  /// One's own map begins anew; what was said of it is void. `epoch` is higher than the last.
+  void begin(peers::Epoch epoch);
+  /// Where the robot is, in its odom frame: the team's map is brought up to date there first.
+  void be_at(const Eigen::Vector3d& position_odom) { position_odom_ = position_odom; }
   /// A tile of one's own map has changed; odom frame, of this epoch.
   void observe(TileKey tile, const TileState& state, Time now) { own_tiles_.observe(tile, state, now); }
+  /// Where a peer's odom frame lies in this robot's by something else than their maps: a survey, a marker both saw.
+  /// Said to all, for every beginning of either, until it is claimed otherwise; it must agree with what the maps say.
+  void claim(peers::RobotId peer, const UncertainPose& T_own_peer, double probability) {
+    known_poses_[peer] = {T_own_peer, static_cast<float>(probability)};
+  }
   /// A datagram of a peer.
   Result<void> receive(std::span<const std::byte> datagram, Time now) { return exchange_.receive(datagram, now); }
   /// To be called often (some ten times a second); datagrams to be sent are appended.
@@ -71,17 +93,16 @@ class Team {
   /// Goes on with the team's map; true: it is up to date.
   bool fuse(Budget& budget) { return map_.fuse(budget); }
 
+  /// Tiles of its own map that wait to be said.
+  [[nodiscard]] std::size_t unsaid() const { return own_tiles_.waiting(); }
   [[nodiscard]] const merging::TeamMap& map() const { return map_; }
   [[nodiscard]] const TeamPoses& poses() const { return poses_; }
+  /// What everyone says of where others are, taken back ones left out.
+  [[nodiscard]] std::vector<PairClaim> claims() const;
   [[nodiscard]] PeerStanding standing(peers::RobotId peer, Time now) const;
   [[nodiscard]] const peers::Exchange& exchange() const { return exchange_; }
 
  private:
-  /// A robot's tiles as a tree, to be compared.
-  struct Mapped {
-    std::shared_ptr<SemanticOcTree> tree;
-    std::size_t occupied_tiles = 0;
-  };
   /// What is known about the pair with a peer.
   struct Pair {
     peers::Epoch own_epoch = 0, peer_epoch = 0;
@@ -92,21 +113,27 @@ class Team {
     std::optional<peers::Edge> said;
   };
 
+  [[nodiscard]] std::optional<std::string> obstacle(peers::RobotId peer, Time now) const;
+  void say_known_poses();
   void take_news(Time now);
   void take_tile(peers::RobotId robot, peers::ItemId id, Time now);
   void agree();
-  [[nodiscard]] std::vector<PairClaim> claims() const;
+  void focus();
   [[nodiscard]] Pair& pair_with(peers::RobotId peer, peers::Epoch epoch);
+  [[nodiscard]] std::size_t walls_of(peers::RobotId robot) const;
+  [[nodiscard]] SaidTiles said_by(peers::RobotId robot) const;
   [[nodiscard]] bool worth_comparing(peers::RobotId peer, const Pair& pair, Time now) const;
   void say_edge(peers::RobotId peer, Pair& pair);
 
   TeamConfig config_;
   peers::Exchange exchange_;
   peers::OwnTiles own_tiles_;
-  std::map<peers::RobotId, Mapped> mapped_;
+  std::map<peers::RobotId, std::set<TileKey>> walls_;  // tiles with something occupied
   std::map<peers::RobotId, Pair> pairs_;
+  std::map<peers::RobotId, std::pair<UncertainPose, float>> known_poses_;  // and their probability
   bool match_out_ = false, edges_changed_ = true;
   TeamPoses poses_;
+  Eigen::Vector3d position_odom_ = Eigen::Vector3d::Zero();
   merging::TeamMap map_;
 };
 

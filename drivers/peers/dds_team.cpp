@@ -54,6 +54,7 @@ struct Qos {
     dds_qset_reliability(qos, DDS_RELIABILITY_BEST_EFFORT, 0);
     dds_qset_durability(qos, DDS_DURABILITY_VOLATILE);
     dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, kHistory);
+    dds_qset_ignorelocal(qos, DDS_IGNORELOCAL_PARTICIPANT);  // what is for all is not for oneself
   }
   Qos(const Qos&) = delete;
   Qos& operator=(const Qos&) = delete;

@@ -79,18 +79,17 @@ void LocalLink::drop() {
 }
 
 bool LocalLink::join() {
+  if (fd_ >= 0) return true;
   if (listener_ >= 0) {
-    // A peer process that began anew is worth more than the end of the one before it.
-    const int newest = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-    if (newest < 0) return fd_ >= 0;
-    drop();
-    fd_ = newest;
-  } else if (fd_ < 0) {
+    fd_ = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
+    if (fd_ < 0) return false;
+    // What waits for a capped link grows old: some thirty datagrams, a second or two of it.
+    constexpr int kWaitingBytes = 48 * 1024;
+    (void)::setsockopt(fd_, SOL_SOCKET, SO_SNDBUF, &kWaitingBytes, sizeof kWaitingBytes);
+  } else {
     const auto address = address_of(path_);
     fd_ = address ? connected(*address) : -1;
     if (fd_ < 0) return false;
-  } else {
-    return true;
   }
   ++counters_.connections;
   return true;
@@ -103,7 +102,6 @@ bool LocalLink::send(const LinkFrame& frame) {
       ++counters_.sent;
       return true;
     }
-    if (errno != EAGAIN && errno != ENOBUFS) drop();
   }
   ++counters_.lost;
   return false;
@@ -114,7 +112,9 @@ bool LocalLink::receive(std::vector<std::byte>& memory, LinkFrame& frame) {
     memory.resize(LinkFrame::kHeaderBytes + LinkFrame::kMaxBytes + 1);  // one more: a longer one shows
     const ssize_t got = ::recv(fd_, memory.data(), memory.size(), 0);
     if (got <= 0) {
-      if (got == 0 || (errno != EAGAIN && errno != EINTR)) drop();
+      if (got != 0 && (errno == EAGAIN || errno == EINTR)) return false;
+      drop();
+      if (listener_ >= 0 && join()) continue;  // the one that came after it
       return false;
     }
     memory.resize(static_cast<std::size_t>(got));

@@ -30,7 +30,8 @@ class LocalLink {
   LocalLink& operator=(LocalLink&&) = delete;
   ~LocalLink();
 
-  /// Makes or takes a connection if there is none. True: there is one.
+  /// Makes or takes a connection if there is none. True: there is one. That of an end that died lasts until receive()
+  /// has read what it had sent.
   bool join();
   /// False where it was lost.
   bool send(const LinkFrame& frame);

@@ -27,9 +27,12 @@ struct Options {
   bool quiet = false;
 };
 
-/// From the core to the team.
+/// The largest datagram with all its headers; two of them always find room after a pause.
+constexpr std::size_t kWholeDatagram = LinkFrame::kMaxBytes + 160;
+
+/// From the core to the team, as far as the cap allows: what has to wait does so in the local socket, which is small.
 void send_all(LocalLink& link, DdsTeam& team, std::vector<std::byte>& memory) {
-  for (LinkFrame frame; link.receive(memory, frame);) {
+  for (LinkFrame frame; udp_room(kWholeDatagram) && link.receive(memory, frame);) {
     if (frame.kind != LinkFrame::Kind::kSend) continue;
     if (const auto sent = team.send(frame.robot, frame.bytes); !sent)
       fmt::print(stderr, "cairn-peers: {}\n", to_string(sent.error()));
@@ -56,10 +59,11 @@ int run(const Options& options) {
   std::vector<std::byte> memory;
   std::vector<DdsTeam::Received> received;
   while (g_stop == 0) {
-    constexpr int kRetryMs = 200;  // a core that is not there yet, or not any more
+    constexpr int kRetryMs = 200, kRoomMs = 10;  // a core that is not there yet, or not any more; a cap that is reached
     link.join();
-    std::array<pollfd, 2> waited{{{(*team)->readable_fd(), POLLIN, 0}, {link.readable_fd(), POLLIN, 0}}};
-    (void)::poll(waited.data(), waited.size(), kRetryMs);
+    const bool room = udp_room(kWholeDatagram);
+    std::array<pollfd, 2> waited{{{(*team)->readable_fd(), POLLIN, 0}, {room ? link.readable_fd() : -1, POLLIN, 0}}};
+    (void)::poll(waited.data(), waited.size(), room ? kRetryMs : kRoomMs);
     receive_all(**team, link, received);
     send_all(link, **team, memory);
   }

@@ -17,13 +17,17 @@ class TokenBucket {
         refill_(bytes_per_second - burst_),
         level_(burst_) {}
 
-  /// Whether `bytes` may go now; they are counted then. What is not urgent leaves a third of the burst to what is.
-  [[nodiscard]] bool take(std::size_t bytes, Time now, bool urgent = false) {
+  /// Whether take() would let them through now.
+  [[nodiscard]] bool has(std::size_t bytes, Time now, bool urgent = false) {
     if (now > last_) {
       level_ = std::min(burst_, level_ + refill_ * to_seconds(now - last_));
       last_ = now;
     }
-    if (static_cast<double>(bytes) > level_ - (urgent ? 0 : burst_ / 3)) return false;
+    return static_cast<double>(bytes) <= level_ - (urgent ? 0 : burst_ / 3);
+  }
+  /// Whether `bytes` may go now; they are counted then. What is not urgent leaves a third of the burst to what is.
+  [[nodiscard]] bool take(std::size_t bytes, Time now, bool urgent = false) {
+    if (!has(bytes, now, urgent)) return false;
     level_ -= static_cast<double>(bytes);
     return true;
   }

@@ -30,6 +30,10 @@ class Limiter {
     counters_.dropped += passes ? 0 : 1;
     return passes;
   }
+  bool room(std::size_t bytes) {
+    const std::scoped_lock lock(mutex_);
+    return !limited_ || bucket_.has(bytes, clock_.now());
+  }
   UdpCounters counters() {
     const std::scoped_lock lock(mutex_);
     return counters_;
@@ -62,6 +66,7 @@ std::size_t length_of(const msghdr& message) {
 }  // namespace
 
 void limit_udp(const UdpLimits& limits) { limiter().limit(limits); }
+bool udp_room(std::size_t bytes) { return limiter().room(bytes); }
 UdpCounters udp_counters() { return limiter().counters(); }
 
 }  // namespace cairn::peers

@@ -15,6 +15,9 @@ struct UdpLimits {
 };
 void limit_udp(const UdpLimits& limits);
 
+/// Whether a datagram of data with `bytes` (headers included) would pass now.
+[[nodiscard]] bool udp_room(std::size_t bytes);
+
 struct UdpCounters {
   std::uint64_t sent_bytes = 0, sent = 0, dropped = 0;
 };

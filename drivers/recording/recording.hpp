@@ -24,7 +24,8 @@ inline constexpr std::string_view kThermal = "thermal";  ///< the same, 16-bit r
 inline constexpr std::string_view kDepth = "depth";      ///< the same, 16-bit depth
 inline constexpr std::string_view kDrive = "drive";      ///< `file` holds candump's lines (drive.log), stamped in UTC
 inline constexpr std::string_view kGpio = "gpio";        ///< `file` is gpio.csv
-inline constexpr std::array kKinds{kVelodyne, kScans, kCamera, kThermal, kDepth, kDrive, kGpio};
+inline constexpr std::string_view kPeers = "peers";      ///< `file` is peers.log: what other robots sent
+inline constexpr std::array kKinds{kVelodyne, kScans, kCamera, kThermal, kDepth, kDrive, kGpio, kPeers};
 [[nodiscard]] constexpr bool is_picture_kind(std::string_view kind) {
   return kind == kCamera || kind == kThermal || kind == kDepth;
 }
@@ -56,6 +57,7 @@ struct Recording {
   std::string profile;                  ///< robot profile it was made with; may be empty
   std::int64_t start_utc_ns = 0;        ///< wall time of the start, nanoseconds since 1970; metadata only
   std::int64_t realtime_offset_ns = 0;  ///< CLOCK_REALTIME − CLOCK_MONOTONIC at the start
+  std::int64_t time_shift_ns = 0;       ///< its times are so much later than in the recording that was played for it
   std::vector<SourceEntry> sources;
   std::string notes;
 

@@ -7,6 +7,7 @@
 
 #include "drivers/drive/candump_source.hpp"
 #include "drivers/gpio/csv_source.hpp"
+#include "drivers/peers/peers_log.hpp"
 #include "drivers/recording/image_folder.hpp"
 #include "drivers/recording/scan_source.hpp"
 #include "drivers/velodyne/pcap_source.hpp"
@@ -114,6 +115,7 @@ Result<std::unique_ptr<Source>> open_recorded_source(const std::filesystem::path
   const auto file = resolve_inside(dir, entry.file);
   if (!file) return file.error();
   if (entry.kind == kGpio) return as_source(gpio::CsvSource::open(*file, id));
+  if (entry.kind == kPeers) return as_source(peers::PeersLogSource::open(*file, id));
   auto utc = entry.kind == kDrive ? open_can(*file, id) : open_capture(*file, entry, id);
   if (!utc) return utc;
   return std::unique_ptr<Source>(

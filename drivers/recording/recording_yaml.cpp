@@ -193,13 +193,15 @@ void Checker::sources(const YAML::Node& node, std::vector<SourceEntry>& list) {
 }
 
 void Checker::recording(const YAML::Node& node, Recording& r) {
-  const std::array keys{Key{"robot", true, text(r.robot, id_fault)},
-                        Key{"profile", false, text(r.profile, text_fault)},
-                        Key{"start_utc", true, utc(r.start_utc_ns)},
-                        Key{"realtime_offset_ns", true,
-                            integer(-kMaxUtcNs, kMaxUtcNs, [&](std::int64_t v) { r.realtime_offset_ns = v; })},
-                        Key{"notes", false, text(r.notes, notes_fault)},
-                        Key{"sources", true, [&](const YAML::Node& n, const std::string&) { sources(n, r.sources); }}};
+  const std::array keys{
+      Key{"robot", true, text(r.robot, id_fault)},
+      Key{"profile", false, text(r.profile, text_fault)},
+      Key{"start_utc", true, utc(r.start_utc_ns)},
+      Key{"realtime_offset_ns", true,
+          integer(-kMaxUtcNs, kMaxUtcNs, [&](std::int64_t v) { r.realtime_offset_ns = v; })},
+      Key{"time_shift_ns", false, integer(-kMaxUtcNs, kMaxUtcNs, [&](std::int64_t v) { r.time_shift_ns = v; })},
+      Key{"notes", false, text(r.notes, notes_fault)},
+      Key{"sources", true, [&](const YAML::Node& n, const std::string&) { sources(n, r.sources); }}};
   mapping(node, "", keys);
 }
 
@@ -250,9 +252,11 @@ std::string to_yaml(const Recording& r) {
   std::string out =
       "# A recording of Cairn: native files and what they hold. Stamps in pcap files are UTC;\n"
       "# the robot's monotonic time is UTC - realtime_offset_ns.\n";
-  out +=
-      "robot: " + quoted(r.robot) + "\nprofile: " + quoted(r.profile) + "\nstart_utc: " + to_iso_utc(r.start_utc_ns) +
-      "\nrealtime_offset_ns: " + std::to_string(r.realtime_offset_ns) + "\nnotes: " + quoted(r.notes) + "\nsources:\n";
+  out += "robot: " + quoted(r.robot) + "\nprofile: " + quoted(r.profile) +
+         "\nstart_utc: " + to_iso_utc(r.start_utc_ns) +
+         "\nrealtime_offset_ns: " + std::to_string(r.realtime_offset_ns) +
+         (r.time_shift_ns != 0 ? "\ntime_shift_ns: " + std::to_string(r.time_shift_ns) : "") +
+         "\nnotes: " + quoted(r.notes) + "\nsources:\n";
   for (const SourceEntry& s : r.sources) out += source_text(s);
   return out;
 }

@@ -8,6 +8,7 @@
 
 #include "drivers/drive/candump.hpp"
 #include "drivers/gpio/line_event.hpp"
+#include "drivers/peers/peers_log.hpp"
 #include "drivers/recording/append_file.hpp"
 #include "drivers/recording/image_folder.hpp"
 #include "drivers/recording/pcap_writer.hpp"
@@ -136,6 +137,21 @@ class GpioLines final : public Lines {
   }
 };
 
+class PeerRecords final : public SourceWriter {
+ public:
+  explicit PeerRecords(AppendFile file) : file_(std::move(file)) {}
+  Result<void> write(const Packet& packet) override {
+    if (auto made = peers::append_log_record(packet, file_.buffer()); !made)
+      return at(file_.path().string(), made.error());
+    return file_.end_record();
+  }
+  Result<void> flush() override { return file_.flush(); }
+  Result<void> close() override { return file_.close(); }
+
+ private:
+  AppendFile file_;
+};
+
 using Opened = Result<std::unique_ptr<SourceWriter>>;
 
 Opened open_datagrams(const fs::path& file, std::size_t index, std::int64_t offset) {
@@ -164,6 +180,12 @@ Opened open_gpio(AppendFile file) {
   return std::unique_ptr<SourceWriter>(std::make_unique<GpioLines>(std::move(file)));
 }
 
+Opened open_peers(AppendFile file) {
+  peers::append_log_header(file.buffer());
+  if (auto header = file.end_record(); !header) return header.error();
+  return std::unique_ptr<SourceWriter>(std::make_unique<PeerRecords>(std::move(file)));
+}
+
 void add_files(const fs::path& folder, std::initializer_list<const char*> extensions, std::vector<fs::path>& files) {
   std::error_code error;
   for (const auto& entry : fs::directory_iterator(folder, error))
@@ -186,6 +208,7 @@ Result<std::unique_ptr<SourceWriter>> open_source_writer(const fs::path& dir, co
   if (!file) return file.error();
   if (entry.kind == kScans) return open_sweeps(dir, entry, std::move(*file));
   if (entry.kind == kGpio) return open_gpio(std::move(*file));
+  if (entry.kind == kPeers) return open_peers(std::move(*file));
   return std::unique_ptr<SourceWriter>(std::make_unique<CanLines>(std::move(*file), recording.realtime_offset_ns));
 }
 

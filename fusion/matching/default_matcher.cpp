@@ -24,6 +24,13 @@ RefineOptions in_metres(RefineOptions options, float cell_m) {
   return options;
 }
 
+/// Without a guess, gravity is known: anywhere() says how well. Refinement can lose it where one map has no floor.
+bool leans(const SE3& T) {
+  constexpr double kMostDeviations = 4;
+  const double most_rad = kMostDeviations * std::sqrt(anywhere().covariance(3, 3));
+  return T.rotation()(2, 2) < std::cos(most_rad);
+}
+
 template <class Candidate>
 bool better(const Candidate& x, const Candidate& y) {
   return x.score > y.score;
@@ -100,7 +107,9 @@ SE3 DefaultMatcher::refined(const SE3& T, Budget& budget) const {
 std::vector<DefaultMatcher::Candidate> DefaultMatcher::modes(const std::optional<UncertainPose>& initial,
                                                              Budget& budget) const {
   auto best_first = verified(initial ? modes_.near(*initial) : starts_anywhere(budget), budget);
-  if (!initial) look_closer(best_first, budget);
+  if (initial) return best_first;
+  look_closer(best_first, budget);
+  std::erase_if(best_first, [](const Candidate& c) { return leans(c.T_a_b); });
   return best_first;
 }
 
@@ -120,7 +129,7 @@ std::vector<Look> DefaultMatcher::look_everywhere(std::span<const SE3> known, st
     const auto is = [](const SE3& T) { return [&T](const SE3& other) { return same_place(other, T); }; };
     if (looks.size() == most || std::any_of(found.begin(), found.end(), is(c.T_a_b))) continue;
     const SE3 T = refined(c.T_a_b, budget);
-    if (std::any_of(found.begin(), found.end(), is(T))) continue;
+    if (leans(T) || std::any_of(found.begin(), found.end(), is(T))) continue;
     found.push_back(T);
     looks.push_back(look(T));
   }
@@ -129,7 +138,7 @@ std::vector<Look> DefaultMatcher::look_everywhere(std::span<const SE3> known, st
 
 Look DefaultMatcher::look_again(const SE3& known, Budget& budget) const {
   const SE3 T = refined(known, budget);
-  return look(same_place(T, known) ? T : known);
+  return look(same_place(T, known) && !leans(T) ? T : known);
 }
 
 Result<MatchResult> GlobalMatcher::match(const std::optional<UncertainPose>& initial, Budget& budget) const {

@@ -30,7 +30,8 @@ class DefaultMatcher : public Matcher {
   [[nodiscard]] bool comparable() const { return !judge_.without_search({}); }
   /// A pose as it is.
   [[nodiscard]] Look look(const SE3& T_a_b) const { return judge_.look(T_a_b, anywhere().covariance); }
-  /// A pose that was known before, refined on what the maps hold now; as it was, where that leads to another place.
+  /// A pose that was known before, refined on what the maps hold now; as it was, where that leads to another place, or
+  /// to one that leans.
   [[nodiscard]] Look look_again(const SE3& known, Budget& budget) const;
 
  private:
@@ -38,7 +39,7 @@ class DefaultMatcher : public Matcher {
     SE3 T_a_b;
     double score;
   };
-  /// What a search finds, best first.
+  /// What a search finds, best first; without a guess, nothing that leans more than anywhere() allows.
   [[nodiscard]] std::vector<Candidate> modes(const std::optional<UncertainPose>& initial, Budget& budget) const;
   [[nodiscard]] SE3 refined(const SE3& T, Budget& budget) const;
   [[nodiscard]] std::vector<SE3> starts_anywhere(Budget& budget) const;

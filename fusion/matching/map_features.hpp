@@ -18,6 +18,7 @@ class MapFeatures {
   /// Reads the whole map. `map` must outlive the features and must not be edited while they are used. Errors: kLimit
   /// for a map of more than kMaxVoxels occupied voxels.
   static Result<MapFeatures> build(const SemanticOcTree& map);
+  static Result<MapFeatures> build(SemanticOcTree&&) = delete;
 
   /// Takes in what changed (see Mapper::take_changed_tiles()); the result is the same as that of build().
   void update(std::span<const TileKey> changed);

@@ -100,7 +100,7 @@ FreeSpace::FreeSpace(const SemanticOcTree& map)
     : root_(map.getRoot()),
       inverse_resolution_(static_cast<float>(1.0 / map.getResolution())),
       threshold_(map.getOccupancyThresLog()) {
-  const double levels = std::round(std::log2(kMarginM / map.getResolution()));
+  const double levels = std::round(std::log2(std::max(kMarginVoxels, kMarginM / map.getResolution())));
   margin_depth_ = SemanticOcTree::kDepth - static_cast<unsigned>(std::clamp(levels, 0.0, 16.0));
 }
 

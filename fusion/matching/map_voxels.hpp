@@ -37,13 +37,14 @@ class FreeSpace {
  public:
   explicit FreeSpace(const SemanticOcTree& map);
 
-  /// Whether the voxel at `point` (m, map frame) was observed free and nothing occupied is in the cube of `margin_m`
-  /// or more around it that the tree has as one node.
+  /// Whether the voxel at `point` (m, map frame) was observed free and nothing occupied is in the cube around it that
+  /// the tree has as one node, of kMarginM or kMarginVoxels, whichever is more: two maps of one surface often have it
+  /// in voxels that are neighbours, however large these are.
   [[nodiscard]] bool contains(const Eigen::Vector3f& point) const { return free_at(point, margin_depth_); }
   /// Whether the voxel at `point` itself was.
   [[nodiscard]] bool seen_free(const Eigen::Vector3f& point) const { return free_at(point, SemanticOcTree::kDepth); }
 
-  static constexpr double kMarginM = 0.4;
+  static constexpr double kMarginM = 0.4, kMarginVoxels = 4;
 
  private:
   [[nodiscard]] bool free_at(const Eigen::Vector3f& point, unsigned margin_depth) const;

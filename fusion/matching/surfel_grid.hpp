@@ -26,8 +26,11 @@ struct Surfel {
 
   /// Whether there is a plane to speak of; elsewhere the point is the mean of the cell's voxels.
   [[nodiscard]] bool flat() const { return variation < 0.1F; }
-  /// Walls, edges and clutter tell places apart; floors and ceilings agree everywhere (prototype's finding 2).
-  [[nodiscard]] bool structure() const { return std::abs(normal.z()) < 0.7F || variation > 0.05F; }
+  /// Walls, edges and clutter tell places apart; floors and ceilings agree everywhere (prototype's finding 2), and a
+  /// voxel alone, without a normal, can agree with nothing.
+  [[nodiscard]] bool structure() const {
+    return !normal.isZero() && (std::abs(normal.z()) < 0.7F || variation > 0.05F);
+  }
 };
 
 /// Whether one of the maps saw both faces of a thin wall and the other one face: the first has its middle in a cell,

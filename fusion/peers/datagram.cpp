@@ -25,7 +25,8 @@ Result<Hello> read_hello(ByteReader& in) {
   const auto epoch = in.read<Epoch>();
   const auto newest = in.read<Version>();
   const auto stamp = in.read<std::int64_t>();
-  const auto length = stamp ? in.read<std::uint8_t>() : std::nullopt;
+  const auto voxel_um = stamp ? in.read<std::uint32_t>() : std::nullopt;
+  const auto length = voxel_um ? in.read<std::uint8_t>() : std::nullopt;
   if (!length) return too_short();
   if (*epoch > kLastEpoch) return Error{Errc::kMalformed, "an epoch that cannot be"};
   if (!possible(*stamp)) return Error{Errc::kMalformed, "a clock beyond 36 years"};
@@ -34,7 +35,7 @@ Result<Hello> read_hello(ByteReader& in) {
   const auto echoes = name ? in.read<std::uint8_t>() : std::nullopt;
   if (!echoes) return too_short();
   if (*echoes > Hello::kMaxEchoes) return Error{Errc::kMalformed, "more than 32 echoes"};
-  hello = {*epoch, *newest, Time{Duration{*stamp}}, {}, {}};
+  hello = {*epoch, *newest, Time{Duration{*stamp}}, {}, {}, *voxel_um};
   for (const std::byte c : *name) hello.name += static_cast<char>(c);
   if (!std::ranges::all_of(hello.name, is_printable))
     return Error{Errc::kMalformed, "a robot's name that cannot be printed"};

@@ -38,6 +38,7 @@ struct Hello {
   Time stamp{};        ///< sender's clock
   std::string name;    ///< for people
   std::vector<Echo> echoes;
+  std::uint32_t voxel_um = 0;  ///< edge of its map's voxels in micrometres; maps of other voxels are not exchanged
 };
 
 /// "This I know of each robot." Whoever knows more sends it.

@@ -86,6 +86,7 @@ std::vector<std::byte> encode(RobotId sender, const Hello& hello) {
   append_le(out, hello.epoch);
   append_le(out, hello.newest);
   append_le(out, ns(hello.stamp));
+  append_le(out, hello.voxel_um);
   const std::size_t length = std::min(hello.name.size(), Hello::kMaxName);
   append_le(out, static_cast<std::uint8_t>(length));
   for (std::size_t i = 0; i < length; ++i) append_le(out, is_printable(hello.name[i]) ? hello.name[i] : '?');

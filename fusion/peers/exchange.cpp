@@ -80,12 +80,14 @@ Result<void> Exchange::receive(std::span<const std::byte> datagram, Time now) {
   if (link->conduct.banned(now)) return Error{Errc::kLinkDown, "the peer sent too much that cannot be"};
   if (!decoded) {
     ++link->refused;
+    link->unsupported += decoded.error().code == Errc::kUnsupported ? 1 : 0;
     link->conduct.fault(now);
     return decoded.error();
   }
   if (!hears(sender, now)) last_full_digest_ = Time::min();  // new, or back: it wants to know what this one has
   link->last_heard = now;
   link->received_bytes += datagram.size();
+  if (!alike(*link) && !std::holds_alternative<Hello>(decoded->content)) return {};
   return std::visit([&](const auto& content) { return take(sender, *link, content, now); }, decoded->content);
 }
 
@@ -99,6 +101,7 @@ Result<void> Exchange::take(RobotId sender, Link& link, const Hello& hello, Time
   link.name = hello.name;
   link.epoch = hello.epoch;
   link.newest = hello.newest;
+  link.voxel_um = hello.voxel_um;
   link.echo = {0, hello.stamp, {}};
   link.echo_heard = now;
   for (const Hello::Echo& echo : hello.echoes)
@@ -176,7 +179,7 @@ std::size_t Exchange::send_to_all(std::vector<std::byte> bytes, std::vector<Outg
 
 void Exchange::send_hello(Time now, std::vector<Outgoing>& out) {
   const Layer& own = layers_.at(self_);
-  Hello hello{own.epoch, own.holding.newest(), now, name_, {}};
+  Hello hello{own.epoch, own.holding.newest(), now, name_, {}, config_.voxel_um};
   auto link = links_.upper_bound(next_echo_);
   for (std::size_t i = 0; i < std::min(links_.size(), kEchoes); ++i, ++link) {
     if (link == links_.end()) link = links_.begin();
@@ -236,9 +239,10 @@ void Exchange::sort_by_urgency(std::vector<ItemUpdate>& updates, const Address& 
 }
 
 void Exchange::send_layer(Time now, const Address& address, Link& link, std::vector<Outgoing>& out) {
-  // A digest would have told by now. On a bad link with bytes to spare, sending twice is better than waiting for it.
+  // A digest would have told by now. On a bad link with bytes to spare, sending a few twice is better than waiting for
+  // it; not waiting for any sends a third of all twice.
   const bool hasten = link.loss > kBadLink && bytes_ > static_cast<double>(config_.bytes_per_second) / 2;
-  const Duration patience = way_of(link) + (hasten ? Duration::zero() : config_.digest_period + kTick);
+  const Duration patience = way_of(link) + (hasten ? config_.digest_period / 2 : config_.digest_period) + kTick;
   std::erase_if(link.in_flight, [&](const auto& sent) {
     const bool overdue = sent.second + patience < now;
     if (overdue && !hasten) link.note_fate(false);

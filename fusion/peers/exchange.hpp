@@ -28,6 +28,7 @@ struct ExchangeConfig {
   std::size_t overhead_bytes = 100;                  ///< of RTPS, UDP and IP with each datagram
   std::size_t max_bytes_per_robot = Holding::kMaxBytes;
   std::size_t max_robots = 16;  ///< more are not listened to
+  std::uint32_t voxel_um = 0;   ///< of what this robot says; where it is not 0, only robots with the same are believed
 };
 
 /// What one robot says, as far as it is known here.
@@ -81,6 +82,10 @@ class Exchange {
   [[nodiscard]] const std::map<RobotId, Layer>& layers() const { return layers_; }
   [[nodiscard]] const std::map<RobotId, Link>& links() const { return links_; }
   [[nodiscard]] bool hears(RobotId robot, Time now) const;
+  /// Whether its map can be a part of this one's.
+  [[nodiscard]] bool alike(const Link& link) const {
+    return config_.voxel_um == 0 || link.voxel_um == config_.voxel_um;
+  }
   /// What changed since the last call.
   [[nodiscard]] Changes take_changes();
 

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <iterator>
 
+#include "fusion/peers/item_memory.hpp"
+
 namespace cairn::peers {
 
 bool Holding::say(ItemId id, std::span<const std::byte> payload) {
@@ -18,7 +20,10 @@ bool Holding::say(ItemId id, std::span<const std::byte> payload) {
 Holding::Taken Holding::take(const ItemUpdate& update) {
   const auto held = items_.find(update.id);
   const bool known = held != items_.end() && held->second.version >= update.version;
-  if (!known && held == items_.end() && bytes_ + cost(update.payload.size()) > max_bytes_) return Taken::kFull;
+  if (!known) {
+    const std::size_t before = held != items_.end() ? memory_of(update.id, held->second.payload) : 0;
+    if (bytes_ - before + memory_of(update.id, update.payload) > max_bytes_) return Taken::kFull;
+  }
   known_.add(update.settles());
   if (known) return Taken::kKnown;
   put(update.id, update.version, update.payload);
@@ -30,11 +35,11 @@ void Holding::put(ItemId id, Version version, std::span<const std::byte> payload
   if (!added) {
     if (const auto old = by_version_.find(held->second.version); old != by_version_.end() && old->second == id)
       by_version_.erase(old);
-    bytes_ -= cost(held->second.payload.size());
+    bytes_ -= memory_of(id, held->second.payload);
   }
   held->second.version = version;
   held->second.payload.assign(payload.begin(), payload.end());
-  bytes_ += cost(payload.size());
+  bytes_ += memory_of(id, payload);
   // Two items of one version: only a peer that lies can say that; the later one is not offered to others.
   by_version_.try_emplace(version, id);
 }

@@ -40,7 +40,8 @@ class Holding {
     std::vector<std::byte> payload;
   };
   enum class Taken : std::uint8_t { kNew, kKnown, kFull };
-  static constexpr std::size_t kMaxBytes = std::size_t{64} << 20;  ///< of items, with what it costs to keep them
+  static constexpr std::size_t kMaxBytes = std::size_t{64}
+                                           << 20;  ///< of items, with what is made of them: see memory_of()
 
   explicit Holding(std::size_t max_bytes = kMaxBytes) : max_bytes_(max_bytes) {}
 
@@ -62,7 +63,6 @@ class Holding {
 
  private:
   using ByVersion = std::map<Version, ItemId>;
-  static std::size_t cost(std::size_t payload) { return payload + 192; }  // two nodes of a map, a block of the heap
   [[nodiscard]] ItemUpdate update_of(ByVersion::const_iterator held) const;
   void note_superseded(VersionRange gap, VersionSet& out) const;
   void put(ItemId id, Version version, std::span<const std::byte> payload);

@@ -39,6 +39,8 @@ struct Link {
   std::uint64_t received_bytes = 0, sent_bytes = 0, received_items = 0, sent_items = 0;
   std::uint64_t repeated_items = 0;  ///< received, and known already
   std::uint64_t refused = 0;         ///< datagrams that cannot be
+  std::uint64_t unsupported = 0;     ///< of these, of another format
+  std::uint32_t voxel_um = 0;        ///< by its last hello; 0 before
 };
 
 }  // namespace cairn::peers

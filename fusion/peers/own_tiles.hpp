@@ -11,12 +11,16 @@ namespace cairn::peers {
 
 struct OwnTilesConfig {
   Duration first = std::chrono::milliseconds(500);  ///< a tile is said so long after it was first seen
-  Duration settled = std::chrono::seconds(2);       ///< and again when it has not changed for so long,
-  Duration restless = std::chrono::seconds(15);     ///< or, where it goes on changing, so long after the last time
+  Duration settled = std::chrono::seconds(10);      ///< and again when it has not changed for so long: twice as long
+  Duration longest = std::chrono::seconds(120);     ///< each time that it is said, up to this;
+  int restless = 3;                                 ///< or, where it goes on changing, after so many times as long
+  Duration round = std::chrono::seconds(1);         ///< what is due is said together, so that datagrams are full
+  Duration quiet = std::chrono::seconds(5);         ///< nothing changes any more: whatever waits is said
 };
 
 /// What a robot says of its own map, and when: every scan changes a thousand tiles, each by a few voxels, and a radio
-/// link carries a few hundred a second. So a tile is said soon after it was first seen, and then when it has settled.
+/// link carries a few hundred a second. So a tile is said soon after it was first seen, and then when it has settled;
+/// the oftener it was said, the less there is in it that is new, and the longer it waits.
 class OwnTiles {
  public:
   explicit OwnTiles(const OwnTilesConfig& config) : config_(config) {}
@@ -25,19 +29,24 @@ class OwnTiles {
     auto [waiting, added] = waiting_.try_emplace(tile);
     if (added) waiting->second.first = now;
     waiting->second.state = state;
-    waiting->second.last = now;
+    waiting->second.last = last_ = now;
   }
   /// Says what is due.
   void say(Exchange& exchange, Time now);
   void clear() { waiting_.clear(); }
+  [[nodiscard]] std::size_t waiting() const { return waiting_.size(); }
 
  private:
   struct Waiting {
     TileState state;
     Time first{}, last{};
   };
+  [[nodiscard]] bool due(const Waiting& waiting, int times_said, Time now) const;
+
   OwnTilesConfig config_;
+  Time next_round_ = Time::min(), last_{};
   std::map<TileKey, Waiting> waiting_;
+  std::map<TileKey, int> times_said_;
 };
 
 }  // namespace cairn::peers

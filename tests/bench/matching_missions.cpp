@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Two robots whose maps grow, many times over: are they merged when they should be, and never when they should not?
-//   matching_missions [rooms|copied|turned|worlds] FIRST_SEED ROUNDS [SITES] [csv]
+//   matching_missions [rooms|copied|turned|worlds] FIRST_SEED ROUNDS [SITES] [VOXEL_M] [csv]
 // Each round makes some sites (random buildings: all rooms different, all rooms alike, or one half the other half
 // turned; or the simulator's worlds) and two robots in each, which roam apart from each other. Robots of one site are a
 // mission, and robots of two sites are one in which every acceptance is wrong. After every few scans of all robots each
@@ -177,14 +177,14 @@ simulator::World world_of(const std::string& kind, std::uint64_t id, std::size_t
   return *simulator::make_world(names[i % names.size()]);
 }
 
-void run(const std::string& kind, std::uint64_t seed, std::size_t sites, bool csv, Figures& figures) {
+void run(const std::string& kind, std::uint64_t seed, std::size_t sites, double voxel_m, bool csv, Figures& figures) {
   std::vector<std::unique_ptr<Site>> all;
   std::vector<std::unique_ptr<Explorer>> robots;
   for (std::size_t i = 0; i < sites; ++i) {
     const std::uint64_t id = 100 * seed + i;
     all.push_back(std::make_unique<Site>(world_of(kind, id, i)));
     for (const std::uint64_t k : {std::uint64_t{0}, std::uint64_t{1}})
-      robots.push_back(std::make_unique<Explorer>(*all.back(), 10 * id + k, kMetres));
+      robots.push_back(std::make_unique<Explorer>(*all.back(), 10 * id + k, kMetres, voxel_m));
   }
   std::vector<Mission> missions;
   for (std::size_t i = 0; i < sites; ++i)
@@ -211,10 +211,11 @@ int main(int argc, char** argv) {
   const auto first = static_cast<std::uint64_t>(argc > 2 ? std::atoi(argv[2]) : 1000);
   const auto rounds = static_cast<std::uint64_t>(argc > 3 ? std::atoi(argv[3]) : 1);
   const auto sites = static_cast<std::size_t>(argc > 4 ? std::atoi(argv[4]) : 6);
-  const bool csv = argc > 5 && std::string(argv[5]) == "csv";
+  const double voxel_m = argc > 5 && std::atof(argv[5]) > 0 ? std::atof(argv[5]) : 0.1;
+  const bool csv = std::string(argv[argc - 1]) == "csv";
   cairn::missions::Figures figures;
   for (std::uint64_t seed = first; seed < first + rounds; ++seed) {
-    cairn::missions::run(kind, seed, sites, csv, figures);
+    cairn::missions::run(kind, seed, sites, voxel_m, csv, figures);
     cairn::missions::print(kind, figures);
   }
 }

@@ -3,7 +3,7 @@
 // takes to send, and whether all end with one map that fits the world.
 //   team_runs RECORDINGS… [key=value …]     RECORDINGS: a folder of robot_1, robot_2, …
 //   keys: resolution (0.1 m), loss (0.2), jitter_ms (300), rate (bytes/s, 16000), after (s of silence at the end, 30),
-//   out (a folder for the team's map of each robot)
+//   out (a folder for the team's map of each robot), looks (1: every place that was looked at, with what speaks for it)
 #include <xxhash.h>
 
 #include <array>
@@ -14,10 +14,14 @@
 #include <sstream>
 #include <string>
 
+#include "fusion/matching/acceptance.hpp"
+#include "fusion/matching/judge.hpp"
 #include "hal/clock.hpp"
 #include "onboard/mapping/map_file.hpp"
+#include "tests/bench/team/figures.hpp"
 #include "tests/bench/team/recorded_robot.hpp"
 #include "tests/fusion/fleet/network.hpp"
+#include "tools/team/map_overlap.hpp"
 
 namespace cairn::bench {
 namespace {
@@ -25,40 +29,16 @@ namespace {
 namespace fs = std::filesystem;
 using peers::RobotId;
 
-std::map<std::string, double> g_options{
-    {"resolution", 0.1}, {"loss", 0.2}, {"jitter_ms", 300}, {"rate", 16000}, {"after", 30}};
+std::map<std::string, double> g_options{{"resolution", 0.1}, {"loss", 0.2}, {"jitter_ms", 300},
+                                        {"rate", 16000},     {"after", 30}, {"looks", 0}};
 fs::path g_out;
-constexpr std::size_t kOverhead = 100;  // of RTPS, UDP and IP, about
 constexpr Duration kTick = std::chrono::milliseconds(100);
 
-/// Occupied voxels of two maps, where the first knows something: both over either. The world may be one voxel off.
-double iou(const SemanticOcTree& map, const SE3& T_world_map, const SemanticOcTree& world) {
-  std::size_t both = 0, only_map = 0, missed = 0;
-  const auto occupied = [](const SemanticOcTree& tree, const Eigen::Vector3d& p) {
-    for (int i = 0; i < 27; ++i) {
-      const Eigen::Vector3d q = p + tree.getResolution() * Eigen::Vector3d(i % 3 - 1, i / 3 % 3 - 1, i / 9 - 1);
-      const SemanticNode* node = tree.search(q.x(), q.y(), q.z());
-      if (node != nullptr && tree.isNodeOccupied(node)) return true;
-    }
-    return false;
-  };
-  for (auto leaf = map.begin_leafs(); leaf != map.end_leafs(); ++leaf) {
-    if (!map.isNodeOccupied(*leaf)) continue;
-    (occupied(world, T_world_map * Eigen::Vector3d(leaf.getX(), leaf.getY(), leaf.getZ())) ? both : only_map) += 1;
-  }
-  const SE3 T_map_world = T_world_map.inverse();
-  for (auto leaf = world.begin_leafs(); leaf != world.end_leafs(); ++leaf) {
-    if (!world.isNodeOccupied(*leaf)) continue;
-    const Eigen::Vector3d p = T_map_world * Eigen::Vector3d(leaf.getX(), leaf.getY(), leaf.getZ());
-    if (map.search(p.x(), p.y(), p.z()) != nullptr && !occupied(map, p)) ++missed;
-  }
-  return static_cast<double>(both) / static_cast<double>(both + only_map + missed);
-}
+Vector6 log_error(const SE3& truth, const SE3& T) { return (truth.inverse() * T).log(); }
 
-std::size_t occupied_leaves(const SemanticOcTree& map) {
-  std::size_t count = 0;
-  for (auto leaf = map.begin_leafs(); leaf != map.end_leafs(); ++leaf) count += map.isNodeOccupied(*leaf) ? 1 : 0;
-  return count;
+double iou(const SemanticOcTree& map, const SE3& T_world_map, const SemanticOcTree& world,
+           const team::Area* within = nullptr) {
+  return team::iou_with_world(map, T_world_map, world, within).value_or(0);
 }
 
 std::uint64_t hash_of(const SemanticOcTree& map) {
@@ -105,18 +85,24 @@ class TeamRun {
           "%s robot_%zu: team of %zu, map %016llx, sent %.0f kB, received %.0f kB, raw %.1f MB (1/%.0f), "
           "slice max %.2f ms\n",
           folder_.filename().c_str(), i + 1, robot.team.poses().T_team_odom.size(),
-          static_cast<unsigned long long>(hash_of(map)), static_cast<double>(robot.sent_bytes) / 1e3,
+          static_cast<unsigned long long>(hash_of(map)), static_cast<double>(sent_[i + 1].all()) / 1e3,
           static_cast<double>(robot.received_bytes) / 1e3, static_cast<double>(robot.raw_bytes()) / 1e6,
-          static_cast<double>(robot.raw_bytes()) / static_cast<double>(robot.sent_bytes),
+          static_cast<double>(robot.raw_bytes()) / static_cast<double>(sent_[i + 1].all()),
           to_milliseconds(longest_slice_));
+      sent_[i + 1].print();
       if (!world) continue;
       const SE3 T_world_team = robots_[robot.team.poses().anchor - 1]->T_world_odom();
-      std::printf("  own map: iou %.3f, %zu occupied; team's: iou %.3f, %zu occupied\n",
-                  iou(robot.robot().map(), robot.T_world_odom(), **world), occupied_leaves(robot.robot().map()),
-                  iou(map, T_world_team, **world), occupied_leaves(map));
+      const auto& own = robot.robot().map();
+      const team::Area there{own, robot.team.poses().T_team_odom.at(static_cast<RobotId>(i + 1))};
+      std::printf("  own map: iou %.3f, %zu occupied; team's: iou %.3f, there %.3f, %zu occupied\n",
+                  iou(own, robot.T_world_odom(), **world), team::occupied_leaves(own), iou(map, T_world_team, **world),
+                  iou(map, T_world_team, **world, &there), team::occupied_leaves(map));
     }
     for (RobotId a = 1; a <= robots_.size(); ++a)
       for (RobotId b = a + 1; b <= robots_.size(); ++b) report_pair(a, b);
+    std::printf("  from said to fused: p50 %.2f s, p99 %.2f s, max %.2f s of %zu; %d matches, %.2f s each\n",
+                ages_.quantile(0.5), ages_.quantile(0.99), ages_.quantile(1), ages_.count(), matches_,
+                to_seconds(match_time_) / std::max(1, matches_));
   }
 
  private:
@@ -125,24 +111,58 @@ class TeamRun {
     robot.team.step(now_, out);
     const RobotId self = robot.team.exchange().self();
     for (const auto& datagram : out)
-      robot.sent_bytes += network_.send(self, robots_.size(), datagram, now_) * (datagram.bytes.size() + kOverhead);
+      sent_[self].add(datagram.bytes, network_.send(self, robots_.size(), datagram, now_));
+    ages_.said(robot.team, now_);
     if (auto job = robot.team.next_match(now_)) {
       const Duration before = thread_cpu_time();
       Budget budget = Budget::steps(matching::kAmpleSteps);
       cairn::run(*job, budget);
-      robot.team.matched(std::move(*job));
       match_time_ += thread_cpu_time() - before;
       ++matches_;
+      if (g_options["looks"] != 0) print_looks(self, *job);
+      robot.team.matched(std::move(*job));
     }
     const Duration before = thread_cpu_time();
     Budget slice = Budget::steps(100);
-    (void)robot.team.fuse(slice);
+    const bool up_to_date = robot.team.fuse(slice);
     longest_slice_ = std::max(longest_slice_, thread_cpu_time() - before);
+    ages_.fused(robot.team, up_to_date, now_);
     if (const auto size = robot.team.poses().T_team_odom.size(); size != team_sizes_[self]) {
       team_sizes_[self] = size;
       std::printf("  %.1f s: robot_%d is in a team of %zu\n", to_seconds(now_), static_cast<int>(self), size);
       for (RobotId peer = self + 1; peer <= robots_.size(); ++peer)
         std::printf("    about robot_%d: %s\n", static_cast<int>(peer), robot.team.standing(peer, now_).reason.c_str());
+    }
+  }
+
+  [[nodiscard]] SE3 true_pose(RobotId a, RobotId b) const {
+    return robots_[a - 1]->T_world_odom().inverse() * robots_[b - 1]->T_world_odom();
+  }
+
+  static void print_evidence(const matching::Evidence& e) {
+    std::printf(" overlap %.2f pairs %d %.0f m2 conflict %.3f %.3f weakest %.3f unique %.2f score %.3f", e.overlap,
+                e.structure_pairs, e.agreeing_m2, e.conflict, e.reverse_conflict, e.weakest_translation, e.uniqueness,
+                e.score);
+  }
+
+  /// What the pair would look like at its true pose, and every place that is held.
+  void print_looks(RobotId self, const MatchJob& job) {
+    const SE3 truth = true_pose(self, job.peer);
+    const SemanticOcTree own_map = job.own.map(), other_map = job.other.map();
+    const auto own = matching::MapFeatures::build(own_map), other = matching::MapFeatures::build(other_map);
+    if (!own || !other) return;
+    const auto seen = matching::Judge(*own, *other).look(truth, matching::anywhere().covariance);
+    std::printf("  %.1f s look %d-%d truth: p %.3f", to_seconds(now_), static_cast<int>(self),
+                static_cast<int>(job.peer), matching::decide(seen.evidence).probability_correct);
+    print_evidence(seen.evidence);
+    std::puts("");
+    for (const matching::Hypothesis& h : job.match->hypotheses().all()) {
+      const Vector6 e = log_error(truth, h.T_a_b.mean);
+      std::printf("  %.1f s look %d-%d error %.2f m %.2f deg: p %.3f agreed %d", to_seconds(now_),
+                  static_cast<int>(self), static_cast<int>(job.peer), e.head<3>().norm(), e.tail<3>().norm() * 57.29578,
+                  h.probability_correct, h.agreements);
+      print_evidence(h.evidence);
+      std::printf(" (%s)\n", h.reason.c_str());
     }
   }
 
@@ -159,13 +179,10 @@ class TeamRun {
     const auto truth = [&](RobotId id) { return robots_[id - 1]->T_world_odom() * base(id); };
     const SE3 estimate = (poses.at(a) * base(a)).inverse() * poses.at(b) * base(b);
     const SE3 error = (truth(a).inverse() * truth(b)).inverse() * estimate;
-    const SE3 frames = (robots_[a - 1]->T_world_odom().inverse() * robots_[b - 1]->T_world_odom()).inverse() *
-                       (poses.at(a).inverse() * poses.at(b));
+    const SE3 frames = true_pose(a, b).inverse() * (poses.at(a).inverse() * poses.at(b));
     std::printf("  %d-%d error %.3f m %.3f deg (frames %.3f m %.3f deg)%s\n", static_cast<int>(a), static_cast<int>(b),
                 error.translation().norm(), rotation_angle(error) * 57.29578, frames.translation().norm(),
                 rotation_angle(frames) * 57.29578, error.translation().norm() > 1 ? " WRONG" : "");
-    if (a == 1 && b == 2)
-      std::printf("  %d matches, %.2f s each\n", matches_, to_seconds(match_time_) / std::max(1, matches_));
   }
 
   std::vector<std::unique_ptr<RecordedRobot>> robots_;
@@ -175,6 +192,8 @@ class TeamRun {
   Duration longest_slice_{}, match_time_{};
   int matches_ = 0;
   std::map<RobotId, std::size_t> team_sizes_;
+  std::map<RobotId, SentBytes> sent_;
+  Ages ages_;
 };
 
 int run(const fs::path& folder) {

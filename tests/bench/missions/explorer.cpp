@@ -26,8 +26,9 @@ simulator::Path stops_along(const simulator::Path& path, double every) {
   return stops;
 }
 
-MappingConfig mapping() {
+MappingConfig mapping(double resolution_m) {
   MappingConfig config;
+  config.resolution_m = resolution_m;
   config.max_range_m = Explorer::kRangeM;
   return config;
 }
@@ -36,8 +37,12 @@ MappingConfig mapping() {
 
 Site::Site(simulator::World w) : world(std::move(w)), plan(world), tracer(*simulator::Tracer::build(world.mesh)) {}
 
-Explorer::Explorer(const Site& site, std::uint64_t seed, double metres)
-    : site_(site), seed_(seed), workers_(1), mapper_(std::make_unique<Mapper>(mapping(), workers_)) {
+Explorer::Explorer(const Site& site, std::uint64_t seed, double metres, double resolution_m)
+    : site_(site),
+      seed_(seed),
+      resolution_m_(resolution_m),
+      workers_(1),
+      mapper_(std::make_unique<Mapper>(mapping(resolution_m), workers_)) {
   const simulator::RoutePlanner planner(site.world, site.plan, seed);
   const auto paths = planner.plan(1, metres);
   if (paths) stops_ = stops_along(paths->front(), kStopM);
@@ -53,7 +58,7 @@ Explorer::Explorer(const Site& site, std::uint64_t seed, double metres)
 
 std::unique_ptr<SemanticOcTree> Explorer::next_map(const SE3& slip) {
   auto map = std::make_unique<SemanticOcTree>(mapper_->tree());
-  mapper_ = std::make_unique<Mapper>(mapping(), workers_);
+  mapper_ = std::make_unique<Mapper>(mapping(resolution_m_), workers_);
   features_ = std::make_unique<matching::MapFeatures>(*matching::MapFeatures::build(mapper_->tree()));
   T_map_world_ = slip * T_map_world_;
   return map;

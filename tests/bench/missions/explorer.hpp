@@ -29,7 +29,7 @@ class Explorer {
   static constexpr double kStopM = 1.5, kRangeM = 12;
 
   /// `site` must outlive it. `metres` is how far it drives.
-  Explorer(const Site& site, std::uint64_t seed, double metres);
+  Explorer(const Site& site, std::uint64_t seed, double metres, double resolution_m = 0.1);
 
   /// The next `scans` stops.
   void advance(int scans);
@@ -46,6 +46,7 @@ class Explorer {
 
   const Site& site_;
   std::uint64_t seed_;
+  double resolution_m_;
   simulator::Path stops_;
   std::size_t next_ = 0;
   SE3 T_map_world_;

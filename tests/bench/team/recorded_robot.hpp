@@ -32,7 +32,7 @@ class RecordedRobot {
   [[nodiscard]] std::uint64_t raw_bytes() const { return raw_bytes_; }
 
   Team team;
-  std::uint64_t sent_bytes = 0, received_bytes = 0;
+  std::uint64_t received_bytes = 0;
 
  private:
   RecordedRobot(const RobotConfig& robot, const TeamConfig& config);

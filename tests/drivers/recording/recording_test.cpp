@@ -19,6 +19,7 @@ Recording example() {
   r.profile = "husky";
   r.start_utc_ns = 1'763'753'489'123'456'789;
   r.realtime_offset_ns = 1'763'000'000'000'000'001;
+  r.time_shift_ns = -5;
   r.notes = "two lines:\n\"quoted\" # not a comment, ümlaut\tand a tab";
   SourceEntry lidar{"lidar", "velodyne", "lidar.pcap", "lidar", "VLP-16"};
   lidar.base_sensor_xyz_rpy = (Vector6() << 0.1, -0.2, 1.0 / 3.0, 0.01, -0.02, 3.0).finished();
@@ -41,6 +42,7 @@ TEST(Recording, WrittenAndReadAgainIsTheSame) {
   EXPECT_EQ(to_yaml(*again), text);
   EXPECT_EQ(again->start_utc_ns, example().start_utc_ns);
   EXPECT_EQ(again->realtime_offset_ns, example().realtime_offset_ns);
+  EXPECT_EQ(again->time_shift_ns, example().time_shift_ns);
   EXPECT_EQ(again->notes, example().notes);
   ASSERT_EQ(again->sources.size(), 2U);
   EXPECT_EQ(*again->sources[0].base_sensor_xyz_rpy, *example().sources[0].base_sensor_xyz_rpy);

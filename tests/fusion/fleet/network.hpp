@@ -37,6 +37,8 @@ class Network {
   void put(RobotId robot, int side) { side_[robot] = side; }
   /// These two do not reach each other, whatever their sides.
   void cut(RobotId a, RobotId b) { cut_.insert({std::min(a, b), std::max(a, b)}); }
+  /// Nobody hears this one, which hears everybody.
+  void mute(RobotId robot, bool muted) { muted ? void(muted_.insert(robot)) : void(muted_.erase(robot)); }
   void set_quality(const LinkQuality& quality) { quality_ = quality; }
 
   void send(const Delivery& datagram, Time now) {
@@ -68,7 +70,7 @@ class Network {
 
  private:
   bool reaches(RobotId a, RobotId b) {
-    return side_[a] == side_[b] && !cut_.contains({std::min(a, b), std::max(a, b)});
+    return side_[a] == side_[b] && !muted_.contains(a) && !cut_.contains({std::min(a, b), std::max(a, b)});
   }
   bool chance(double p) { return std::uniform_real_distribution<>(0, 1)(random_) < p; }
   Duration part_of(Duration most) {
@@ -77,6 +79,7 @@ class Network {
 
   LinkQuality quality_;
   std::mt19937 random_;
+  std::set<RobotId> muted_;
   std::map<RobotId, int> side_;
   std::set<std::pair<RobotId, RobotId>> cut_;
   std::multimap<Time, Delivery> on_the_way_;

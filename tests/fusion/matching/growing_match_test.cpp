@@ -3,6 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "fusion/matching/default_matcher.hpp"
 #include "tests/support/map_pairs.hpp"
 
 namespace cairn::matching {
@@ -46,6 +49,34 @@ TEST(GrowingMatch, AbstainsInACorridorWithoutEnds) {
   for (const double to : {0.3, 0.6, 0.9}) {
     corridor.look({0, to, 4}, {0.1, 0.1 + to, 4});
     EXPECT_EQ(corridor.match.hypotheses().accepted(), nullptr);
+  }
+}
+
+/// The same voxels, seen by a robot that leans to its left.
+SemanticOcTree leaning(const SemanticOcTree& map, double rad) {
+  SemanticOcTree turned(map.getResolution());
+  const Eigen::AngleAxisf turn(static_cast<float>(rad), Eigen::Vector3f::UnitX());
+  const auto voxels = occupied_voxels(map);
+  for (const Voxel& v : voxels.value()) {
+    const Eigen::Vector3f p = turn * v.centre;
+    turned.setNodeValue(octomap::point3d(p.x(), p.y(), p.z()), 2.0F, true);
+  }
+  turned.canonicalise();
+  return turned;
+}
+
+TEST(DefaultMatcher, ASearchWithoutAGuessFindsNoPoseThatLeans) {
+  const auto pair = support::two_robots(support::lobby(), {0, 2, 8}, {0.5, 2.5, 8}, 3, 2.0, 0.1, 8);
+  const auto a = MapFeatures::build(*pair.a);
+  ASSERT_TRUE(a);
+  for (const double rad : {0.0, 0.2}) {
+    const SemanticOcTree map_b = leaning(*pair.b, rad);
+    const auto b = MapFeatures::build(map_b);
+    ASSERT_TRUE(b);
+    Budget budget = Budget::steps(kAmpleSteps);
+    const auto looks = DefaultMatcher(*a, *b).look_everywhere({}, 8, budget);
+    EXPECT_TRUE(rad > 0 || !looks.empty());
+    for (const Look& look : looks) EXPECT_LT(std::acos(look.T_a_b.mean.rotation()(2, 2)), 0.121) << rad;
   }
 }
 

@@ -65,8 +65,12 @@ TEST(MapVoxels, TooManyAreAnErrorBeforeTheyAreListed) {
   EXPECT_TRUE(occupied_voxels(SemanticOcTree(0.1))->empty());
 }
 
-TEST(FreeSpace, IsWhatWasSeenFreeAwayFromAnythingOccupied) {
-  SemanticOcTree tree(0.1);
+/// Of these voxels as of those of 0.1 m: two maps may have a surface in neighbouring voxels, however large.
+class FreeSpaceOf : public testing::TestWithParam<double> {};
+INSTANTIATE_TEST_SUITE_P(Voxels, FreeSpaceOf, testing::Values(0.1, 0.2));
+
+TEST_P(FreeSpaceOf, IsWhatWasSeenFreeAwayFromAnythingOccupied) {
+  SemanticOcTree tree(GetParam());
   const SemanticOcTree* map = &tree;
   std::mt19937 random(2);
   for (int i = 0; i < 20000; ++i) {
@@ -75,7 +79,8 @@ TEST(FreeSpace, IsWhatWasSeenFreeAwayFromAnythingOccupied) {
   }
   tree.canonicalise();
   const FreeSpace free(tree);
-  std::uniform_real_distribution<float> at(-1.4F, 1.4F);
+  const float edge = 14 * static_cast<float>(GetParam());
+  std::uniform_real_distribution<float> at(-edge, edge);
   int found = 0;
   for (int i = 0; i < 20000; ++i) {
     const Eigen::Vector3f p(at(random), at(random), at(random));

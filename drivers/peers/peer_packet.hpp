@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hal/bytes.hpp"
+#include "hal/packet.hpp"
+
+// What comes from the team as packets. The first one says who this robot is in it, so that a replay knows it too.
+namespace cairn::peers {
+
+enum class PacketKind : std::uint16_t {  ///< Packet::channel
+  kDatagram = 0,                         ///< what a peer sent
+  kBeginning = 1,                        ///< made here
+};
+inline constexpr std::size_t kMaxPacket = 1200;
+
+/// Under which name and in which epoch this robot takes part.
+struct Beginning {
+  std::uint64_t robot = 0, epoch = 0;
+  friend bool operator==(const Beginning&, const Beginning&) = default;
+};
+
+inline void encode(const Beginning& beginning, Packet& packet) {
+  packet.channel = static_cast<std::uint16_t>(PacketKind::kBeginning);
+  packet.bytes.clear();
+  append_le(packet.bytes, beginning.robot);
+  append_le(packet.bytes, beginning.epoch);
+}
+/// Nothing where the bytes cannot be one; nobody's name is 0.
+[[nodiscard]] inline std::optional<Beginning> decode_beginning(std::span<const std::byte> bytes) {
+  if (bytes.size() != 16 || load_le<std::uint64_t>(bytes, 0) == 0) return std::nullopt;
+  return Beginning{load_le<std::uint64_t>(bytes, 0), load_le<std::uint64_t>(bytes, 8)};
+}
+
+}  // namespace cairn::peers

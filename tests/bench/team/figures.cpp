@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/bench/team/figures.hpp"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "fusion/peers/datagram_kind.hpp"
+
+namespace cairn::bench {
+
+using peers::RobotId;
+using peers::Version;
+
+void SentBytes::add(std::span<const std::byte> datagram, std::size_t copies) {
+  Kind& kind = kinds_.at(std::to_integer<std::size_t>(datagram[1]));
+  kind.datagrams += copies;
+  kind.bytes += copies * (datagram.size() + kOverhead);
+}
+
+std::uint64_t SentBytes::all() const {
+  std::uint64_t sum = 0;
+  for (const Kind& kind : kinds_) sum += kind.bytes;
+  return sum;
+}
+
+void SentBytes::print() const {
+  constexpr std::array kNames{"", "hellos", "digests", "items"};
+  std::printf("  sent");
+  for (std::size_t i = 1; i < kinds_.size(); ++i)
+    std::printf("%s %s %.1f kB in %llu", i == 1 ? "" : ",", kNames.at(i), static_cast<double>(kinds_.at(i).bytes) / 1e3,
+                static_cast<unsigned long long>(kinds_.at(i).datagrams));
+  std::puts("");
+}
+
+void Ages::said(const Team& team, Time now) {
+  auto& times = said_[team.exchange().self()];
+  times.resize(
+      std::max<std::size_t>(times.size(), team.exchange().layers().at(team.exchange().self()).holding.newest()), now);
+}
+
+void Ages::fused(const Team& team, bool up_to_date, Time now) {
+  const RobotId self = team.exchange().self();
+  for (const auto& entry : said_) {
+    const RobotId robot = entry.first;
+    const auto& times = entry.second;
+    if (robot == self) continue;
+    const Way way{robot, self};
+    Version& looked_at = looked_at_[way];
+    auto& waits = waits_[way];
+    const bool merged = team.poses().T_team_odom.contains(robot);
+    for (; looked_at < times.size(); ++looked_at)
+      if (merged) waits.push_back(looked_at + 1);
+    const auto layer = team.exchange().layers().find(robot);
+    if (!up_to_date || layer == team.exchange().layers().end()) continue;
+    std::erase_if(waits, [&](Version version) {
+      if (!layer->second.holding.known().contains(version)) return false;
+      ages_.push_back(to_seconds(now - times[version - 1]));
+      return true;
+    });
+  }
+}
+
+double Ages::quantile(double q) const {
+  if (ages_.empty()) return 0;
+  auto sorted = ages_;
+  std::ranges::sort(sorted);
+  return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
+}
+
+}  // namespace cairn::bench

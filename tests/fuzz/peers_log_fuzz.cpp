@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// Any file as what peers said: packets, then an end; at most one error, and never a packet after it. What was read is
+// written as it was.
+#include <sstream>
+#include <string>
+
+#include "drivers/peers/peer_packet.hpp"
+#include "drivers/peers/peers_log.hpp"
+#include "tests/fuzz/require.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
+  using namespace cairn;
+  const std::string bytes(reinterpret_cast<const char*>(data), size);
+  const auto source = peers::PeersLogSource::from_stream(std::make_unique<std::istringstream>(bytes), "fuzz", {});
+  if (!source) return 0;
+  std::vector<std::byte> again;
+  peers::append_log_header(again);
+  Packet packet;
+  bool failed = false;
+  for (;;) {
+    const auto poll = (*source)->next(packet, {});
+    if (poll && *poll == Poll::kEnd) break;
+    require(!failed);
+    failed = !poll;
+    if (failed) continue;
+    require(packet.bytes.size() <= peers::kMaxPacket);
+    require(peers::append_log_record(packet, again).has_value());
+    (void)peers::decode_beginning(packet.payload());
+  }
+  require(again.size() <= size &&
+          bytes.compare(0, again.size(), reinterpret_cast<const char*>(again.data()), again.size()) == 0);
+  return 0;
+}
