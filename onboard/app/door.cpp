@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/door.hpp"
 
+#include <algorithm>
+
 #include "drivers/recording/recording_reader.hpp"
 #include "drivers/recording/scan_file.hpp"
 #include "drivers/velodyne/lidar.hpp"
+#include "onboard/app/played_source.hpp"
 
 namespace cairn {
 namespace {
@@ -66,6 +69,31 @@ Result<Input> open_live(const RobotProfile& profile, const SourceEntry& entry, S
   return input;
 }
 
+/// A recording's sources, without decoders.
+Result<Door> open_sources(const std::filesystem::path& folder, RobotProfile& profile) {
+  auto recorded = recording::load_recording(folder);
+  if (!recorded) return recorded.error();
+  profile.name = recorded->robot;
+  Door door;
+  for (std::size_t i = 0; i < recorded->sources.size(); ++i) {
+    auto source = recording::open_recorded_source(folder, *recorded, i);
+    if (!source) source = std::make_unique<UnreadableSource>(source.error());
+    door.inputs.push_back({recorded->sources[i], std::move(*source), {}, nullptr, nullptr, {}});
+  }
+  door.recording = std::move(*recorded);
+  return door;
+}
+
+Result<void> add_decoders(Door& door, RobotProfile& profile, Monitor& monitor) {
+  const Duration utc_offset{door.recording.realtime_offset_ns};
+  for (std::size_t i = 0; i < door.inputs.size(); ++i) {
+    auto decoder = decoder_for(door.inputs[i].entry, static_cast<SourceId>(i), utc_offset, profile, monitor);
+    if (!decoder) return decoder.error();
+    door.inputs[i].scans = std::move(*decoder);
+  }
+  return {};
+}
+
 }  // namespace
 
 Result<Door> open_devices(const RobotProfile& profile, Devices which, const Clock& clock, Monitor& monitor) {
@@ -95,27 +123,37 @@ Result<Door> open_devices(const RobotProfile& profile, Devices which, const Cloc
 }
 
 Result<Door> open_recording(const std::filesystem::path& folder, RobotProfile& profile, Monitor& monitor) {
-  auto recorded = recording::load_recording(folder);
-  if (!recorded) return recorded.error();
-  profile.name = recorded->robot;
-  Door door;
-  const Duration utc_offset{recorded->realtime_offset_ns};
-  for (std::size_t i = 0; i < recorded->sources.size(); ++i) {
-    const SourceEntry& entry = recorded->sources[i];
-    auto decoder = decoder_for(entry, static_cast<SourceId>(i), utc_offset, profile, monitor);
-    if (!decoder) return decoder.error();
-    auto source = recording::open_recorded_source(folder, *recorded, i);
-    if (!source) source = std::make_unique<UnreadableSource>(source.error());
-    door.inputs.push_back({entry, std::move(*source), std::move(*decoder), nullptr, nullptr, {}});
-  }
-  door.recording = std::move(*recorded);
+  auto door = open_sources(folder, profile);
+  if (!door) return door;
+  if (const auto decoded = add_decoders(*door, profile, monitor); !decoded) return decoded.error();
   if (const auto log = folder / "schedule.log"; std::filesystem::exists(log)) {
     auto schedule = scheduler::load_schedule_log(log);
     if (!schedule)
       monitor.event({}, "schedule", to_string(schedule.error()));
     else
-      door.schedule = std::move(*schedule);
+      door->schedule = std::move(*schedule);
   }
+  return door;
+}
+
+Result<Door> play_recording(const std::filesystem::path& folder, RobotProfile& profile, const Clock& clock,
+                            Monitor& monitor) {
+  auto door = open_sources(folder, profile);
+  if (!door) return door;
+  constexpr Duration kStartIn = std::chrono::milliseconds(500);
+  Time first = Time::max();
+  std::vector<PlayedSource*> played;
+  for (Input& input : door->inputs) {
+    auto source = std::make_unique<PlayedSource>(std::move(input.source), clock);
+    first = std::min(first, source->first_arrival());
+    played.push_back(source.get());
+    input.source = std::move(source);
+  }
+  const Duration shift = first != Time::max() ? clock.now() + kStartIn - first : Duration{};
+  for (PlayedSource* source : played) source->set_shift(shift);
+  door->recording.time_shift_ns += shift.count();
+  door->recording.realtime_offset_ns -= shift.count();  // a packet's time of day is what it was
+  if (const auto decoded = add_decoders(*door, profile, monitor); !decoded) return decoded.error();
   return door;
 }
 

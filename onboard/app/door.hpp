@@ -8,6 +8,7 @@
 
 #include "drivers/drive/can_link.hpp"
 #include "drivers/gpio/gpio_lines.hpp"
+#include "drivers/peers/peer_port.hpp"
 #include "drivers/recording/recording.hpp"
 #include "hal/clock.hpp"
 #include "hal/monitor.hpp"
@@ -34,6 +35,7 @@ struct Input {
   drive::CanLink* can = nullptr;       ///< the same source, live: it can be spoken to, too
   gpio::GpioLines* lines = nullptr;    ///< likewise
   std::function<Losses()> losses;      ///< live: what the device lost; may be empty
+  peers::PeerPort* peers = nullptr;    ///< the same source, live: it can be spoken to, too
 };
 
 /// The one door through which everything from outside enters. The index of an input is its SourceId.
@@ -51,5 +53,9 @@ Result<Door> open_devices(const RobotProfile& profile, Devices which, const Cloc
 /// A recording. What it says of its robot and sensors (name, model, ports, mount) replaces what the profile says. A
 /// source whose file cannot be opened says so as its first and only packet.
 Result<Door> open_recording(const std::filesystem::path& folder, RobotProfile& profile, Monitor& monitor);
+/// A recording whose sources behave like devices: their packets arrive again, from half a second from now on, for a run
+/// that is live. `clock` must outlive the door.
+Result<Door> play_recording(const std::filesystem::path& folder, RobotProfile& profile, const Clock& clock,
+                            Monitor& monitor);
 
 }  // namespace cairn

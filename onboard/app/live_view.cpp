@@ -31,6 +31,17 @@ LiveJson to_json(const LiveView::Event& e) {
   return {{"t_s", e.t_s}, {"stage", short_text(e.stage)}, {"what", short_text(e.what)}, {"count", e.count}};
 }
 
+LiveJson to_json(const LiveView::Peer& p) {
+  return {{"name", short_text(p.name)},
+          {"merged", p.merged},
+          {"reason", short_text(p.reason)},
+          {"heard_s_ago", p.heard_s_ago},
+          {"tiles", p.tiles},
+          {"tx_bytes", p.tx_bytes},
+          {"rx_bytes", p.rx_bytes},
+          {"clock_offset_s", p.clock_offset_s}};
+}
+
 template <class T, class Make>
 LiveJson list(const std::vector<T>& items, std::size_t skip, Make make) {
   LiveJson out = LiveJson::array();
@@ -49,7 +60,8 @@ std::string line_without(const LiveView& v, std::size_t events_left_out) {
                       {"rss_mb", v.rss_mb},
                       {"faults", list(v.faults, 0, short_text)},
                       {"stages", list(v.stages, 0, [](const auto& s) { return to_json(s); })},
-                      {"events", list(v.events, events_left_out, [](const auto& e) { return to_json(e); })}};
+                      {"events", list(v.events, events_left_out, [](const auto& e) { return to_json(e); })},
+                      {"peers", list(v.peers, 0, [](const auto& p) { return to_json(p); })}};
   return json.dump(-1, ' ', false, LiveJson::error_handler_t::replace) + "\n";
 }
 
@@ -65,6 +77,9 @@ class Members {
   void read(const char* key, double& value) const {
     const LiveJson* found = find(key);
     if (found != nullptr && found->is_number() && std::isfinite(found->get<double>())) value = found->get<double>();
+  }
+  void read(const char* key, bool& value) const {
+    if (const LiveJson* found = find(key); found != nullptr && found->is_boolean()) value = found->get<bool>();
   }
   template <class Integer>
   void read(const char* key, Integer& value) const {
@@ -116,6 +131,19 @@ void read_event(const LiveJson& json, LiveView::Event& e) {
   in.read("count", e.count);
 }
 
+void read_peer(const LiveJson& json, LiveView::Peer& p) {
+  if (!json.is_object()) return;
+  const Members in(json);
+  in.read("name", p.name);
+  in.read("merged", p.merged);
+  in.read("reason", p.reason);
+  in.read("heard_s_ago", p.heard_s_ago);
+  in.read("tiles", p.tiles);
+  in.read("tx_bytes", p.tx_bytes);
+  in.read("rx_bytes", p.rx_bytes);
+  in.read("clock_offset_s", p.clock_offset_s);
+}
+
 }  // namespace
 
 std::string to_line(const LiveView& view) {
@@ -149,6 +177,7 @@ Result<LiveView> parse_line(std::string_view line) {
   });
   in.read_list("stages", v.stages, read_stage);
   in.read_list("events", v.events, read_event);
+  in.read_list("peers", v.peers, read_peer);
   return v;
 }
 

@@ -27,6 +27,14 @@ struct LiveView {
     std::string stage, what;
     std::uint64_t count = 0;
   };
+  struct Peer {
+    std::string name;
+    bool merged = false;
+    std::string reason;       ///< for people
+    double heard_s_ago = -1;  ///< negative: never
+    std::uint64_t tiles = 0, tx_bytes = 0, rx_bytes = 0;
+    double clock_offset_s = 0;  ///< its clock less this robot's, as far as known
+  };
   std::string robot;
   double t_s = 0;  ///< robot time
   std::string mode, cause, shed;
@@ -36,6 +44,7 @@ struct LiveView {
   std::vector<std::string> faults;  ///< codes of what is wrong now
   std::vector<Stage> stages;
   std::vector<Event> events;  ///< the last one last
+  std::vector<Peer> peers;    ///< of a robot that takes part in a team
 
   static constexpr std::size_t kMaxText = 160, kMaxItems = 64;
   static constexpr std::size_t kMaxLine = 64 * 1024;

@@ -29,6 +29,7 @@ void declare(config::Section& s, RobotProfile& p) {
       "may be stricter than the defaults, never milder");
   s.group("overload", p.overload, "when work is left undone, and when it is taken up again");
   s.group("restart", p.restart, "what a core that starts again goes on from");
+  s.group("team", p.team, "the robot's place in a team; cairn run --peers takes part in it");
 }
 
 Result<RobotProfile> load_profile(const std::filesystem::path& path) {

@@ -9,6 +9,7 @@
 #include "onboard/app/restart.hpp"
 #include "onboard/app/schedule_profile.hpp"
 #include "onboard/app/sensor_profiles.hpp"
+#include "onboard/app/team/team_profile.hpp"
 #include "onboard/robot.hpp"
 #include "onboard/scheduler/failsafe_config.hpp"
 #include "onboard/scheduler/overload.hpp"
@@ -29,6 +30,7 @@ struct RobotProfile {
   FailsafeConfig failsafe;
   OverloadConfig overload;
   RestartProfile restart;
+  TeamProfile team;
   double odometry_deadline_s = 0.08;  ///< live: no further refinement of a pose this long after its last packet
   int threads = 1;
   ScheduleProfile schedule;

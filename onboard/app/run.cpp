@@ -8,6 +8,7 @@
 #include "onboard/app/run_output.hpp"
 #include "onboard/app/start_log.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
+#include "onboard/app/team/join_team.hpp"
 
 namespace cairn {
 namespace {
@@ -22,16 +23,19 @@ Result<void> take_schedule(const RunOptions& options, Door& door) {
 }
 
 Result<Door> open_door(const RunOptions& options, RobotProfile& profile, const Clock& clock, Monitor& monitor) {
-  if (options.recording.empty())
-    return open_devices(profile, options.record.empty() ? Devices::kUsed : Devices::kAll, clock, monitor);
-  auto door = open_recording(options.recording, profile, monitor);
+  auto door = options.recording.empty()
+                  ? open_devices(profile, options.record.empty() ? Devices::kUsed : Devices::kAll, clock, monitor)
+              : options.peers ? play_recording(options.recording, profile, clock, monitor)
+                              : open_recording(options.recording, profile, monitor);
   if (!door) return door;
   if (const auto taken = take_schedule(options, *door); !taken) return taken.error();
+  if (options.peers)
+    if (const auto joined = join_team(profile, clock, *door); !joined) return joined.error();
   return door;
 }
 
 Result<void> check_schedule(const RobotProfile& profile) {
-  const auto tasks = profile.schedule.tasks();
+  const auto tasks = profile.schedule.tasks(profile.team.id != 0);
   return scheduler::validate(tasks, static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
 }
 
@@ -55,7 +59,7 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
   auto profile = load_profile(options.config);  // every fault at once, or valid
   if (!profile) return profile.error();
   if (options.threads) profile->threads = *options.threads;
-  const bool live = options.recording.empty();
+  const bool live = options.live();
   if (live)
     if (const auto fits = check_schedule(*profile); !fits) return fits.error();
   if (const auto ready = prepare_output(options.out); !ready) return ready.error();
@@ -75,7 +79,7 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
   if (past && ran) past->starts.end();
   if (!ran) return ran.error();  // packets → scans → poses and map
 
-  auto report = write_output({options, *profile, tasks, result->monitor});
+  auto report = write_output({options, *profile, tasks, result->monitor, Duration{door->recording.time_shift_ns}});
   if (!report) return report.error();
   result->report = std::move(*report);
   return result;

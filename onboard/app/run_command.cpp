@@ -63,7 +63,13 @@ int run_robot(Arguments a) {
     limits = std::move(*loaded);
     a.run.reference = true;
   }
-  a.run.pace = a.run.recording.empty() ? Pace::kLive : a.speed == "max" ? Pace::kMaximum : Pace::kRecorded;
+  if (a.run.peers && a.speed == "max")
+    return fail({Errc::kInvalidConfig,
+                 "peers are spoken to in real time",
+                 "--speed max",
+                 {},
+                 "leave out --peers: what peers said then is in the recording"});
+  a.run.pace = a.run.live() ? Pace::kLive : a.speed == "max" ? Pace::kMaximum : Pace::kRecorded;
   if (::isatty(STDERR_FILENO) != 0) a.run.progress = show_progress;
   catch_stop_signals();
   const auto result = cairn::run(a.run);
@@ -94,6 +100,10 @@ void add_run_command(Commands& commands) {
   sub->add_option(
       "--state", a->run.state,
       "live: keep map and pose in this folder, and go on from there after a crash; see the profile's restart");
+  sub->add_flag(
+      "--peers", a->run.peers,
+      "take part in the team, through the peer process (cairn-peers) at the profile's team.socket; a recording "
+      "is played as if it were the robot's devices");
   sub->add_option("--live-view", a->run.live_view, "live: a local socket for cairn top, such as /run/cairn/live.sock");
   sub->add_option("--schedule", a->run.schedule, "repeat the schedule.log of a live run; a recording may hold its own");
   sub->add_option("--speed", a->speed, "of a recording: as it was made, or as fast as possible in virtual time")

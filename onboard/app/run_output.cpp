@@ -10,6 +10,7 @@
 #include "onboard/app/report/write_report.hpp"
 #include "onboard/app/run.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
+#include "onboard/app/team/team_output.hpp"
 #include "onboard/mapping/map_file.hpp"
 
 namespace cairn {
@@ -17,10 +18,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Result<void> write_trajectory(const fs::path& file, const std::vector<TrackPoint>& track) {
+/// On the time line of the recording, where one was played.
+Result<void> write_trajectory(const fs::path& file, const std::vector<TrackPoint>& track, Duration shift) {
   std::vector<recording::StampedPose> poses;
   poses.reserve(track.size());
-  for (const TrackPoint& p : track) poses.push_back({p.stamp, p.T_odom_base.mean});
+  for (const TrackPoint& p : track) poses.push_back({p.stamp - shift, p.T_odom_base.mean});
   return recording::write_tum(file, poses);
 }
 
@@ -79,6 +81,7 @@ RunReport make_report(const RunFacts& facts) {
   report.map = summarise(facts.tasks.robot().map());
   if (auto picture = look_at(facts.tasks.robot().map(), {})) report.picture = std::move(*picture);
   report.effective_config = to_yaml(facts.profile);
+  if (facts.tasks.team() != nullptr) add_team(*facts.tasks.team(), report);
   return report;
 }
 
@@ -87,7 +90,19 @@ void add_ground_truth(const RunFacts& facts, RunReport& report) {
   const fs::path file = facts.options.recording / "ground_truth.tum";
   if (facts.options.recording.empty() || !fs::exists(file)) return;
   if (auto truth = recording::read_tum(file))
-    for (const auto& p : *truth) report.ground_truth.push_back({p.stamp, p.pose});
+    for (const auto& p : *truth) report.ground_truth.push_back({p.stamp + facts.shift, p.pose});
+}
+
+/// What a team run leaves besides, as a part of what is to be repeated.
+Result<void> add_team_files(const RunFacts& facts, RunReport& report, std::vector<fs::path>& hashed) {
+  if (facts.tasks.team() == nullptr || !facts.tasks.team()->team()) return {};
+  const auto files = write_team(*facts.tasks.team()->team(), facts.options.out);
+  if (!files) return files.error();
+  const auto hash = sha256_of_files(*files);
+  if (!hash) return hash.error();
+  report.team->sha256 = *hash;
+  hashed.insert(hashed.end(), files->begin(), files->end());
+  return {};
 }
 
 }  // namespace
@@ -104,11 +119,12 @@ Result<RunReport> write_output(const RunFacts& facts) {
   const fs::path& out = facts.options.out;
   RunReport report = make_report(facts);
   add_ground_truth(facts, report);
-  const std::array<fs::path, 2> hashed{out / "trajectory.tum", out / "map.cairn"};
+  std::vector<fs::path> hashed{out / "trajectory.tum", out / "map.cairn"};
   if (const auto r = write_file_atomic(out / "config.yaml", report.effective_config); !r) return r.error();
-  if (const auto r = write_trajectory(hashed[0], facts.tasks.robot().track()); !r) return r.error();
+  if (const auto r = write_trajectory(hashed[0], facts.tasks.robot().track(), facts.shift); !r) return r.error();
   if (const auto r = save_cairn(facts.tasks.robot().map(), hashed[1]); !r) return r.error();
   if (const auto r = save_ot(facts.tasks.robot().map(), out / "map.ot"); !r) return r.error();
+  if (const auto r = add_team_files(facts, report, hashed); !r) return r.error();
   const auto hash = sha256_of_files(hashed);
   if (!hash) return hash.error();
   report.output_sha256 = *hash;

@@ -19,6 +19,7 @@ struct RunFacts {
   const RobotProfile& profile;
   const RobotTasks& tasks;
   const Monitor& monitor;
+  Duration shift{};  ///< see Recording::time_shift_ns
 };
 
 /// Makes the folder, so that a run does not end with nowhere to go.

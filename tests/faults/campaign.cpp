@@ -33,7 +33,7 @@ std::string to_markdown() {
       "request, so\n"
       "that no time of recovery is given. Rows without times are shown by the test that is named.\n\n"
       "| id | fault | what must hold | mode | detected | recovered | test |\n|---|---|---|---|---|---|---|\n";
-  for (const auto& rows : {sensor_rows(), odometry_rows(), drive_rows(), computer_rows()})
+  for (const auto& rows : {sensor_rows(), odometry_rows(), drive_rows(), computer_rows(), peer_rows()})
     for (const Row& row : rows) append_row(out, row);
   out += "\n## Left out\n\n| id | fault | why |\n|---|---|---|\n";
   for (const Row& row : rows_left_out()) out += "| " + row.id + " | " + row.fault + " | " + row.test + " |\n";

@@ -22,8 +22,8 @@ struct Measured {
 
 /// A row of the fault matrix. Either measured here, or by the named test, or left out with the reason.
 struct Row {
-  std::string id;     ///< L…: LiDAR and cameras, D…: drive, E…: e-stop, C…: computer; never changes its meaning
-  std::string fault;  ///< as the matrix says
+  std::string id;  ///< L…: LiDAR and cameras, D…: drive, E…: e-stop, C…: computer, P…: peers; never changes its meaning
+  std::string fault;                           ///< as the matrix says
   std::string requirement;                     ///< what must hold
   Duration detect_within{}, recover_within{};  ///< zero: nothing is required
   Mode worst = Mode::kNormal;                  ///< the mode it must lead to
@@ -35,6 +35,7 @@ struct Row {
 [[nodiscard]] std::vector<Row> odometry_rows();
 [[nodiscard]] std::vector<Row> drive_rows();
 [[nodiscard]] std::vector<Row> computer_rows();
+[[nodiscard]] std::vector<Row> peer_rows();
 /// Of the matrix, but not automated here.
 [[nodiscard]] std::vector<Row> rows_left_out();
 

@@ -267,6 +267,9 @@ std::vector<Row> rows_left_out() {
       row("X6", "cgroup memory limit, order of the OOM killer's victims",
           "needs cgroups; config/systemd sets the order"),
       row("X7", "CPU overload by stress-ng", "not deterministic; C1, C15 and C16 are its logic in virtual time"),
+      row("X9", "lying occupancy (a phantom wall, an erased one)",
+          "what a robot's own map says is its own; that it outranks the team's comes with the view that planners get"),
+      row("X10", "unauthorised, expired or revoked certificate; strangers", "there are no certificates yet"),
       row("X8", "bad update, A/B slots", "there is no updater yet"),
   };
 }

@@ -10,6 +10,7 @@
 
 #include "onboard/app/report/report_json.hpp"
 #include "tools/cli/doctor/machine.hpp"
+#include "tools/cli/doctor/peer.hpp"
 #include "tools/cli/doctor/robot.hpp"
 
 namespace cairn::cli {
@@ -20,11 +21,14 @@ using Level = Finding::Level;
 
 struct DoctorArguments {
   fs::path config, recording, root = "/";
+  std::string peer;
+  fs::path run, live_view;
   double seconds = 1;
   bool json = false;
 };
 
 Findings examine(const DoctorArguments& options) {
+  if (!options.peer.empty()) return examine_peer({options.peer, options.recording, options.run, options.live_view});
   Findings all;
   const auto add = [&all](Findings more) { std::move(more.begin(), more.end(), std::back_inserter(all)); };
   if (!options.recording.empty()) {
@@ -84,6 +88,12 @@ void add_doctor_command(Commands& commands) {
   auto o = std::make_shared<DoctorArguments>();
   sub->add_option("--config", o->config, "robot profile: opens each of its devices and listens to it");
   sub->add_option("--recording", o->recording, "recording: looks for damage, losses and silence");
+  sub->add_option(
+      "--peer", o->peer,
+      "why this robot of the team (or all) has not merged: by the core that runs, or by --run or --recording");
+  sub->add_option("--run", o->run, "with --peer: the folder that a run left");
+  sub->add_option("--live-view", o->live_view, "with --peer: where the core serves its live view")
+      ->default_val("/run/cairn/live.sock");
   sub->add_option("--seconds", o->seconds, "how long to listen to each device")->check(CLI::Range(0.01, 3600.0));
   sub->add_option("--root", o->root, "another root with proc, sys and dev, such as a robot's mounted disk");
   sub->add_flag("--json", o->json, "one JSON object on stdout");

@@ -25,7 +25,7 @@ void draw_line(Image& image, std::span<const Pixel> points, const Stroke& stroke
 void draw_disc(Image& image, const Pixel& centre, double radius, Rgba colour);
 
 inline constexpr int kGlyphWidth = 6, kGlyphHeight = 7;  ///< pixels per character at scale 1, with the gap after it
-/// A 5×7 raster font with digits, lower-case letters and . - + : = / ( ); upper-case letters are drawn as lower-case
+/// A 5×7 raster font with digits, lower-case letters and . - + : = / ( ) _; upper-case letters are drawn as lower-case
 /// ones, everything else as a blank. (x, y) is the upper left corner.
 void draw_text(Image& image, int x, int y, std::string_view text, int scale, Rgba colour);
 [[nodiscard]] int text_width(std::string_view text, int scale);

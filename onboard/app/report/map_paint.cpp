@@ -11,7 +11,7 @@ namespace cairn {
 namespace {
 
 constexpr Rgba kUnknown{0xd5, 0xda, 0xe1, 255}, kFree{0xfb, 0xfc, 0xfd, 255}, kInk{0x1b, 0x23, 0x2e, 255};
-constexpr Rgba kPath{0xd8, 0x1b, 0x60, 255}, kTruth{0x1b, 0x23, 0x2e, 255}, kHalo{255, 255, 255, 190};
+constexpr Rgba kTruth{0x1b, 0x23, 0x2e, 255}, kHalo{255, 255, 255, 190};
 constexpr double kMaxPixels = 1e8;
 
 double longer_m(const MapPicture& p) { return std::max(p.width, p.height) * p.cell_m; }
@@ -96,12 +96,26 @@ void draw_paths(Image& image, const Layout& layout, const std::vector<MapPath>& 
     if (points.empty()) continue;
     if (!path.dashed) draw_line(image, points, {kHalo, 2 * width + 1, 0});
     draw_line(image, points,
-              {path.dashed ? kTruth : kPath, path.dashed ? width * 0.8 : width, path.dashed ? 4.0 * width : 0});
+              {path.dashed ? kTruth : path.colour, path.dashed ? width * 0.8 : width, path.dashed ? 4.0 * width : 0});
     if (path.dashed) continue;
     draw_disc(image, points.front(), 2.2 * width, {255, 255, 255, 255});
     draw_disc(image, points.front(), 1.4 * width, {0x2e, 0x8b, 0x57, 255});
     draw_disc(image, points.back(), 2.2 * width, {255, 255, 255, 255});
-    draw_disc(image, points.back(), 1.4 * width, kPath);
+    draw_disc(image, points.back(), 1.4 * width, path.colour);
+  }
+}
+
+/// Over all paths, and inside of the picture.
+void draw_names(Image& image, const Layout& layout, const std::vector<MapPath>& paths) {
+  const int t = layout.text;
+  for (const MapPath& path : paths) {
+    if (path.name.empty() || path.points.empty()) continue;
+    const Pixel end = layout.at(path.points.back());
+    const int width = text_width(path.name, t) + 4 * t, height = (kGlyphHeight + 4) * t;
+    const int x = std::clamp(static_cast<int>(end.x()) + 5 * t, 0, std::max(0, image.width() - width));
+    const int y = std::clamp(static_cast<int>(end.y()) - height / 2, 0, std::max(0, image.height() - height));
+    fill_rectangle(image, x, y, width, height, {255, 255, 255, 220});
+    draw_text(image, x + 2 * t, y + 2 * t, path.name, t, path.colour);
   }
 }
 
@@ -186,6 +200,7 @@ Result<Image> draw_map(const MapPicture& picture, const MapDrawing& drawing) {
   put_map(image, layout);
   draw_grid(image, layout);
   draw_paths(image, layout, drawing.paths);
+  draw_names(image, layout, drawing.paths);
   draw_legend(image, layout);
   draw_scale_bar(image, layout);
   return image;

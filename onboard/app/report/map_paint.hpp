@@ -2,6 +2,7 @@
 #pragma once
 
 #include <span>
+#include <string>
 #include <vector>
 
 #include "onboard/app/report/canvas.hpp"
@@ -22,7 +23,9 @@ namespace cairn {
 /// A path over the map, already projected: (right, up) in metres.
 struct MapPath {
   std::vector<Eigen::Vector2d> points;
-  bool dashed = false;  ///< ground truth is dashed
+  bool dashed = false;  ///< ground truth is dashed, thin and dark
+  Rgba colour{0xd8, 0x1b, 0x60, 255};
+  std::string name{};  ///< written at its end
 };
 
 struct MapDrawing {

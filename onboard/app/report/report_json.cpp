@@ -110,6 +110,15 @@ Json peers_json(const RunReport& report) {
   return peers;
 }
 
+Json team_json(const RunReport& report) {
+  if (!report.team) return nullptr;
+  const TeamStats& t = *report.team;
+  Json poses = Json::object();
+  for (const auto& [robot, pose] : t.T_team_odom) poses[std::to_string(robot)] = numbers(pose.matrix());
+  return {{"id", t.id},       {"anchor", t.anchor}, {"T_team_odom", poses}, {"merged_with", t.merged_with},
+          {"tiles", t.tiles}, {"sha256", t.sha256}};
+}
+
 Json ground_truth_json(const RunReport& report) {
   if (report.ground_truth.empty()) return nullptr;
   std::vector<StampedPose> means;
@@ -231,6 +240,7 @@ Json to_json(const RunReport& report) {
           {"memory", {{"peak_rss_mb", report.peak_rss_mb}}},
           {"allocations", {{"control_thread", report.control_thread_allocations}}},
           {"peers", peers_json(report)},
+          {"team", team_json(report)},
           {"events", events_json(report)},
           {"dropped_events", report.monitor != nullptr ? report.monitor->dropped_events() : 0},
           {"output_sha256", report.output_sha256}};

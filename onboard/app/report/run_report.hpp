@@ -52,6 +52,15 @@ struct PeerStats {
   std::string reason;
 };
 
+/// The team's map, as this robot has it.
+struct TeamStats {
+  std::uint64_t id = 0, anchor = 0;          ///< this robot's; the one whose odom frame is the team's
+  std::map<std::uint64_t, SE3> T_team_odom;  ///< of the robots that are in it
+  std::vector<std::string> merged_with;      ///< their names, without this one's
+  std::uint64_t tiles = 0;                   ///< that this robot said
+  std::string sha256;                        ///< over team.cairn and team.tum: the same on every robot of the team
+};
+
 /// All that a run leaves in report.json and report.html. The run fills it in and hands it to write_report().
 struct RunReport {
   std::string robot, profile;
@@ -81,8 +90,9 @@ struct RunReport {
   std::optional<MapPicture> picture;  ///< from above
 
   std::map<std::string, PeerStats> peers;
-  std::string effective_config;  ///< YAML
-  std::string output_sha256;     ///< over the files that the run left behind
+  std::optional<TeamStats> team;  ///< of a robot that took part in one
+  std::string effective_config;   ///< YAML
+  std::string output_sha256;      ///< over the files that the run left behind
 };
 
 /// Highest resident set size of this process so far, in MiB (getrusage).

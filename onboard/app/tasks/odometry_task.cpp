@@ -2,6 +2,7 @@
 #include "onboard/app/tasks/odometry_task.hpp"
 
 #include <algorithm>
+#include <limits>
 
 namespace cairn {
 
@@ -86,8 +87,28 @@ void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
     monitor_.event(motion.scan.stamp, "mapping", to_string(extended.error()));
   else if (copier_)
     copier_->mapped(motion.scan);
+  hand_on_tiles(motion.scan, tick);
   memory_short_.store(!extended && extended.error().code == Errc::kLimit, std::memory_order_relaxed);
   if (tick.takes_time()) latency_.wall.record(tick.figure_now() - motion.arrival);
+}
+
+void MappingTask::share_tiles(TileChannel& tiles) {
+  tiles_ = &tiles;
+  resumed_tiles_ = known_tiles(robot_.map(), std::numeric_limits<std::size_t>::max());
+}
+
+/// Where the channel is full, tiles stay changed and go with the next batch.
+void MappingTask::hand_on_tiles(const LocatedScan& scan, Tick& tick) {
+  TileBatch* out = tiles_ != nullptr ? tiles_->back(tick) : nullptr;
+  if (out == nullptr) return;
+  out->epoch = scan.epoch;
+  out->position_odom = scan.T_odom_base.mean.translation();
+  out->tiles.clear();
+  const auto add = [&](TileKey tile) { out->tiles.emplace_back(tile, read_tile(robot_.map(), tile)); };
+  if (scan.epoch == 0) std::ranges::for_each(resumed_tiles_, add);
+  resumed_tiles_.clear();
+  std::ranges::for_each(robot_.take_changed_tiles(), add);
+  tiles_->push(tick);
 }
 
 /// By how late this scan is already and how many wait behind it. A replay of a log sheds what was shed then; virtual

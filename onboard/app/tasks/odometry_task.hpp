@@ -9,6 +9,7 @@
 #include "onboard/app/robot_profile.hpp"
 #include "onboard/app/tasks/map_copier.hpp"
 #include "onboard/app/tasks/messages.hpp"
+#include "onboard/app/team/team_messages.hpp"
 #include "onboard/scheduler/overload.hpp"
 #include "onboard/scheduler/tick.hpp"
 
@@ -52,10 +53,10 @@ class OdometryTask final : public scheduler::Task {
 };
 
 /// Located scans in, map out, one in a tick. When its scans come too late it sheds work, in the order of Shed. Slots:
-/// 0 located scans taken, 1 the level of shedding.
+/// 0 located scans taken, 1 the level of shedding, 2 batches of tiles accepted.
 class MappingTask final : public scheduler::Task {
  public:
-  static constexpr std::size_t kMotionsSlot = 0, kShedSlot = 1;
+  static constexpr std::size_t kMotionsSlot = 0, kShedSlot = 1, kTilesSlot = 2;
 
   /// All must outlive the task. `deadline`: from a scan's last byte to its being in the map.
   MappingTask(const OverloadConfig& overload, Duration deadline, MotionChannel& motions, Robot& robot,
@@ -63,6 +64,10 @@ class MappingTask final : public scheduler::Task {
 
   /// Live: hands on copies of the map and scans. To be called before the run.
   void keep_copies(MapCopier copier) { copier_.emplace(std::move(copier)); }
+
+  /// Hands on what scans change, and first what a resumed map holds. To be called before the run; `tiles` must outlive
+  /// the task.
+  void share_tiles(TileChannel& tiles);
 
   void tick(scheduler::Tick& tick) override;
 
@@ -76,6 +81,7 @@ class MappingTask final : public scheduler::Task {
  private:
   void extend(const ArrivedMotion& motion, scheduler::Tick& tick);
   Shed decide(const ArrivedMotion& motion, scheduler::Tick& tick);
+  void hand_on_tiles(const LocatedScan& scan, scheduler::Tick& tick);
 
   Duration deadline_;
   OverloadController overload_;
@@ -88,6 +94,8 @@ class MappingTask final : public scheduler::Task {
   Monitor& monitor_;
   StageStats& latency_;
   std::optional<MapCopier> copier_;
+  TileChannel* tiles_ = nullptr;
+  std::vector<TileKey> resumed_tiles_;  // not handed on yet; of epoch 0
 };
 
 }  // namespace cairn

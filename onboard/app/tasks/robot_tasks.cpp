@@ -20,9 +20,9 @@ constexpr std::size_t kNews = 64;
 constexpr Duration kNewsLag = std::chrono::milliseconds(20), kNextTick = std::chrono::microseconds(1);
 // A large map takes half a second to encode, and the disk its time.
 constexpr Duration kSaveLimit = std::chrono::seconds(5);
-constexpr Duration kStartIn = std::chrono::milliseconds(50);
+constexpr Duration kStartIn = std::chrono::milliseconds(50), kLinger = std::chrono::seconds(30);
 
-std::size_t reserve(const RunOptions& options) { return options.recording.empty() ? 0 : 3 * kWaitingScans; }
+std::size_t reserve(const RunOptions& options) { return options.live() ? 0 : 3 * kWaitingScans; }
 
 /// The helpers of a stage run as its own thread does: at a lower priority they would hold it up.
 std::function<void(unsigned)> like(const scheduler::TaskSpec& task) {
@@ -103,6 +103,10 @@ RobotTasks::RobotTasks(Door& door, const RobotProfile& profile, const RunOptions
   drive_line_.from = {&decisions_};
   odometry_line_.from = {&scans_};
   mapping_line_.from = {&motions_};
+  if (has(door, recording::kPeers)) {
+    team_.emplace(executive_, profile, mapping_line_, MappingTask::kTilesSlot, monitor);
+    mapping_.share_tiles(team_->tiles());
+  }
   executive_.count_allocations(allocations_of_this_thread);
   if (options.reference) add_live_only(profile.schedule.safety, reference_).spec.name = "reference";
 }
@@ -130,6 +134,8 @@ Result<void> RobotTasks::connect(Recorder* recorder) {
                                               tap(kWaitingPackets, scheduler::Feed::kSmall));
           !attached)
         return attached.error();
+    } else if (input.entry.kind == recording::kPeers) {
+      team_->team().attach(*input.source, id, input.peers, tap(kWaitingPackets, peers::kMaxPacket));
     } else if (!receive_.add(input, id, received)) {
       monitor_.event({}, "input", "more sources than are read: " + input.entry.id + " is left out");
     }
@@ -155,6 +161,7 @@ void RobotTasks::note_changes() {
 void RobotTasks::tell(Telling& telling, FaultSet faults, Time now) {
   telling.set_decision(noted_);
   telling.set_shed(mapping_.shed());
+  if (team_ && team_->team().view().refresh()) telling.set_peers(team_->team().view().value());
   faults = faults | schedule_faults_.look();
   faults.set(Fault::kTaskHung, !telling.tick(now));
   faults.set(Fault::kBestEffort, best_effort_);
@@ -175,7 +182,8 @@ void RobotTasks::become_real_time() {
 }
 
 Time RobotTasks::first_arrival() {
-  return std::min({safety_.first_arrival(), drive_.first_arrival(), receive_.first_arrival()});
+  const Time team = team_ ? team_->team().first_arrival() : Time::max();
+  return std::min({safety_.first_arrival(), drive_.first_arrival(), receive_.first_arrival(), team});
 }
 
 Pulse RobotTasks::add_saving(SavingTask& saving) {
@@ -197,6 +205,13 @@ Result<std::optional<Recorder>> RobotTasks::open_recorder() {
   if (before_.resumed)
     if (const auto kept = keep_with_recording(options_.record, *before_.resumed, monitor_); !kept) return kept.error();
   return std::optional<Recorder>(std::move(*recorder));
+}
+
+/// A recording that is played among peers has ended, and they had time to hear of it.
+bool RobotTasks::played_out(Time now) const {
+  if (options_.recording.empty() || options_.seconds) return false;
+  const Time end = std::max({safety_line_.ended_at(), drive_line_.ended_at(), receive_line_.ended_at()});
+  return end != Time::max() && now > end + kLinger;
 }
 
 Result<void> RobotTasks::run_live(const Clock& clock, Generations* generations) {
@@ -223,7 +238,8 @@ Result<void> RobotTasks::run_live(const Clock& clock, Generations* generations) 
   become_real_time();
   const Time start = clock.now() + kStartIn;
   const Duration length = options_.seconds ? from_seconds(*options_.seconds) : Duration::max();
-  executive_.run_live({start, [&] { return stop_requested() || clock.now() - start > length; }}, clock);
+  executive_.run_live(
+      {start, [&] { return stop_requested() || clock.now() - start > length || played_out(clock.now()); }}, clock);
   note_changes();
   if (saving) saving->close(clock.now(), robot_);
   say_what_is_missing(clock.now());
@@ -248,7 +264,8 @@ Result<void> RobotTasks::replay() {
   if (options.pace != nullptr) become_real_time();
   if (const auto done = executive_.run_replay(options); !done) return done.error();
   note_changes();
-  if (executive_.diverged() || receive_.missing_packets() + drive_.missing_packets() > 0)
+  const auto missing_of_team = team_ ? team_->team().missing_packets() : 0;
+  if (executive_.diverged() || receive_.missing_packets() + drive_.missing_packets() + missing_of_team > 0)
     monitor_.event(figures().end, "schedule", "the recording lacks packets that the live run had: not the same result");
   return {};
 }

@@ -18,6 +18,7 @@
 #include "onboard/app/tasks/schedule_faults.hpp"
 #include "onboard/app/tasks/telling.hpp"
 #include "onboard/app/tasks/watch_task.hpp"
+#include "onboard/app/team/team_tasks.hpp"
 #include "onboard/scheduler/executive.hpp"
 
 namespace cairn {
@@ -51,12 +52,15 @@ class RobotTasks {
   [[nodiscard]] const FailsafeDecision& decision() const { return safety_.decision(); }
   [[nodiscard]] const std::optional<DriveState>& drive_state() const { return drive_.state(); }
   [[nodiscard]] const scheduler::Executive& executive() const { return executive_; }
+  /// Null: this robot takes part in no team.
+  [[nodiscard]] const TeamTask* team() const { return team_ ? &team_->team() : nullptr; }
 
  private:
   Result<void> connect(Recorder* recorder);
   Result<std::optional<Recorder>> open_recorder();
   [[nodiscard]] Pulse add_saving(SavingTask& saving);
   void say_what_is_missing(Time now);
+  [[nodiscard]] bool played_out(Time now) const;
   void note_changes();
   void become_real_time();
   scheduler::Line& add_live_only(const scheduler::TaskSpec& spec, scheduler::Task& task);
@@ -84,6 +88,7 @@ class RobotTasks {
   ReceiveTask receive_;
   OdometryTask odometry_;
   MappingTask mapping_;
+  std::optional<TeamTasks> team_;
   IdleTask reference_;
   ToSave to_save_;
   ScheduleFaults schedule_faults_{executive_, safety_line_};

@@ -90,6 +90,7 @@ LiveView Telling::view(Time now) const {
   const auto events = monitor_.events_now();
   for (std::size_t i = events.size() - std::min(events.size(), kEvents); i < events.size(); ++i)
     v.events.push_back({to_seconds(events[i].last), events[i].stage, events[i].what, events[i].count});
+  v.peers = peers_;
   return v;
 }
 

@@ -8,7 +8,9 @@
 
 #include "drivers/recording/recording_writer.hpp"
 #include "drivers/recording/scan_file.hpp"
+#include "tests/support/sample_view.hpp"
 #include "tests/tools/cli/run_command.hpp"
+#include "tools/cli/doctor/peer.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -113,6 +115,39 @@ TEST(DoctorCommand, DamageOfARecordingIsNamed) {
   EXPECT_THAT(o.out, HasSubstr("problem: drive: the recording holds nothing of it"));
   EXPECT_THAT(o.out, HasSubstr("gpio.csv"));
   EXPECT_EQ(doctor({"--recording", folder / "nowhere"}).exit_code, kFailed);
+}
+
+TEST(DoctorCommand, SaysWhyAPeerHasNotMergedByWhatARunLeft) {
+  const TemporaryFolder folder;
+  put(folder / "report.json", R"json({"peers": {
+    "robot_2": {"accepted": true, "reason": "merged", "tiles": 12},
+    "robot_3": {"accepted": false, "reason": "another pose may be as good (overlap 0.86, 9 m²)", "tiles": 7},
+    "robot_4": 5}})json");
+  const Outcome all = doctor({"--peer", "all", "--run", folder / ""});
+  EXPECT_EQ(all.exit_code, kFailed);
+  EXPECT_THAT(all.out, HasSubstr("ok: robot_2: merged (12 tiles)"));
+  EXPECT_THAT(
+      all.out,
+      HasSubstr(
+          "problem: robot_3 is not merged: another pose may be as good (overlap 0.86, 9 m²) (7 tiles) → ambiguous"));
+  EXPECT_EQ(doctor({"--peer", "robot_2", "--run", folder / ""}).exit_code, kDone);
+  EXPECT_THAT(doctor({"--peer", "robot_9", "--run", folder / ""}).out, HasSubstr("robot_9: never heard of → start"));
+}
+
+TEST(DoctorCommand, SaysWhereThereIsNothingToBeHeardOfAPeer) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(doctor({"--peer", "x", "--live-view", folder / "no.sock"}).out, HasSubstr("no.sock"));
+  EXPECT_THAT(doctor({"--peer", "x", "--run", folder / "none"}).out, HasSubstr("report.json"));
+  put(folder / "report.json", "[1, 2");
+  EXPECT_THAT(doctor({"--peer", "x", "--run", folder / ""}).out, HasSubstr("not the report of a run"));
+  EXPECT_THAT(doctor({"--peer", "x", "--recording", folder / "none"}).out, HasSubstr("problem"));
+}
+
+TEST(DoctorCommand, AClockThatDiffersIsANote) {
+  const auto findings = judge_peers(support::sample_view().peers, "robot_3");
+  ASSERT_EQ(findings.size(), 2U);
+  EXPECT_THAT(findings[0].remedy, HasSubstr("radio"));
+  EXPECT_THAT(findings[1].what, HasSubstr("clock differs by -7.5 s"));
 }
 
 }  // namespace

@@ -5,7 +5,9 @@
 #include <fstream>
 
 #include "drivers/camera/frame.hpp"
+#include "drivers/peers/peer_packet.hpp"
 #include "drivers/recording/recording_writer.hpp"
+#include "fusion/peers/datagram.hpp"
 #include "tests/support/recorded_data.hpp"
 #include "tests/tools/cli/run_command.hpp"
 #include "tools/cli/inspect_command.hpp"
@@ -106,6 +108,29 @@ TEST(InspectSensors, AnUnknownModelNamesTheKnownOnes) {
   const Outcome o = look_into({folder / "r/thermal/data.csv", "--model", "lepton9"});
   EXPECT_EQ(o.exit_code, kWrongArguments);
   EXPECT_THAT(o.err, ::testing::HasSubstr("lepton9"));
+}
+
+TEST(InspectSensors, WhatPeersSaidIsCountedByWhoSaidIt) {
+  const TemporaryFolder folder;
+  recording::Recording r;
+  r.robot = "robot_1";
+  r.sources = {{"peers", "peers", "peers.log", "", ""}};
+  auto writer = recording::RecordingWriter::create(folder / "rec", r).value();
+  Packet packet;
+  peers::encode(peers::Beginning{1, 5}, packet);
+  ASSERT_TRUE(writer.write(packet));
+  packet.channel = 0;
+  packet.bytes = peers::encode(3, peers::Hello{7, 0, Time{}, "third", {}});
+  ASSERT_TRUE(writer.write(packet));
+  packet.bytes.assign(30, std::byte{9});
+  ASSERT_TRUE(writer.write(packet));
+  ASSERT_TRUE(writer.close());
+  const Outcome o = look_into({folder / "rec", "--json"});
+  const auto figures = nlohmann::json::parse(o.out)["sources"][0]["peers"];
+  EXPECT_EQ(figures["robot"], 1);
+  EXPECT_EQ(figures["rejected"], 1);
+  EXPECT_EQ(figures["peers"]["3"]["name"], "third");
+  EXPECT_EQ(figures["peers"]["3"]["hellos"], 1);
 }
 
 }  // namespace

@@ -14,6 +14,7 @@
 #include "drivers/gpio/line_event.hpp"
 #include "drivers/thermal/thermal.hpp"
 #include "tools/cli/inspect/can_figures.hpp"
+#include "tools/cli/inspect/peer_figures.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -166,6 +167,7 @@ Made make_sensor_figures(const SourceEntry& entry) {
   if (entry.kind == recording::kThermal) return make_thermal(entry);
   if (entry.kind == recording::kDepth) return around<DepthFigures>(depth::DepthCamera::create({}));
   if (entry.kind == recording::kGpio) return std::unique_ptr<SensorFigures>(std::make_unique<GpioFigures>());
+  if (entry.kind == recording::kPeers) return std::unique_ptr<SensorFigures>(std::make_unique<PeerFigures>());
   return std::unique_ptr<SensorFigures>(std::make_unique<CanFigures>());
 }
 

@@ -10,8 +10,8 @@
 
 namespace cairn::cli {
 
-/// Takes the packets of a camera, a thermal or depth camera, a CAN bus or GPIO lines through the drivers' decoders and
-/// keeps what a person wants to know of them.
+/// Takes the packets of a camera, a thermal or depth camera, a CAN bus, GPIO lines or a team through the drivers'
+/// decoders and keeps what a person wants to know of them.
 class SensorFigures {
  public:
   virtual ~SensorFigures() = default;

@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/onboard/app/report/png_decode.hpp"
 
 namespace cairn {
@@ -79,6 +81,27 @@ TEST(DrawMap, DrawsPathsAtTheirPlace) {
       }
   EXPECT_GT(changed, 40);
   EXPECT_LT(lowest - highest, 12);
+}
+
+std::size_t pixels_of(const Image& image, Rgba colour) {
+  return static_cast<std::size_t>(std::count(image.data(), image.data() + image.width() * image.height(), colour));
+}
+
+TEST(DrawMap, GivesEachPathItsColourAndName) {
+  const Rgba blue{0, 0x72, 0xb2, 255};
+  const auto draw = [](Rgba colour, const std::string& name) {
+    return draw_map(tiny(), {40, {{{{0.5, 1.5}, {1.5, 1.5}}, false, colour, name}}}).value();
+  };
+  EXPECT_EQ(pixels_of(draw(MapPath{}.colour, ""), blue), 0U);
+  const std::size_t unnamed = pixels_of(draw(blue, ""), blue);
+  EXPECT_GT(unnamed, 5U);  // the edges are smooth
+  EXPECT_GT(pixels_of(draw(blue, "robot_1"), blue), unnamed + 50);
+}
+
+TEST(DrawMap, ANameStaysInsideThePicture) {
+  const std::string longer(200, 'x');
+  const auto image = draw_map(tiny(), {40, {{{{0.5, 1.5}, {1.5, 1.5}}, false, MapPath{}.colour, longer}}});
+  EXPECT_TRUE(image.has_value());
 }
 
 TEST(DrawMap, RefusesAPictureThatIsTooLarge) {

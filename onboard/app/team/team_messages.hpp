@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "fusion/team.hpp"
+#include "onboard/mapping/tile_state.hpp"
+#include "onboard/scheduler/channel.hpp"
+
+namespace cairn {
+
+/// What a scan changed in the robot's own map.
+struct TileBatch {
+  std::uint32_t epoch = 0;  ///< see TrackPoint
+  Eigen::Vector3d position_odom = Eigen::Vector3d::Zero();
+  std::vector<std::pair<TileKey, TileState>> tiles;
+};
+
+using TileChannel = scheduler::Channel<TileBatch>;
+using MatchChannel = scheduler::Channel<MatchJob>;
+
+}  // namespace cairn

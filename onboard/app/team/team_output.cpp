@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/team/team_output.hpp"
+
+#include "drivers/recording/trajectory_file.hpp"
+#include "onboard/mapping/map_file.hpp"
+
+namespace cairn {
+namespace {
+
+/// Where a peer's odom frame lies in this robot's, by the claims of both about each other; of the pose graph, where
+/// there are none.
+UncertainPose pose_of(const Team& team, peers::RobotId peer) {
+  const auto& poses = team.poses().T_team_odom;
+  const peers::RobotId self = team.exchange().self();
+  UncertainPose pose;
+  if (!poses.contains(self) || !poses.contains(peer)) return pose;
+  pose.mean = poses.at(self).inverse() * poses.at(peer);
+  for (const PairClaim& claim : team.claims()) {
+    if (claim.a == self && claim.b == peer) pose.covariance = claim.T_a_b.covariance;
+    if (claim.a == peer && claim.b == self) pose.covariance = inverse(claim.T_a_b).covariance;
+  }
+  return pose;
+}
+
+std::string name_of(const Team& team, peers::RobotId robot) {
+  const auto link = team.exchange().links().find(robot);
+  const bool named = link != team.exchange().links().end() && !link->second.name.empty();
+  return named ? link->second.name : "robot " + std::to_string(robot);
+}
+
+std::size_t tiles_of(const Team& team, peers::RobotId robot) {
+  const auto layer = team.exchange().layers().find(robot);
+  if (layer == team.exchange().layers().end()) return 0;
+  std::size_t tiles = 0;
+  for (const auto& [id, item] : layer->second.holding.items()) tiles += id.kind() == peers::ItemKind::kTile ? 1 : 0;
+  return tiles;
+}
+
+PeerStats stats_of(const TeamTask& task, peers::RobotId robot) {
+  const Team& team = *task.team();
+  PeerStats stats;
+  if (const auto link = team.exchange().links().find(robot); link != team.exchange().links().end()) {
+    stats.tx_bytes = link->second.sent_bytes;
+    stats.rx_bytes = link->second.received_bytes;
+  }
+  if (const auto lag = task.lags().find(robot); lag != task.lags().end())
+    stats.age_p99_s = to_seconds(lag->second.percentile(0.99));
+  const PeerStanding standing = team.standing(robot, task.last_step());
+  stats.tiles = tiles_of(team, robot);
+  stats.accepted = standing.merged;
+  stats.reason = standing.reason;
+  stats.T_map_peer = pose_of(team, robot);
+  return stats;
+}
+
+}  // namespace
+
+void add_team(const TeamTask& task, RunReport& report) {
+  if (!task.team()) return;
+  const Team& team = *task.team();
+  const peers::RobotId self = team.exchange().self();
+  TeamStats stats;
+  stats.id = self;
+  stats.anchor = team.poses().anchor;
+  stats.T_team_odom = team.poses().T_team_odom;
+  for (const auto& [robot, layer] : team.exchange().layers()) {
+    if (robot == self) continue;
+    std::string name = name_of(team, robot);
+    if (report.peers.contains(name)) name += " (" + std::to_string(robot) + ")";
+    report.peers.emplace(name, stats_of(task, robot));
+    if (team.poses().T_team_odom.contains(robot)) stats.merged_with.push_back(name);
+  }
+  stats.tiles = tiles_of(team, self);
+  report.team = std::move(stats);
+}
+
+Result<std::vector<std::filesystem::path>> write_team(const Team& team, const std::filesystem::path& out) {
+  const std::vector<std::filesystem::path> same{out / "team.cairn", out / "team.tum"};
+  std::vector<recording::StampedPose> poses;
+  for (const auto& [robot, T_team_odom] : team.poses().T_team_odom)
+    poses.push_back({Time{} + std::chrono::seconds(static_cast<std::int64_t>(robot)), T_team_odom});
+  if (const auto saved = save_cairn(team.map().map(), same[0]); !saved) return saved.error();
+  if (const auto saved = recording::write_tum(same[1], poses); !saved) return saved.error();
+  if (const auto saved = save_ot(team.map().map(), out / "team.ot"); !saved) return saved.error();
+  return same;
+}
+
+}  // namespace cairn

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "fusion/team.hpp"
+#include "hal/config.hpp"
+
+namespace cairn {
+
+/// A robot's place in its team; `cairn run --peers` takes part.
+struct TeamProfile {
+  int id = 0;                                    ///< its own in the team; 0: it has none
+  std::string socket = "/run/cairn/peers.sock";  ///< local, shared with cairn-peers
+  int bytes_per_second = 16000;                  ///< that the core hands out, all overhead included
+  double match_s = 5;                            ///< one comparison of two maps may take so long
+};
+
+void declare(config::Section& section, TeamProfile& profile);
+
+/// What the library wants to know. `name`: of the robot.
+[[nodiscard]] TeamConfig team_config(const TeamProfile& profile, peers::RobotId id, const std::string& name,
+                                     double resolution_m);
+
+inline constexpr unsigned kRandomBits = 30;
+/// A number that no earlier beginning of this robot had: the time of day in seconds, and random bits for a clock that
+/// was set back.
+[[nodiscard]] peers::Epoch new_epoch(Time now_utc);
+/// The next beginning of the same run.
+[[nodiscard]] constexpr peers::Epoch after(peers::Epoch epoch) { return epoch + (peers::Epoch{1} << kRandomBits); }
+
+}  // namespace cairn

@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/team/team_task.hpp"
+
+#include <limits>
+#include <utility>
+
+#include "drivers/peers/peer_packet.hpp"
+
+namespace cairn {
+
+using scheduler::Regime;
+using scheduler::Tick;
+
+namespace {
+
+constexpr Duration kStep = std::chrono::milliseconds(100), kTell = std::chrono::seconds(1);
+// A tile takes some tens of microseconds: 2 ms of work, less what the last one may take too long.
+constexpr Duration kSlice = std::chrono::microseconds(1900);
+constexpr int kSliceTiles = 100;
+
+}  // namespace
+
+TeamTask::TeamTask(const TeamProfile& profile, std::string name, double resolution_m, const Parts& parts,
+                   Monitor& monitor)
+    : profile_(profile),
+      name_(std::move(name)),
+      resolution_m_(resolution_m),
+      parts_(parts),
+      monitor_(monitor),
+      fusion_(monitor.stage("fusion")) {}
+
+void TeamTask::attach(Source& source, SourceId id, peers::PeerPort* port, scheduler::Feed::Tap tap) {
+  const auto complain = [this](Time now, const Error& error) { monitor_.event(now, "team", to_string(error)); };
+  feed_.emplace(source, id, kFeedSlot, complain, std::move(tap));
+  port_ = port;
+}
+
+void TeamTask::tick(Tick& tick) {
+  if (tick.regime() != Regime::kDrain) {
+    hear(tick);
+    observe(tick);
+    learn(tick);
+    speak(tick);
+  }
+  fuse(tick);
+}
+
+void TeamTask::hear(Tick& tick) {
+  while (const Packet* packet = feed_->take(tick)) take(*packet, tick.release());
+  if (feed_->ended()) tick.end_of_input();
+}
+
+void TeamTask::take(const Packet& packet, Time now) {
+  if (packet.channel == static_cast<std::uint16_t>(peers::PacketKind::kBeginning)) return begin(packet, now);
+  if (!team_) return;
+  // The cause alone: offsets, of which there are as many as a liar likes, would crowd out all other events.
+  if (const auto taken = team_->receive(packet.payload(), now); !taken)
+    monitor_.event(now, "team", taken.error().cause);
+}
+
+void TeamTask::begin(const Packet& packet, Time now) {
+  const auto beginning = peers::decode_beginning(packet.payload());
+  if (!beginning || team_) return monitor_.event(now, "team", "a beginning that cannot be was passed over");
+  team_.emplace(team_config(profile_, beginning->robot, name_, resolution_m_), beginning->epoch);
+}
+
+void TeamTask::observe(Tick& tick) {
+  while (const TileBatch* batch = parts_.tiles.take(tick)) {
+    if (!team_) continue;
+    if (std::exchange(epoch_, batch->epoch).value_or(batch->epoch) != batch->epoch)
+      team_->begin(after(team_->exchange().epoch()));
+    team_->be_at(batch->position_odom);
+    for (const auto& [tile, state] : batch->tiles) team_->observe(tile, state, tick.release());
+  }
+}
+
+void TeamTask::learn(Tick& tick) {
+  while (MatchJob* job = parts_.results.take(tick)) team_->matched(std::move(*job));
+}
+
+void TeamTask::speak(Tick& tick) {
+  const Time now = tick.release();
+  if (!team_ || (last_step_ != Time::min() && now < last_step_ + kStep)) return;
+  last_step_ = now;
+  out_.clear();
+  team_->step(now, out_);
+  if (port_ != nullptr)
+    for (const peers::Outgoing& datagram : out_) port_->send(datagram.to, datagram.bytes);
+  hand_out_a_job(tick);
+  note_lags(now);
+  if (last_told_ == Time::min() || now >= last_told_ + kTell) tell(now);
+}
+
+void TeamTask::hand_out_a_job(Tick& tick) {
+  auto job = team_->next_match(tick.release());
+  if (!job) return;
+  if (MatchJob* place = parts_.jobs.back(tick)) {
+    *place = std::move(*job);
+    parts_.jobs.push(tick);
+  } else {
+    team_->matched(std::move(*job));  // later
+  }
+}
+
+/// At the end of a run, what is left is done, however much it is.
+void TeamTask::fuse(Tick& tick) {
+  if (!team_) return;
+  if (tick.regime() == Regime::kDrain) {
+    Budget all = Budget::steps(std::numeric_limits<int>::max());
+    while (!team_->fuse(all)) continue;
+    return;
+  }
+  if (team_->map().up_to_date()) return;
+  const StageTimer timing(fusion_);
+  Budget budget = tick.budget(kFuseSlot, tick.figure_now() + kSlice, kSliceTiles);
+  (void)team_->fuse(budget);
+  tick.settle(kFuseSlot, budget);
+}
+
+void TeamTask::note_lags(Time now) {
+  const auto& layers = team_->exchange().layers();
+  for (const auto& [robot, link] : team_->exchange().links()) {
+    const auto layer = layers.find(robot);
+    if (layer == layers.end()) continue;
+    Awaited& awaited = awaited_[robot];
+    const auto known = [&](peers::Version newest) { return layer->second.holding.known().complete(newest); };
+    const bool same = awaited.epoch == link.epoch && layer->second.epoch == link.epoch;
+    if (same && awaited.newest > 0 && known(awaited.newest)) {
+      lags_[robot].record(now - awaited.since);
+      awaited.newest = 0;
+    }
+    if (same && awaited.newest > 0) continue;
+    const bool more = layer->second.epoch != link.epoch || !known(link.newest);
+    awaited = {link.epoch, more ? link.newest : 0, now};
+  }
+}
+
+void TeamTask::tell(Time now) {
+  last_told_ = now;
+  auto& peers = view_.back();
+  peers.clear();
+  for (const auto& [robot, link] : team_->exchange().links()) {
+    const PeerStanding standing = team_->standing(robot, now);
+    const auto layer = team_->exchange().layers().find(robot);
+    const bool known = layer != team_->exchange().layers().end();
+    const std::string name = link.name.empty() ? "robot " + std::to_string(robot) : link.name;
+    const auto clock = link.clock.estimate();
+    peers.push_back({name, standing.merged, standing.reason,
+                     link.last_heard != Time::min() ? to_seconds(now - link.last_heard) : -1,
+                     known ? layer->second.holding.items().size() : 0, link.sent_bytes, link.received_bytes,
+                     clock ? to_seconds(clock->offset) : 0});
+    bool& merged = merged_[robot];
+    if (standing.merged != std::exchange(merged, standing.merged))
+      monitor_.event(now, "team", (merged ? "merged with " : "not merged any more with ") + name);
+  }
+  view_.publish();
+}
+
+void MatchTask::tick(Tick& tick) {
+  if (tick.regime() == Regime::kDrain) return;
+  if (MatchJob* job = jobs_.take(tick)) {
+    const StageTimer timing(stage_);
+    Budget budget = tick.budget(kStepsSlot, tick.figure_now() + limit_, matching::kAmpleSteps);
+    run(*job, budget);
+    tick.settle(kStepsSlot, budget);
+    if (MatchJob* place = results_.back(tick)) {
+      *place = std::move(*job);
+      results_.push(tick);
+    }
+  }
+  jobs_.give_back(tick);
+}
+
+}  // namespace cairn

@@ -1,0 +1,195 @@
+// SPDX-License-Identifier: Apache-2.0
+// Peers and the network between them: three robots, with clocks an hour apart that drift, over an emulated link.
+#include "tests/faults/campaign.hpp"
+#include "tests/fusion/fleet/fleet.hpp"
+
+namespace cairn::faults {
+namespace {
+
+using namespace std::chrono_literals;
+using fleet::Fleet;
+using fleet::LinkQuality;
+using fleet::RobotId;
+
+constexpr RobotId kRobots = 3;
+constexpr std::size_t kBytesPerSecond = 16000;
+constexpr LinkQuality kGood{}, kLossy{0.2}, kShuffled{0.1, 0.05, 0, 20ms, 300ms}, kReplaying{0.1, 0, 0.1, 20ms, 200ms};
+constexpr Duration kLong = 120s;  // nothing takes so long; a measurement that gives up shows in its bound
+
+/// Three robots that know each other and one map. `bad`: what the link is like from then on.
+class Rig {
+ public:
+  explicit Rig(const LinkQuality& bad = kGood) : fleet(kRobots, kBytesPerSecond, kGood, 1) {
+    fleet.set_slice(100, Fleet::kTick);
+    explore(5s);
+    (void)until([this] { return fleet.agrees(); });
+    fleet.network.set_quality(bad);
+  }
+  void explore(Duration length) {
+    for (const Time end = fleet.now() + length; fleet.now() < end;) {
+      for (RobotId id = 1; id <= kRobots; ++id) fleet.observe(id, 2);
+      fleet.run_until(fleet.now() + 500ms);
+    }
+  }
+  template <class Condition>
+  Duration until(Condition met) {
+    const Time from = fleet.now();
+    while (!met() && fleet.now() < from + kLong) fleet.step();
+    return fleet.now() - from;
+  }
+  [[nodiscard]] bool hears(RobotId id, RobotId other) { return fleet.hears(id, other); }
+  /// Everyone knows the same, and holds the same map of all three.
+  [[nodiscard]] bool one_map() const {
+    return fleet.agrees() && fleet.maps().size() == 1 && fleet.team(1).poses().T_team_odom.size() == kRobots;
+  }
+  /// How long it takes now until all agree, and whether they hold one map then.
+  void settle(Measured& m) {
+    m.recover = until([this] { return fleet.agrees(); });
+    m.held = m.held && one_map();
+  }
+
+  Fleet fleet;
+};
+
+Measured vanishes() {
+  Rig rig;
+  Measured m;
+  const auto known = rig.fleet.robot(1).layers().at(3).holding.items().size();
+  rig.fleet.crash(3);
+  m.detect = rig.until([&] { return !rig.hears(1, 3); });
+  rig.explore(20s);
+  m.held = known > 0 && rig.fleet.robot(1).layers().at(3).holding.items().size() == known &&
+           rig.fleet.team(1).poses().T_team_odom.contains(3);
+  rig.fleet.start(3, 2);
+  m.recover = rig.until([&] { return rig.hears(1, 3); });
+  return m;
+}
+
+/// `cut` separates robot 3 from the others, `heal` brings it back.
+template <class Cut, class Heal>
+Measured partition(Cut cut, Heal heal) {
+  Rig rig;
+  Measured m;
+  cut(rig.fleet.network);
+  m.detect = rig.until([&] { return !rig.hears(1, 3); });
+  rig.explore(60s);
+  heal(rig.fleet.network);
+  rig.settle(m);
+  return m;
+}
+
+Measured whole_partition() {
+  return partition([](auto& network) { network.put(3, 1); }, [](auto& network) { network.put(3, 0); });
+}
+
+Measured one_way() {
+  return partition([](auto& network) { network.mute(3, true); }, [](auto& network) { network.mute(3, false); });
+}
+
+Measured flapping() {
+  Rig rig;
+  Measured m;
+  for (int i = 0; i < 10; ++i) {
+    rig.fleet.network.put(3, i % 2 == 0 ? 1 : 0);
+    rig.explore(3s);
+  }
+  rig.fleet.network.put(3, 0);
+  rig.settle(m);
+  return m;
+}
+
+Measured rejoins() {
+  Rig rig;
+  Measured m;
+  const auto before = rig.fleet.robot(1).layers().at(3).epoch;
+  rig.fleet.crash(3);
+  rig.fleet.run_until(rig.fleet.now() + 5s);
+  rig.fleet.start(3, 2);
+  m.detect = rig.until([&] { return rig.fleet.robot(1).layers().at(3).epoch > before; });
+  m.held = rig.fleet.robot(1).layers().at(3).holding.items().size() < 10;  // nothing of the old map is left
+  rig.explore(5s);
+  rig.settle(m);
+  return m;
+}
+
+Measured over(const LinkQuality& quality) {
+  Rig rig(quality);
+  Measured m;
+  rig.explore(30s);
+  rig.settle(m);
+  return m;
+}
+
+/// A peer that sends garbage ten times a second for two seconds, between hellos that are right.
+Measured malformed() {
+  TeamConfig config;
+  config.id = 1;
+  Team team(config, peers::Epoch{1} << 32U);
+  Time now{1000s};
+  const auto hello = [&] {
+    return peers::encode(2, peers::Hello{peers::Epoch{1} << 32U, 0, now, "second", {}, 200'000});
+  };
+  const auto refused = [&] {
+    const auto taken = team.receive(hello(), now);
+    return !taken && taken.error().code == Errc::kLinkDown;
+  };
+  Measured m;
+  const Time begin = now;
+  for (; now < begin + 2s; now += 100ms) {
+    auto garbage = hello();
+    garbage.resize(20);
+    (void)team.receive(garbage, now);
+    if (!m.detect && refused()) m.detect = now - begin;
+  }
+  const Time end = now;
+  while (refused() && now < end + kLong) now += 1s;
+  m.recover = now - end;
+  m.held = team.exchange().layers().at(1).holding.items().empty();
+  return m;
+}
+
+Row shown_by(const char* id, const char* fault, const char* requirement, const char* test) {
+  return {id, fault, requirement, 0ms, 0ms, Mode::kNormal, test};
+}
+
+}  // namespace
+
+std::vector<Row> peer_rows() {
+  constexpr Mode N = Mode::kNormal;
+  return {
+      {"P1", "a peer vanishes", "lost after its lease; its layer and its place are kept", 3600ms, 2s, N, "", vanishes},
+      {"P2", "partition for a minute", "each side goes on; the same items and the same map, to the byte, after it",
+       3600ms, 20s, N, "", whole_partition},
+      {"P3", "partition, one way", "likewise", 3600ms, 20s, N, "", one_way},
+      {"P4", "a link that comes and goes every 3 s", "likewise", 0ms, 20s, N, "", flapping},
+      {"P5", "rejoin with a map begun anew", "the new epoch voids the old map at once, everywhere", 3s, 10s, N, "",
+       rejoins},
+      shown_by("P6", "wrong transform", "left out when it closes no loop; leaving it out restores the earlier bytes",
+               "team/TeamGraph.AClaimThatClosesNoLoopIsLeftOut"),
+      {"P7", "malformed datagrams", "refused whole; the tenth in a minute bans the sender for one", 1500ms, 65s, N, "",
+       malformed},
+      shown_by("P8", "bombs: tiles of the worst kind, as many as there are",
+               "64 MiB of a robot, all that is made of them "
+               "included",
+               "team/ItemMemory.ALiarsCheckerboardsStayWithinWhatIsKeptOfARobot"),
+      {"P9", "10 % of the datagrams come again up to a minute later", "the same map, to the byte", 0ms, 10s, N, "",
+       [] { return over(kReplaying); }},
+      {"P10", "20 % loss", "every tile comes; the same map, to the byte", 0ms, 10s, N, "", [] { return over(kLossy); }},
+      {"P11", "300 ms jitter, 10 % loss, 5 % repeated", "likewise", 0ms, 10s, N, "", [] { return over(kShuffled); }},
+      {"P12", "clocks hours apart that drift by 50 ppm", "no decision depends on them; so it is in all of these rows",
+       0ms, 10s, N, "", [] { return over(kGood); }},
+      shown_by("P13", "a slow link", "never above the cap at the interface, discovery included",
+               "peer_process/UdpCap.NoSecondIsAboveTheCapAtTheInterface"),
+      shown_by("P14", "more robots than are listened to", "refused, and bounded",
+               "peers/Exchange.ListensToSoManyRobotsAndNoMore"),
+      shown_by("P15", "the peer process is killed", "comes back and goes on; the core waits for nothing",
+               "peer_process/PeerProcess.CarriesDatagramsAndComesBackAfterBeingKilled"),
+      shown_by("P16", "the peer process dies fifty times in a run",
+               "both know each other's map at the end; the run is repeated to the bit",
+               "app/TeamRun.IsRepeatedToTheBitThoughThePeerProcessDies"),
+      shown_by("P17", "a peer of another version, or with other voxels", "not believed; named by cairn doctor --peer",
+               "team/TeamStanding.MapsOfOtherVoxelsAreNotExchanged"),
+  };
+}
+
+}  // namespace cairn::faults

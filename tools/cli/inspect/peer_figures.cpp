@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/inspect/peer_figures.hpp"
+
+#include <nlohmann/json.hpp>
+#include <variant>
+
+#include "drivers/peers/peer_packet.hpp"
+#include "fusion/peers/datagram.hpp"
+
+namespace cairn::cli {
+
+Result<const Scan*> PeerFigures::take(const Packet& packet) {
+  if (packet.channel == static_cast<std::uint16_t>(peers::PacketKind::kBeginning)) {
+    const auto beginning = peers::decode_beginning(packet.payload());
+    if (!beginning) return Error{Errc::kMalformed, "not a beginning"};
+    self_ = beginning->robot;
+    epoch_ = beginning->epoch;
+    return nullptr;
+  }
+  const auto datagram = peers::decode_datagram(packet.payload());
+  rejected_ += datagram ? 0 : 1;
+  if (!datagram) return datagram.error();
+  if (peers_.size() == kMaxPeers && !peers_.contains(datagram->sender)) return ++others_, nullptr;
+  PerPeer& peer = peers_[datagram->sender];
+  peer.bytes += packet.bytes.size();
+  if (const auto* hello = std::get_if<peers::Hello>(&datagram->content)) {
+    peer.name = hello->name;
+    ++peer.hellos;
+  } else if (const auto* items = std::get_if<peers::Items>(&datagram->content)) {
+    peer.items += items->updates.size();
+  } else {
+    ++peer.digests;
+  }
+  return nullptr;
+}
+
+Json PeerFigures::to_json() const {
+  Json peers = Json::object();
+  for (const auto& [robot, peer] : peers_)
+    peers[std::to_string(robot)] = {{"name", peer.name},
+                                    {"hellos", peer.hellos},
+                                    {"digests", peer.digests},
+                                    {"items", peer.items},
+                                    {"bytes", peer.bytes}};
+  return {{"robot", self_}, {"epoch", epoch_}, {"rejected", rejected_}, {"of_others", others_}, {"peers", peers}};
+}
+
+}  // namespace cairn::cli
