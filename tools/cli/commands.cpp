@@ -11,6 +11,7 @@
 #include "tools/cli/merge_command.hpp"
 #include "tools/cli/record_command.hpp"
 #include "tools/cli/replay_command.hpp"
+#include "tools/cli/team_command.hpp"
 #include "tools/cli/top_command.hpp"
 #ifdef CAIRN_HAS_SIMULATOR
 #include "tools/cli/simulate_command.hpp"
@@ -32,6 +33,7 @@ void add_tool_commands(Commands& commands) {
   add_evaluate_command(commands);
   add_doctor_command(commands);
   add_faults_command(commands);
+  add_team_command(commands);
   add_top_command(commands);
 }
 

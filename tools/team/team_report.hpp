@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+#include <vector>
+
+#include "tools/team/network.hpp"
+#include "tools/team/supervisor.hpp"
+#include "tools/team/team_figures.hpp"
+#include "tools/team/team_recordings.hpp"
+
+namespace cairn::team {
+
+/// All that is known about a run of a team, robots in the same order everywhere.
+struct TeamReport {
+  const std::vector<TeamRecording>& recordings;
+  const Network& network;
+  const TeamEnd& end;
+  const TeamFigures& figures;
+};
+
+/// The content of team.json; field names are fixed. What is not known is null.
+[[nodiscard]] nlohmann::ordered_json to_json(const TeamReport& report);
+/// For people.
+[[nodiscard]] std::string to_table(const TeamReport& report);
+
+}  // namespace cairn::team
