@@ -82,6 +82,7 @@ class TeamMap {
     std::optional<TileKey> marked;
   };
   [[nodiscard]] View view_of(const SubmapPoses& poses) const;
+  [[nodiscard]] std::unique_ptr<SemanticOcTree> empty_map();
   [[nodiscard]] static bool complete(const View& view) { return !view.marking && view.dirty.empty(); }
   static void mark(Dirty& dirty, const Placement& placement, TileKey tile);
   void mark_some(View& view) const;
@@ -95,6 +96,7 @@ class TeamMap {
   std::map<SubmapKey, TileLayer> layers_;
   View shown_;
   std::optional<View> next_;
+  std::unique_ptr<SemanticOcTree> spare_;  // of the view before: to take memory for a map would make a step long
   SubmapPoses wanted_;
   bool redo_ = false;  // shown_ and next_ hold what is to be forgotten
   unsigned turn_ = 0;

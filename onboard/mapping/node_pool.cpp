@@ -10,7 +10,6 @@
 namespace cairn {
 namespace {
 
-constexpr std::size_t kLargestChunk = std::size_t{2} << 20;  // one huge page
 constexpr std::size_t kSmallestChunk = std::size_t{64} << 10;
 constexpr std::size_t kPage = 4096;
 
@@ -36,12 +35,18 @@ void NodePool::give_batch(SemanticNode* batch) {
   free_ = batch;
 }
 
+void NodePool::reclaim() {
+  const std::lock_guard lock(mutex_);
+  free_ = nullptr;
+  cutting_ = cut_ = blocks_out_ = 0;
+}
+
 void NodePool::reserve(std::size_t blocks) {
   const std::lock_guard lock(mutex_);
   while (bytes_ < blocks * kBlockBytes) {
-    grow(kLargestChunk);
+    grow(largest_chunk_);
     auto* bytes = reinterpret_cast<volatile std::byte*>(chunks_.back().begin);
-    for (std::size_t i = 0; i < kLargestChunk; i += kPage) bytes[i] = std::byte{0};
+    for (std::size_t i = 0; i < largest_chunk_; i += kPage) bytes[i] = std::byte{0};
   }
 }
 
@@ -56,9 +61,10 @@ std::size_t NodePool::blocks_out() const {
 }
 
 void NodePool::grow(std::size_t bytes) {
-  void* memory = std::aligned_alloc(bytes, bytes);
+  const bool huge = bytes == kHugePage;
+  void* memory = std::aligned_alloc(huge ? bytes : kPage, bytes);
   if (memory == nullptr) throw std::bad_alloc();
-  if (bytes == kLargestChunk) madvise(memory, bytes, MADV_HUGEPAGE);  // fewer TLB misses; only a hint
+  if (huge) madvise(memory, bytes, MADV_HUGEPAGE);  // fewer TLB misses; only a hint
   chunks_.push_back({static_cast<SemanticNode*>(memory), bytes / kBlockBytes});
   bytes_ += bytes;
 }
@@ -68,7 +74,7 @@ SemanticNode* NodePool::cut_batch() {
     ++cutting_;
     cut_ = 0;
   }
-  if (cutting_ == chunks_.size()) grow(std::min(kLargestChunk, kSmallestChunk << std::min<std::size_t>(5, cutting_)));
+  if (cutting_ == chunks_.size()) grow(std::min(largest_chunk_, kSmallestChunk << std::min<std::size_t>(5, cutting_)));
   SemanticNode* first = chunks_[cutting_].begin + cut_ * SemanticNode::kChildren;
   cut_ += kBatch;
   for (std::size_t i = 0; i < kBatch; ++i) {

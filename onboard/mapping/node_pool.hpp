@@ -17,7 +17,12 @@ class NodePool {
   static constexpr std::size_t kBlockBytes = SemanticNode::kChildren * sizeof(SemanticNode);
   static constexpr std::size_t kBatch = 64;  ///< blocks that change hands at once
 
-  NodePool() = default;
+  static constexpr std::size_t kHugePage = std::size_t{2} << 20;
+
+  /// The pool grows in chunks of up to `largest_chunk` bytes, a power of two from 64 KiB to kHugePage. Where memory is
+  /// locked, the kernel fills all of a chunk at once: small ones bound what a step can cost, huge pages make access
+  /// fast.
+  explicit NodePool(std::size_t largest_chunk = kHugePage) : largest_chunk_(largest_chunk) {}
   NodePool(const NodePool&) = delete;
   NodePool& operator=(const NodePool&) = delete;
   ~NodePool();
@@ -26,6 +31,8 @@ class NodePool {
   [[nodiscard]] SemanticNode* take_batch();
   /// The reverse: a list of exactly kBatch blocks.
   void give_batch(SemanticNode* batch);
+  /// Takes all blocks back, whoever has them, and keeps the memory. Their BlockCaches must be made anew.
+  void reclaim();
   /// Gets memory for `blocks` in all from the system and touches it, so that no scan pays for page faults.
   void reserve(std::size_t blocks);
 
@@ -42,6 +49,7 @@ class NodePool {
   void grow(std::size_t bytes);
   [[nodiscard]] SemanticNode* cut_batch();
 
+  std::size_t largest_chunk_;
   mutable std::mutex mutex_;
   std::vector<Chunk> chunks_;
   std::size_t cutting_ = 0;       // the chunk new batches are cut from

@@ -27,12 +27,22 @@ void refresh_below(NodeWriter& writer, SemanticNode* node) {
 
 }  // namespace
 
-SemanticOcTree::SemanticOcTree(double resolution_m)
-    : OccupancyOcTreeBase<SemanticNode>(resolution_m), writers_(kWriters, NodeWriter(pool_)) {}
+SemanticOcTree::SemanticOcTree(double resolution_m, std::size_t largest_chunk)
+    : NodePoolHolder(largest_chunk),
+      OccupancyOcTreeBase<SemanticNode>(resolution_m),
+      writers_(kWriters, NodeWriter(pool_)) {}
 
 SemanticOcTree::SemanticOcTree(const SemanticOcTree& other)
-    : NodePoolHolder(), OccupancyOcTreeBase<SemanticNode>(other), writers_(kWriters, NodeWriter(pool_)) {
+    : NodePoolHolder(NodePool::kHugePage),
+      OccupancyOcTreeBase<SemanticNode>(other),
+      writers_(kWriters, NodeWriter(pool_)) {
   if (root != nullptr) copy_below(other.root, root);
+}
+
+void SemanticOcTree::begin_anew() {
+  drop_nodes();
+  pool_.reclaim();
+  writers_.assign(kWriters, NodeWriter(pool_));
 }
 
 bool SemanticOcTree::isNodeCollapsible(const SemanticNode* node) const {

@@ -41,6 +41,7 @@ namespace cairn {
 /// Owns the pool; a base class of its own, so that the pool outlives OctoMap's part of the tree.
 class NodePoolHolder {
  protected:
+  explicit NodePoolHolder(std::size_t largest_chunk) : pool_(largest_chunk) {}
   NodePool pool_;
 };
 
@@ -52,16 +53,15 @@ class SemanticOcTree : private NodePoolHolder, public octomap::OccupancyOcTreeBa
   static constexpr unsigned kDepth = 16;   ///< levels below the root; a node at this depth is one voxel
   static constexpr unsigned kWriters = 8;  ///< that many subtrees can be edited at the same time
 
-  /// `resolution` is the edge of a voxel in metres.
-  explicit SemanticOcTree(double resolution);
+  /// `resolution` is the edge of a voxel in metres; for `largest_chunk` see NodePool.
+  explicit SemanticOcTree(double resolution, std::size_t largest_chunk = NodePool::kHugePage);
   /// Deep copy, in depth-first order and so defragmented; metadata and sensor model included.
   SemanticOcTree(const SemanticOcTree& other);
   SemanticOcTree& operator=(const SemanticOcTree&) = delete;
   /// The nodes go with the pool, unvisited.
-  ~SemanticOcTree() override {
-    if (root != nullptr) root->set_block(nullptr);
-    clear();
-  }
+  ~SemanticOcTree() override { drop_nodes(); }
+  /// An empty map again, at no cost: its memory is kept for what comes, and no node is visited.
+  void begin_anew();
 
   // OctoMap's virtual functions.
   [[nodiscard]] SemanticOcTree* create() const override { return new SemanticOcTree(resolution); }
@@ -95,6 +95,10 @@ class SemanticOcTree : private NodePoolHolder, public octomap::OccupancyOcTreeBa
 
  private:
   friend octomap::CairnTreeBase;
+  void drop_nodes() {
+    if (root != nullptr) root->set_block(nullptr);
+    clear();
+  }
   void copy_below(const SemanticNode* from, SemanticNode* to);
 
   std::vector<NodeWriter> writers_;

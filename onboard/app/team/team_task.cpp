@@ -15,7 +15,7 @@ namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds(100), kTell = std::chrono::seconds(1);
 // A tile takes some tens of microseconds: 2 ms of work, less what the last one may take too long.
-constexpr Duration kSlice = std::chrono::microseconds(1900);
+constexpr Duration kSlice = std::chrono::microseconds(1500);
 constexpr int kSliceTiles = 100;
 
 }  // namespace

@@ -49,6 +49,22 @@ TEST_P(SemanticOcTreeOracle, PruningAndExpandingGiveTheSameTree) {
   EXPECT_EQ(differing_nodes(*ours, *stock), 0U);
 }
 
+TEST_P(SemanticOcTreeOracle, BeginsAnewInTheMemoryThatItHas) {
+  scatter_updates(*ours, GetParam() + 100, kUpdates);
+  const auto before = ours->memoryUsage();
+  ours->begin_anew();
+  EXPECT_EQ(ours->size(), 0U);
+  EXPECT_EQ(ours->search(octomap::OcTreeKey(32768, 32768, 32768)), nullptr);
+  for (int again = 0; again < 3; ++again) {
+    ours->begin_anew();
+    scatter_updates(*ours, GetParam(), kUpdates);
+  }
+  octomap::OcTree fresh(ours->getResolution());
+  scatter_updates(fresh, GetParam(), kUpdates);
+  EXPECT_EQ(differing_nodes(*ours, fresh), 0U);
+  EXPECT_EQ(ours->memoryUsage(), before);
+}
+
 TEST_P(SemanticOcTreeOracle, StreamsOfOctoMapAreReadByBoth) {
   std::stringstream full, binary;
   stock->writeData(full);
