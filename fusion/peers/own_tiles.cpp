@@ -2,17 +2,28 @@
 #include "fusion/peers/own_tiles.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <vector>
 
 #include "fusion/peers/tile_codec.hpp"
 
 namespace cairn::peers {
 
-bool OwnTiles::due(const Waiting& waiting, int times_said, Time now) const {
-  if (times_said == 0) return now >= waiting.first + config_.first;
-  Duration wait = config_.settled;
-  for (int i = 1; i < times_said && wait < config_.longest; ++i) wait *= 2;
-  wait = std::min(wait, config_.longest);
+double change_between(const TileState& said, const TileState& now) {
+  const auto differing = [](const TileState::Plane& a, const TileState::Plane& b) {
+    int voxels = 0;
+    for (unsigned z = 0; z < TileState::kEdge; ++z) voxels += std::popcount(a[z] ^ b[z]);
+    return voxels;
+  };
+  return differing(said.known, now.known) + differing(said.occupied, now.occupied) +
+         0.25 * (differing(said.low, now.low) + differing(said.high, now.high));
+}
+
+bool OwnTiles::due(const Waiting& waiting, const Said* said, Time now) const {
+  if (said == nullptr) return now >= waiting.first + config_.first;
+  const double much = said->again ? config_.much : config_.much_first;
+  const double times = std::max(1.0, much / std::max(1.0, change_between(said->state, waiting.state)));
+  const Duration wait = std::min(config_.longest, from_seconds(times * to_seconds(config_.settled)));
   return now >= waiting.last + wait || now >= waiting.first + config_.restless * wait;
 }
 
@@ -25,12 +36,12 @@ void OwnTiles::say(Exchange& exchange, Time now) {
   std::erase_if(waiting_, [&](const auto& entry) {
     const auto& [tile, waiting] = entry;
     const ItemId id = ItemId::tile(0, tile);
-    int& times_said = times_said_[tile];
-    if (!said.contains(id)) times_said = 0;  // never, or in an earlier epoch
-    if (!quiet && !due(waiting, times_said, now)) return false;
+    const bool again = said.contains(id);
+    if (!quiet && !due(waiting, again ? &said_[tile] : nullptr, now)) return false;
     payload.clear();
     encode_tile(waiting.state, payload);
-    times_said += exchange.say(id, payload) ? 1 : 0;
+    exchange.say(id, payload);
+    said_[tile] = {waiting.state, again};
     return true;
   });
 }

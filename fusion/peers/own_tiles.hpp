@@ -11,16 +11,21 @@ namespace cairn::peers {
 
 struct OwnTilesConfig {
   Duration first = std::chrono::milliseconds(500);  ///< a tile is said so long after it was first seen
-  Duration settled = std::chrono::seconds(10);      ///< and again when it has not changed for so long: twice as long
-  Duration longest = std::chrono::seconds(120);     ///< each time that it is said, up to this;
+  Duration settled = std::chrono::seconds(10);      ///< and again when it has not changed for so long, if so much
+  double much_first = 60;                           ///< is new in it (see change_between()), the first time,
+  double much = 800;                                ///< or so much, from then on; where there is less,
+  Duration longest = std::chrono::seconds(240);     ///< it waits longer by so much, up to this;
   int restless = 3;                                 ///< or, where it goes on changing, after so many times as long
   Duration round = std::chrono::seconds(1);         ///< what is due is said together, so that datagrams are full
   Duration quiet = std::chrono::seconds(5);         ///< nothing changes any more: whatever waits is said
 };
 
+/// Voxels that became known or changed sides, and a quarter of those that became surer or less sure.
+[[nodiscard]] double change_between(const TileState& said, const TileState& now);
+
 /// What a robot says of its own map, and when: every scan changes a thousand tiles, each by a few voxels, and a radio
-/// link carries a few hundred a second. So a tile is said soon after it was first seen, and then when it has settled;
-/// the oftener it was said, the less there is in it that is new, and the longer it waits.
+/// link carries a few hundred a second. So a tile is said soon after it was first seen, and then when it has settled:
+/// the less there is in it that peers do not know, the longer it waits.
 class OwnTiles {
  public:
   explicit OwnTiles(const OwnTilesConfig& config) : config_(config) {}
@@ -33,7 +38,10 @@ class OwnTiles {
   }
   /// Says what is due.
   void say(Exchange& exchange, Time now);
-  void clear() { waiting_.clear(); }
+  void clear() {
+    waiting_.clear();
+    said_.clear();
+  }
   [[nodiscard]] std::size_t waiting() const { return waiting_.size(); }
 
  private:
@@ -41,12 +49,16 @@ class OwnTiles {
     TileState state;
     Time first{}, last{};
   };
-  [[nodiscard]] bool due(const Waiting& waiting, int times_said, Time now) const;
+  struct Said {
+    TileState state;
+    bool again = false;  // more than once
+  };
+  [[nodiscard]] bool due(const Waiting& waiting, const Said* said, Time now) const;
 
   OwnTilesConfig config_;
   Time next_round_ = Time::min(), last_{};
   std::map<TileKey, Waiting> waiting_;
-  std::map<TileKey, int> times_said_;
+  std::map<TileKey, Said> said_;
 };
 
 }  // namespace cairn::peers

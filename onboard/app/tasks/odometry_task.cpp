@@ -9,6 +9,12 @@ namespace cairn {
 using scheduler::Regime;
 using scheduler::Tick;
 
+namespace {
+
+constexpr Duration kBatchPeriod = std::chrono::milliseconds(500);  // of changed tiles
+
+}  // namespace
+
 OdometryTask::OdometryTask(const RobotProfile& profile, const Parts& parts, Robot& robot, Monitor& monitor,
                            Progress progress)
     : deadline_(from_seconds(profile.odometry_deadline_s)),
@@ -73,6 +79,7 @@ void MappingTask::tick(Tick& tick) {
     if (tick.regime() != Regime::kDrain) break;
   }
   motions_.give_back(tick);
+  if (tick.regime() == Regime::kDrain) hand_on_tiles(tick);
 }
 
 void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
@@ -87,7 +94,7 @@ void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
     monitor_.event(motion.scan.stamp, "mapping", to_string(extended.error()));
   else if (copier_)
     copier_->mapped(motion.scan);
-  hand_on_tiles(motion.scan, tick);
+  note_changes(motion.scan, tick);
   memory_short_.store(!extended && extended.error().code == Errc::kLimit, std::memory_order_relaxed);
   if (tick.takes_time()) latency_.wall.record(tick.figure_now() - motion.arrival);
 }
@@ -97,18 +104,27 @@ void MappingTask::share_tiles(TileChannel& tiles) {
   resumed_tiles_ = known_tiles(robot_.map(), std::numeric_limits<std::size_t>::max());
 }
 
+/// Scans change the same tiles again and again: reading them with each would be a quarter of the work in a forest.
+void MappingTask::note_changes(const LocatedScan& scan, Tick& tick) {
+  changes_ = {scan.epoch, scan.T_odom_base.mean.translation()};
+  if (scan.stamp < next_batch_ && scan.stamp >= next_batch_ - kBatchPeriod) return;
+  next_batch_ = scan.stamp + kBatchPeriod;
+  hand_on_tiles(tick);
+}
+
 /// Where the channel is full, tiles stay changed and go with the next batch.
-void MappingTask::hand_on_tiles(const LocatedScan& scan, Tick& tick) {
-  TileBatch* out = tiles_ != nullptr ? tiles_->back(tick) : nullptr;
+void MappingTask::hand_on_tiles(Tick& tick) {
+  TileBatch* out = tiles_ != nullptr && changes_ ? tiles_->back(tick) : nullptr;
   if (out == nullptr) return;
-  out->epoch = scan.epoch;
-  out->position_odom = scan.T_odom_base.mean.translation();
+  out->epoch = changes_->epoch;
+  out->position_odom = changes_->position_odom;
   out->tiles.clear();
   const auto add = [&](TileKey tile) { out->tiles.emplace_back(tile, read_tile(robot_.map(), tile)); };
-  if (scan.epoch == 0) std::ranges::for_each(resumed_tiles_, add);
+  if (changes_->epoch == 0) std::ranges::for_each(resumed_tiles_, add);
   resumed_tiles_.clear();
   std::ranges::for_each(robot_.take_changed_tiles(), add);
   tiles_->push(tick);
+  changes_.reset();
 }
 
 /// By how late this scan is already and how many wait behind it. A replay of a log sheds what was shed then; virtual

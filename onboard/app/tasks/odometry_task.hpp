@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <functional>
+#include <optional>
 
 #include "hal/monitor.hpp"
 #include "onboard/app/robot_profile.hpp"
@@ -81,7 +82,8 @@ class MappingTask final : public scheduler::Task {
  private:
   void extend(const ArrivedMotion& motion, scheduler::Tick& tick);
   Shed decide(const ArrivedMotion& motion, scheduler::Tick& tick);
-  void hand_on_tiles(const LocatedScan& scan, scheduler::Tick& tick);
+  void note_changes(const LocatedScan& scan, scheduler::Tick& tick);
+  void hand_on_tiles(scheduler::Tick& tick);
 
   Duration deadline_;
   OverloadController overload_;
@@ -96,6 +98,12 @@ class MappingTask final : public scheduler::Task {
   std::optional<MapCopier> copier_;
   TileChannel* tiles_ = nullptr;
   std::vector<TileKey> resumed_tiles_;  // not handed on yet; of epoch 0
+  struct Changes {
+    std::uint32_t epoch;
+    Eigen::Vector3d position_odom;
+  };
+  std::optional<Changes> changes_;  // not handed on yet
+  Time next_batch_{};
 };
 
 }  // namespace cairn

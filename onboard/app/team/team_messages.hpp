@@ -11,7 +11,7 @@
 
 namespace cairn {
 
-/// What a scan changed in the robot's own map.
+/// What some scans changed in the robot's own map, as it was after the last of them.
 struct TileBatch {
   std::uint32_t epoch = 0;  ///< see TrackPoint
   Eigen::Vector3d position_odom = Eigen::Vector3d::Zero();

@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 
-#include "fusion/peers/own_tiles.hpp"
 #include "fusion/peers/tile_codec.hpp"
 #include "tests/fusion/peers/tile_states.hpp"
 
@@ -116,61 +115,6 @@ TEST(Exchange, ListensToSoManyRobotsAndNoMore) {
   EXPECT_EQ(b.receive(encode(4, Hello{5, 0, Time{}, "x", {}}), Time{}).error().code, Errc::kLimit);
   EXPECT_EQ(b.receive(encode(100, Hello{5, 0, Time{}, "x", {}}), Time{}).error().cause,
             "another robot has this robot's id");
-}
-
-/// A robot and one tile of its map, in virtual time; waits of 5 s, 10 s, … up to a minute.
-struct Changing {
-  Changing() : tiles({milliseconds(500), seconds(5), seconds(60), 3, seconds(1)}) {}
-
-  /// How often the tile is said while it changes ten times a second, or not at all.
-  Version said_in(Duration length, bool changing) {
-    const Version before = own.layers().at(1).holding.newest();
-    for (const Time end = now + length; now < end; now += milliseconds(100)) {
-      if (changing) tiles.observe({7}, wall_tile_state(random), now);
-      tiles.say(own, now);
-    }
-    return own.layers().at(1).holding.newest() - before;
-  }
-
-  Exchange own{1, "one", 5};
-  OwnTiles tiles;
-  std::mt19937 random{1};
-  Time now{};
-};
-
-TEST(OwnTiles, SaysATileSoonAndThenWhenItHasSettled) {
-  Changing tile;
-  EXPECT_EQ(tile.said_in(milliseconds(400), true), 0U);
-  EXPECT_EQ(tile.said_in(milliseconds(1100), true), 1U);  // half a second, and until the next round
-  EXPECT_EQ(tile.said_in(seconds(4), true), 0U);
-  EXPECT_EQ(tile.said_in(seconds(4), false), 0U);
-  EXPECT_EQ(tile.said_in(seconds(2), false), 1U);  // 5 s and a round
-}
-
-TEST(OwnTiles, SaysATileThatGoesOnChangingEverMoreRarelyButNeverStops) {
-  Changing tile;
-  EXPECT_EQ(tile.said_in(seconds(2), true), 1U);
-  EXPECT_EQ(tile.said_in(seconds(17), true), 1U);   // 3 · 5 s
-  EXPECT_EQ(tile.said_in(seconds(32), true), 1U);   // 3 · 10 s
-  EXPECT_EQ(tile.said_in(seconds(250), true), 2U);  // 60 s, 120 s
-  EXPECT_EQ(tile.said_in(seconds(370), true), 2U);  // and 180 s from then on
-  EXPECT_EQ(tile.said_in(seconds(62), false), 1U);  // the last state is said in any case
-  EXPECT_EQ(tile.said_in(seconds(200), false), 0U);
-}
-
-TEST(OwnTiles, WhenNothingChangesAnyMoreWhateverWaitsIsSaid) {
-  Changing tile;
-  tile.tiles = OwnTiles({});
-  EXPECT_EQ(tile.said_in(seconds(60), true), 2U);
-  EXPECT_EQ(tile.said_in(seconds(4), false), 0U);
-  EXPECT_EQ(tile.said_in(seconds(3), false), 1U);
-}
-
-TEST(OwnTiles, SaysATileSoonAgainInANewEpoch) {
-  Changing tile;
-  EXPECT_EQ(tile.said_in(seconds(50), true), 3U);
-  tile.own.begin(6);
-  EXPECT_EQ(tile.said_in(seconds(2), true), 1U);
 }
 
 }  // namespace
