@@ -14,7 +14,7 @@ using peers::RobotId;
 
 constexpr double kMovedM = 0.02, kTurnedRad = 0.003;  // an edge that is said again
 
-constexpr std::uint16_t kKnownEdges = 0x8000;  // those before are found by comparing maps
+constexpr std::uint16_t kKnownEdges = 0x8000;  // those before are found by comparing maps, from 0xC000 by deployment
 
 bool moved(const SE3& from, const SE3& to) {
   const SE3 change = from.inverse() * to;
@@ -32,7 +32,9 @@ Team::Team(const TeamConfig& config, peers::Epoch epoch)
     : config_(config),
       exchange_(config.id, config.name, epoch, with_voxels(config.exchange, config.resolution_m)),
       own_tiles_(config.own_tiles),
-      map_(config.resolution_m, config.policy) {}
+      map_(config.resolution_m, config.policy) {
+  if (config.deployment) exchange_.say(peers::ItemId::deployment(), encode(peers::Deployment{*config.deployment}));
+}
 
 void Team::begin(peers::Epoch epoch) {
   own_tiles_.clear();
@@ -42,6 +44,7 @@ void Team::begin(peers::Epoch epoch) {
 void Team::step(Time now, std::vector<peers::Outgoing>& out) {
   own_tiles_.say(exchange_, now);  // what this robot sees
   say_known_poses();
+  say_deployments();
   take_news(now);            // what everyone has said
   agree();                   // where everyone is
   focus();                   // what is wanted first
@@ -114,7 +117,8 @@ std::vector<PairClaim> Team::claims() const {
   const auto& layers = exchange_.layers();
   for (const auto& [robot, layer] : layers) {
     const auto& items = layer.holding.items();
-    for (auto item = items.lower_bound(peers::ItemId::edge(0)); item != items.end(); ++item) {
+    const auto end = items.lower_bound(peers::ItemId::deployment());
+    for (auto item = items.lower_bound(peers::ItemId::edge(0)); item != end; ++item) {
       const auto edge = peers::decode_edge(item->second.payload);
       if (!edge || edge->probability == 0) continue;  // withdrawn
       const auto other = layers.find(edge->other);
@@ -183,13 +187,14 @@ std::optional<MatchJob> Team::next_match(Time now) {
   next->own_tiles = walls_of(config_.id);
   next->peer_tiles = walls_of(with);
   match_out_ = true;
-  return MatchJob{with, next->own_epoch, next->peer_epoch, said_by(config_.id), said_by(with), std::move(next->match)};
+  return MatchJob{with,          next->own_epoch,        next->peer_epoch, said_by(config_.id),
+                  said_by(with), std::move(next->match), deployed(with)};
 }
 
 void run(MatchJob& job, Budget& budget) {
   const SemanticOcTree own_map = job.own.map(), other_map = job.other.map();  // features read them
   const auto own = matching::MapFeatures::build(own_map), other = matching::MapFeatures::build(other_map);
-  if (own && other) job.match->update(*own, *other, budget);
+  if (own && other) job.match->update(*own, *other, budget, job.guess);
 }
 
 void Team::matched(MatchJob job) {
@@ -198,6 +203,7 @@ void Team::matched(MatchJob job) {
   if (pair == pairs_.end() || pair->second.own_epoch != job.own_epoch || pair->second.peer_epoch != job.peer_epoch)
     return;
   pair->second.match = std::move(job.match);
+  weigh_deployment(job.peer, pair->second);
   say_edge(job.peer, pair->second);
 }
 

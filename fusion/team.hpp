@@ -32,6 +32,7 @@ struct TeamConfig {
   Duration match_period = std::chrono::seconds(5);  ///< of one pair, at least
   double match_growth = 1.15;                       ///< the maps' since the pair was last compared, at least
   std::size_t least_tiles = 60;                     ///< with something occupied, on both sides, to be compared at all
+  std::optional<UncertainPose> deployment;          ///< T_site_odom of its first beginning: see peers::Deployment
 };
 
 /// A robot's tiles as they were said: small enough to be copied for whoever makes a map of them.
@@ -52,6 +53,7 @@ struct MatchJob {
   peers::Epoch own_epoch = 0, peer_epoch = 0;
   SaidTiles own, other;
   std::unique_ptr<matching::GrowingMatch> match;
+  std::optional<UncertainPose> guess;  ///< T_own_other
 };
 /// Does the job: seconds, for a machine that has nothing else to do.
 void run(MatchJob& job, Budget& budget);
@@ -69,7 +71,8 @@ class Team {
  public:
   Team(const TeamConfig& config, peers::Epoch epoch);
 
-  /// One's own map begins anew; what was said of it is void. `epoch` is higher than the last.
+  /// One's own map begins anew; what was said of it is void, where the robot was put down too: the new odom frame lies
+  /// where it is now. `epoch` is higher than the last.
   void begin(peers::Epoch epoch);
   /// Where the robot is, in its odom frame: the team's map is brought up to date there first.
   void be_at(const Eigen::Vector3d& position_odom) { position_odom_ = position_odom; }
@@ -111,10 +114,17 @@ class Team {
     std::size_t own_tiles = 0, peer_tiles = 0;  // when it was last compared
     std::uint16_t edge = 0;                     // index of the item that says what came of it
     std::optional<peers::Edge> said;
+    bool found = false, deployment_refuted = false;  // by the maps, when they were last compared
   };
 
   [[nodiscard]] std::optional<std::string> obstacle(peers::RobotId peer, Time now) const;
   void say_known_poses();
+  /// Where the peer's odom frame lies by the deployments of both; nothing where one of them has none.
+  [[nodiscard]] std::optional<UncertainPose> deployed(peers::RobotId peer) const;
+  void say_deployments();
+  void weigh_deployment(peers::RobotId peer, Pair& pair) const;
+  /// What the maps say against it, for people; empty: nothing.
+  [[nodiscard]] std::string deployment_fault(peers::RobotId peer) const;
   void take_news(Time now);
   void take_tile(peers::RobotId robot, peers::ItemId id, Time now);
   void agree();

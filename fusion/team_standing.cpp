@@ -42,7 +42,7 @@ std::optional<std::string> Team::obstacle(peers::RobotId peer, Time now) const {
 }
 
 PeerStanding Team::standing(peers::RobotId peer, Time now) const {
-  if (poses_.T_team_odom.contains(peer)) return {true, "merged"};
+  if (poses_.T_team_odom.contains(peer)) return {true, "merged" + deployment_fault(peer)};
   if (const auto why = obstacle(peer, now)) return {false, *why};
   const std::size_t own = walls_of(config_.id), other = walls_of(peer);
   if (std::min(own, other) < config_.least_tiles)
@@ -55,7 +55,7 @@ PeerStanding Team::standing(peers::RobotId peer, Time now) const {
   if (hypotheses.empty()) return {false, "no place found where the maps overlap"};
   if (pair->second.said && pair->second.said->probability > 0)
     return {false, "found, but at odds with what others found"};
-  return {false, verdict(hypotheses.front())};
+  return {false, verdict(hypotheses.front()) + deployment_fault(peer)};
 }
 
 }  // namespace cairn

@@ -121,11 +121,12 @@ Result<MatchResult> DefaultMatcher::match(const std::optional<UncertainPose>& in
   return judge_.conclude(refined(best, budget), prior.covariance, uniqueness(best_first), budget);
 }
 
-std::vector<Look> DefaultMatcher::look_everywhere(std::span<const SE3> known, std::size_t most, Budget& budget) const {
+std::vector<Look> DefaultMatcher::look_around(const std::optional<UncertainPose>& initial, std::span<const SE3> known,
+                                              std::size_t most, Budget& budget) const {
   std::vector<SE3> found(known.begin(), known.end());
   std::vector<Look> looks;
   if (!comparable()) return looks;
-  for (const Candidate& c : modes({}, budget)) {
+  for (const Candidate& c : modes(initial, budget)) {
     const auto is = [](const SE3& T) { return [&T](const SE3& other) { return same_place(other, T); }; };
     if (looks.size() == most || std::any_of(found.begin(), found.end(), is(c.T_a_b))) continue;
     const SE3 T = refined(c.T_a_b, budget);

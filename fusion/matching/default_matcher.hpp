@@ -23,9 +23,10 @@ class DefaultMatcher : public Matcher {
   DefaultMatcher(const MapFeatures& a, const MapFeatures& b);
   [[nodiscard]] Result<MatchResult> match(const std::optional<UncertainPose>& initial, Budget& budget) const override;
 
-  /// The best poses of a search without a guess, at most `most`, none of which is one of the `known` places. None where
-  /// a map holds too little.
-  [[nodiscard]] std::vector<Look> look_everywhere(std::span<const SE3> known, std::size_t most, Budget& budget) const;
+  /// The best poses of a search, at most `most`, none of which is one of the `known` places; without a guess
+  /// everywhere. None where a map holds too little.
+  [[nodiscard]] std::vector<Look> look_around(const std::optional<UncertainPose>& initial, std::span<const SE3> known,
+                                              std::size_t most, Budget& budget) const;
   /// Whether both maps hold enough structure for any look.
   [[nodiscard]] bool comparable() const { return !judge_.without_search({}); }
   /// A pose as it is.

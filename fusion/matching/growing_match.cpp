@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fusion/matching/growing_match.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "fusion/matching/default_matcher.hpp"
+#include "fusion/matching/guess.hpp"
 
 namespace cairn::matching {
 namespace {
 
 constexpr double kGrowth = 1.2;
-constexpr std::size_t kLeastSurfels = 1500, kMostFound = 4;
+constexpr std::size_t kLeastSurfels = 1500, kMostFound = 4, kMostNear = 2;
 
 }  // namespace
 
@@ -23,7 +25,9 @@ bool GrowingMatch::due(const MapFeatures& a, const MapFeatures& b) {
   return true;
 }
 
-void GrowingMatch::update(const MapFeatures& a, const MapFeatures& b, Budget& budget) {
+void GrowingMatch::update(const MapFeatures& a, const MapFeatures& b, Budget& budget,
+                          const std::optional<UncertainPose>& given) {
+  const auto guess = given && worth_following(*given) ? given : std::nullopt;
   if (std::min(a.fine().size(), b.fine().size()) < kLeastSurfels) return;
   const DefaultMatcher matcher(a, b);
   if (!matcher.comparable()) return;
@@ -34,9 +38,24 @@ void GrowingMatch::update(const MapFeatures& a, const MapFeatures& b, Budget& bu
     looks.push_back(matcher.look_again(T, budget));
     known.push_back(looks.back().T_a_b.mean);
   }
-  if (due(a, b))
-    for (Look& look : matcher.look_everywhere(known, kMostFound, budget)) looks.push_back(std::move(look));
-  hypotheses_.take(std::move(looks));
+  const auto held = [&](const SE3& T) {
+    return std::ranges::any_of(hypotheses_.all(), [&](const Hypothesis& h) { return same_place(h.T_a_b.mean, T); });
+  };
+  if (guess && !held(guess->mean)) {  // so that the maps can say no
+    looks.push_back(matcher.look_again(guess->mean, budget));
+    known.push_back(looks.back().T_a_b.mean);
+  }
+  const auto search = [&](const std::optional<UncertainPose>& initial, std::size_t most) {
+    for (Look& look : matcher.look_around(initial, known, most, budget)) {
+      known.push_back(look.T_a_b.mean);
+      looks.push_back(std::move(look));
+    }
+  };
+  if (due(a, b)) {
+    if (guess) search(guess, kMostNear);
+    search({}, kMostFound);
+  }
+  hypotheses_.take(std::move(looks), guess);
 }
 
 }  // namespace cairn::matching

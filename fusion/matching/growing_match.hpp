@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "fusion/matching/map_features.hpp"
 #include "fusion/matching/pending.hpp"
 #include "hal/budget.hpp"
@@ -11,8 +13,10 @@ namespace cairn::matching {
 /// searched anew whenever one of them has grown by a fifth.
 class GrowingMatch {
  public:
-  /// To be called when the maps have grown. A map with too little in it makes it wait.
-  void update(const MapFeatures& a, const MapFeatures& b, Budget& budget);
+  /// To be called when the maps have grown. A map with too little in it makes it wait. A guess of T_a_b (see guess.hpp)
+  /// is searched first, and then everywhere as without one: it may be wrong.
+  void update(const MapFeatures& a, const MapFeatures& b, Budget& budget,
+              const std::optional<UncertainPose>& guess = {});
 
   [[nodiscard]] const PendingHypotheses& hypotheses() const { return hypotheses_; }
 

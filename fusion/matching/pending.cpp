@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "fusion/matching/acceptance.hpp"
+#include "fusion/matching/guess.hpp"
 
 namespace cairn::matching {
 namespace {
@@ -58,27 +59,46 @@ void suspend(Hypothesis& h, const std::string& why) {
   h.reason = why;
 }
 
-std::string so_often(int agreements) {
-  return "agreed on new ground " + std::to_string(agreements) + " of " + std::to_string(kAgreements) + " times";
+std::string so_often(int agreements, int needed) {
+  return "agreed on new ground " + std::to_string(agreements) + " of " + std::to_string(needed) + " times";
 }
 
-/// `rival`: the probability of the likeliest other place.
-void judge(Hypothesis& h, const Look& look, const Decision& now, double rival) {
+/// How many agreements it takes, by what a guess says of the place.
+int needed(const std::optional<UncertainPose>& guess, const SE3& T_a_b) {
+  if (!guess) return kAgreements;
+  if (!agrees(*guess, T_a_b)) return kAgreements + 1;
+  constexpr double kChanceOfOne = (1 - kAgrees) / kAgrees;  // that an agreement is of a wrong place
+  return chance_agreement(*guess) + kWrongGuess <= kChanceOfOne ? kAgreements - 1 : kAgreements;
+}
+
+/// The probability of a rival at T_rival of one at T, where the guess leaves only the latter.
+double discounted(double probability, const std::optional<UncertainPose>& guess, const SE3& T_rival, const SE3& T) {
+  if (!guess || agrees(*guess, T_rival) || !agrees(*guess, T)) return probability;
+  return kWrongGuess * probability / (1 - probability + kWrongGuess * probability);
+}
+
+/// The likeliest other place.
+struct Rival {
+  double probability = 0;
+  double with_guess = 0;  // the same, discounted
+};
+
+void judge(Hypothesis& h, const Look& look, const Decision& now, const Rival& rival, int needed) {
   h.T_a_b = look.T_a_b;
   h.evidence = look.evidence;
   h.probability_correct = now.probability_correct;
   h.contradictions = contradicts(look.evidence) ? h.contradictions + 1 : 0;
   if (h.contradictions >= kContradictions) return drop(h, now.reason);
   if (h.standing == Standing::kAccepted) {
-    if (rival >= kOverthrown) suspend(h, "another pose has become likely");
+    if (rival.probability >= kOverthrown) suspend(h, "another pose has become likely");
     return;
   }
-  const bool agrees = h.probability_correct >= kAgrees && rival < kRivalled;
-  h.reason = agrees ? so_often(h.agreements) : rival < kRivalled ? now.reason : "another pose may be as good";
+  const bool rivalled = rival.with_guess >= kRivalled, agrees = h.probability_correct >= kAgrees && !rivalled;
+  h.reason = agrees ? so_often(h.agreements, needed) : rivalled ? "another pose may be as good" : now.reason;
   if (!agrees || !on_new_ground(h, look.evidence)) return;
   h.ground_m2 = look.evidence.agreeing_m2;
-  h.reason = so_often(++h.agreements);
-  if (h.agreements >= kAgreements) h.standing = Standing::kAccepted;
+  h.reason = so_often(++h.agreements, needed);
+  if (h.agreements >= needed) h.standing = Standing::kAccepted;
 }
 
 }  // namespace
@@ -90,15 +110,20 @@ Hypothesis& PendingHypotheses::held_or_new(const SE3& T_a_b) {
   return it != all_.end() ? *it : all_.emplace_back();
 }
 
-void PendingHypotheses::take(std::vector<Look> looks) {
+void PendingHypotheses::take(std::vector<Look> looks, const std::optional<UncertainPose>& guess) {
   const auto places = rivals(std::move(looks));
   std::vector<Decision> decisions;
   for (const Look& look : places) decisions.push_back(decide(look.evidence));
   for (std::size_t i = 0; i < places.size(); ++i) {
-    double rival = 0;
-    for (std::size_t j = 0; j < places.size(); ++j)
-      if (j != i) rival = std::max(rival, decisions[j].probability_correct);
-    judge(held_or_new(places[i].T_a_b.mean), places[i], decisions[i], rival);
+    const SE3& T = places[i].T_a_b.mean;
+    Rival rival;
+    for (std::size_t j = 0; j < places.size(); ++j) {
+      if (j == i) continue;
+      const double p = decisions[j].probability_correct;
+      rival.probability = std::max(rival.probability, p);
+      rival.with_guess = std::max(rival.with_guess, discounted(p, guess, places[j].T_a_b.mean, T));
+    }
+    judge(held_or_new(T), places[i], decisions[i], rival, needed(guess, T));
   }
   allow_one();
   put_in_order();

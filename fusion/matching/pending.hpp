@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -26,16 +27,19 @@ struct Hypothesis {
 /// Where one map may lie in another while both grow. No single comparison decides: a hypothesis is accepted when it has
 /// agreed three times, each time on new ground and while no other place was at all likely; it is dropped when the maps
 /// contradict it twice in a row, and an accepted one is suspended when another place becomes likely. Where geometry
-/// repeats, rivals are as good as each other and none is accepted, until something tells them apart. A pure function of
-/// the rounds it was given; within a round the order of the looks does not matter. The rules were chosen on the seeds
-/// that decide() was fitted on; tests/bench/matching_missions measures them on others.
+/// repeats, rivals are as good as each other and none is accepted, until something tells them apart. A guess of the
+/// pose counts as one agreement where that is as unlikely by chance, against a place that it excludes as one, and makes
+/// likely rivals that it excludes less so by the odds that the guess is wrong: a copy of the place that fits as well as
+/// itself still keeps both pending. A pure function of the rounds it was given; within a round the order of the looks
+/// does not matter. The rules were chosen on the seeds that decide() was fitted on; tests/bench/matching_missions
+/// measures them on others.
 class PendingHypotheses {
  public:
   static constexpr std::size_t kMostPending = 6, kMostDropped = 6;
 
   /// One round: a look at every place that was compared while the maps stood still. What is held but was not looked at
-  /// stays as it is.
-  void take(std::vector<Look> looks);
+  /// stays as it is. `guess`: see guess.hpp.
+  void take(std::vector<Look> looks, const std::optional<UncertainPose>& guess = {});
 
   /// The accepted one, then pending by falling probability, then dropped, oldest first.
   [[nodiscard]] std::span<const Hypothesis> all() const { return all_; }

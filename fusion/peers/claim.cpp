@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fusion/peers/claim.hpp"
 
+#include <Eigen/Cholesky>
 #include <cmath>
 #include <optional>
 
@@ -66,11 +67,25 @@ std::vector<std::byte> encode(const Edge& edge) {
   return out;
 }
 
+std::vector<std::byte> encode(const Deployment& deployment) {
+  std::vector<std::byte> out;
+  append_pose(out, deployment.T_site_odom);
+  return out;
+}
+
 Result<Submap> decode_submap(std::span<const std::byte> bytes) {
   ByteReader in(bytes);
   const auto pose = read_pose(in);
   if (!pose || in.remaining() != 0) return Error{Errc::kMalformed, "not a submap's pose"};
   return Submap{*pose};
+}
+
+Result<Deployment> decode_deployment(std::span<const std::byte> bytes) {
+  ByteReader in(bytes);
+  const auto pose = read_pose(in);
+  if (!pose || in.remaining() != 0 || pose->covariance.llt().info() != Eigen::Success)
+    return Error{Errc::kMalformed, "not a deployment"};
+  return Deployment{*pose};
 }
 
 Result<Edge> decode_edge(std::span<const std::byte> bytes) {

@@ -27,14 +27,22 @@ struct Edge {
   float probability = 0;  ///< that it is right, 0…1
 };
 
+/// Where the robot was put down, by a survey, a marked place or a GPS fix: its odom frame in a metric frame, z up, that
+/// the whole team shares. It may be wrong.
+struct Deployment {
+  UncertainPose T_site_odom;
+};
+
 /// Payloads of items. Poses as seven doubles (translation, quaternion x y z w with w ≥ 0), covariances as the 21 floats
 /// of their upper triangle, row by row.
 [[nodiscard]] std::vector<std::byte> encode(const Submap& submap);
 [[nodiscard]] std::vector<std::byte> encode(const Edge& edge);
+[[nodiscard]] std::vector<std::byte> encode(const Deployment& deployment);
 
 /// Exactly what encode() can have written, with numbers that a map allows: within 10⁶ m, unit quaternions, finite
-/// covariances with a positive diagonal. kTruncated or kMalformed otherwise.
+/// covariances with a positive diagonal, a deployment's positive definite. kTruncated or kMalformed otherwise.
 [[nodiscard]] Result<Submap> decode_submap(std::span<const std::byte> bytes);
 [[nodiscard]] Result<Edge> decode_edge(std::span<const std::byte> bytes);
+[[nodiscard]] Result<Deployment> decode_deployment(std::span<const std::byte> bytes);
 
 }  // namespace cairn::peers

@@ -92,9 +92,11 @@ bool is_sound(const ItemUpdate& update) {
     case ItemKind::kSubmap:
       return decode_submap(update.payload).has_value();
     case ItemKind::kEdge:
+      return decode_edge(update.payload).has_value();
+    case ItemKind::kDeployment:
       break;
   }
-  return decode_edge(update.payload).has_value();
+  return decode_deployment(update.payload).has_value();
 }
 
 /// `above`: the id must be at least that, and comes as the difference to it. What is wrong, or null: a datagram of tiny

@@ -20,7 +20,7 @@
 namespace cairn::peers {
 
 inline constexpr std::size_t kMaxDatagram = 1200;
-inline constexpr std::uint8_t kFormat = 1;
+inline constexpr std::uint8_t kFormat = 2;
 
 /// "I am here." Sent to everyone, also to robots never heard of.
 struct Hello {

@@ -18,9 +18,10 @@ using Epoch = std::uint64_t;
 inline constexpr Epoch kLastEpoch = Epoch{1} << 62U;
 
 enum class ItemKind : std::uint8_t {
-  kTile = 0,    ///< own observations of one tile of a submap; payload: encode_tile()
-  kSubmap = 1,  ///< where a submap lies in the robot's odom frame; payload: encode(Submap)
-  kEdge = 2,    ///< where another robot's submap lies in one's own; payload: encode(Edge)
+  kTile = 0,        ///< own observations of one tile of a submap; payload: encode_tile()
+  kSubmap = 1,      ///< where a submap lies in the robot's odom frame; payload: encode(Submap)
+  kEdge = 2,        ///< where another robot's submap lies in one's own; payload: encode(Edge)
+  kDeployment = 3,  ///< where the robot's odom frame lies in one that all share; payload: encode(Deployment)
 };
 
 /// Names one thing that a robot has something to say about.
@@ -32,6 +33,7 @@ struct ItemId {
   static constexpr ItemId tile(std::uint16_t submap, TileKey tile) { return of(ItemKind::kTile, submap, tile.morton); }
   static constexpr ItemId submap(std::uint16_t submap) { return of(ItemKind::kSubmap, submap, 0); }
   static constexpr ItemId edge(std::uint16_t index) { return of(ItemKind::kEdge, index, 0); }
+  static constexpr ItemId deployment() { return of(ItemKind::kDeployment, 0, 0); }
 
   [[nodiscard]] constexpr ItemKind kind() const { return static_cast<ItemKind>(code >> (kKeyBits + kSubmapBits)); }
   /// Of an edge: its index.
@@ -39,7 +41,8 @@ struct ItemId {
   [[nodiscard]] constexpr TileKey tile() const { return {code & ((std::uint64_t{1} << kKeyBits) - 1)}; }
   /// Whether it is a name that the functions above can give.
   [[nodiscard]] constexpr bool valid() const {
-    return code >> (kKeyBits + kSubmapBits) <= 2 && (kind() == ItemKind::kTile || tile().morton == 0);
+    return code >> (kKeyBits + kSubmapBits) <= 3 && (kind() == ItemKind::kTile || tile().morton == 0) &&
+           (kind() != ItemKind::kDeployment || submap() == 0);
   }
 
   friend constexpr auto operator<=>(const ItemId&, const ItemId&) = default;

@@ -39,6 +39,7 @@ Result<RobotProfile> load_profile(const std::filesystem::path& path) {
   declare(section, profile);
   if (const auto loaded = config::load(path, section); !loaded) return loaded.error();
   if (auto sound = check(profile.failsafe); !sound) return at(path.string(), sound.error());
+  if (auto sound = check(profile.team); !sound) return at(path.string(), sound.error());
   return profile;
 }
 

@@ -189,6 +189,9 @@ std::vector<Row> peer_rows() {
                "app/TeamRun.IsRepeatedToTheBitThoughThePeerProcessDies"),
       shown_by("P17", "a peer of another version, or with other voxels", "not believed; named by cairn doctor --peer",
                "team/TeamStanding.MapsOfOtherVoxelsAreNotExchanged"),
+      shown_by("P18", "a profile with a wrong deployment",
+               "the maps contradict it: taken back, named by cairn doctor --peer",
+               "team/TeamDeployment.AnExactButWrongOneIsTakenBack"),
   };
 }
 

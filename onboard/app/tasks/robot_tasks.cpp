@@ -105,6 +105,7 @@ RobotTasks::RobotTasks(Door& door, const RobotProfile& profile, const RunOptions
   mapping_line_.from = {&motions_};
   if (has(door, recording::kPeers)) {
     team_.emplace(executive_, profile, mapping_line_, MappingTask::kTilesSlot, monitor);
+    if (before_.resumed) team_->team().go_on();
     mapping_.share_tiles(team_->tiles());
   }
   executive_.count_allocations(allocations_of_this_thread);

@@ -67,8 +67,7 @@ void TeamTask::begin(const Packet& packet, Time now) {
 void TeamTask::observe(Tick& tick) {
   while (const TileBatch* batch = parts_.tiles.take(tick)) {
     if (!team_) continue;
-    if (std::exchange(epoch_, batch->epoch).value_or(batch->epoch) != batch->epoch)
-      team_->begin(after(team_->exchange().epoch()));
+    if (std::exchange(epoch_, batch->epoch) != batch->epoch) team_->begin(after(team_->exchange().epoch()));
     team_->be_at(batch->position_odom);
     for (const auto& [tile, state] : batch->tiles) team_->observe(tile, state, tick.release());
   }

@@ -32,6 +32,8 @@ class TeamTask final : public scheduler::Task {
   };
   /// All must outlive the task. `name` and `resolution_m` are the robot's.
   TeamTask(const TeamProfile& profile, std::string name, double resolution_m, const Parts& parts, Monitor& monitor);
+  /// Before the run: it goes on in the map of the one before it.
+  void go_on() { epoch_ = 0; }
   /// Before the run. `port`: live, the same source, to be spoken to; or null.
   void attach(Source& source, SourceId id, peers::PeerPort* port, scheduler::Feed::Tap tap);
 
@@ -48,6 +50,8 @@ class TeamTask final : public scheduler::Task {
   [[nodiscard]] LatestValue<std::vector<LiveView::Peer>>& view() { return view_; }
 
  private:
+  static constexpr std::uint32_t kFirstEpoch = 1;  // see Resume
+
   void hear(scheduler::Tick& tick);
   void take(const Packet& packet, Time now);
   void begin(const Packet& packet, Time now);
@@ -68,7 +72,7 @@ class TeamTask final : public scheduler::Task {
   std::optional<scheduler::Feed> feed_;
   peers::PeerPort* port_ = nullptr;
   std::optional<Team> team_;
-  std::optional<std::uint32_t> epoch_;  // of the tiles
+  std::uint32_t epoch_ = kFirstEpoch;  // of the tiles
   std::vector<peers::Outgoing> out_;
   Time last_step_ = Time::min(), last_told_ = Time::min();
   struct Awaited {

@@ -74,7 +74,7 @@ TEST(DefaultMatcher, ASearchWithoutAGuessFindsNoPoseThatLeans) {
     const auto b = MapFeatures::build(map_b);
     ASSERT_TRUE(b);
     Budget budget = Budget::steps(kAmpleSteps);
-    const auto looks = DefaultMatcher(*a, *b).look_everywhere({}, 8, budget);
+    const auto looks = DefaultMatcher(*a, *b).look_around({}, {}, 8, budget);
     EXPECT_TRUE(rad > 0 || !looks.empty());
     for (const Look& look : looks) EXPECT_LT(std::acos(look.T_a_b.mean.rotation()(2, 2)), 0.121) << rad;
   }

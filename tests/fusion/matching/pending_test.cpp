@@ -52,6 +52,48 @@ TEST(Pending, RepeatedAgreementOnNewGroundIs) {
   EXPECT_NEAR(pending.accepted()->T_a_b.mean.translation().x(), 0.05, 1e-12);  // the newest look's
 }
 
+/// Both robots were put down to within so much.
+UncertainPose guess(const SE3& T, double sigma_m) {
+  UncertainPose guess{T, 0.0025 * Matrix6::Identity()};
+  guess.covariance.topLeftCorner<3, 3>() = sigma_m * sigma_m * Eigen::Matrix3d::Identity();
+  return guess;
+}
+
+TEST(Pending, AGuessCountsForAndAgainst) {
+  const std::vector<std::pair<std::optional<UncertainPose>, int>> cases{{std::nullopt, 3},
+                                                                        {guess(at(0.3), 0.5), 2},
+                                                                        {guess(at(0.3), 5), 3},  // says too little
+                                                                        {guess(at(6), 0.5), 4}};
+  for (const auto& [known, needed] : cases) {
+    PendingHypotheses pending;
+    for (int i = 1; i <= 5; ++i) {
+      pending.take({agreeing(at(0), 100.0 * i)}, known);
+      EXPECT_EQ(pending.accepted() != nullptr, i >= needed) << i << " of " << needed;
+    }
+  }
+}
+
+TEST(Pending, AGuessDoesNotDecideBetweenPlacesThatAreEquallyGood) {
+  for (const double where : {0.0, 7.0}) {
+    PendingHypotheses pending;
+    for (const double ground : {100.0, 200.0, 300.0, 400.0})
+      pending.take({agreeing(at(0), ground), agreeing(at(7), ground)}, guess(at(where), 0.3));
+    EXPECT_EQ(pending.accepted(), nullptr) << "it may be wrong";
+  }
+}
+
+TEST(Pending, AGuessRulesOutALesserRival) {
+  Look rival = agreeing(at(7), 100);
+  rival.evidence.structure_inliers = 0.62;
+  rival.evidence.score = 0.45;
+  for (const bool guessed : {false, true}) {
+    PendingHypotheses pending;
+    for (const double ground : {100.0, 200.0, 300.0})
+      pending.take({agreeing(at(0), ground), rival}, guessed ? std::optional(guess(at(0), 0.3)) : std::nullopt);
+    EXPECT_EQ(pending.accepted() != nullptr, guessed);
+  }
+}
+
 TEST(Pending, LittleGroundDoesNotCount) {
   PendingHypotheses pending;
   for (const double ground : {10.0, 20.0, 30.0, 40.0, 50.0}) pending.take({agreeing(at(0), ground)});

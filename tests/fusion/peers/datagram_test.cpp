@@ -134,6 +134,26 @@ TEST(Datagram, ClaimsComeBack) {
   EXPECT_FALSE(decode_submap(encode(edge)).has_value());
 }
 
+TEST(Datagram, DeploymentsComeBackAndThoseThatCannotBeDoNot) {
+  Deployment deployment;
+  deployment.T_site_odom.mean = SE3::from_xyz_rpy((Vector6() << 10, -2, 0.5, 0, 0, 3).finished());
+  deployment.T_site_odom.covariance = Matrix6::Identity() * 0.25;
+  const auto bytes = encode(deployment);
+  const auto back = decode_deployment(bytes);
+  ASSERT_TRUE(back.has_value());
+  EXPECT_EQ(encode(*back), bytes);
+  EXPECT_EQ(back->T_site_odom.covariance, deployment.T_site_odom.covariance);
+  for (std::size_t n = 0; n < bytes.size(); ++n) EXPECT_FALSE(decode_deployment(std::span(bytes).first(n)));
+  deployment.T_site_odom.covariance(0, 1) = deployment.T_site_odom.covariance(1, 0) = 0.5;
+  EXPECT_FALSE(decode_deployment(encode(deployment))) << "no covariance is like that";
+
+  const ItemUpdate update{ItemId::deployment(), 1, 0, bytes};
+  std::size_t count = 0;
+  EXPECT_TRUE(decode_datagram(encode(4, Items{4, 11, {}, {update}}, count)).has_value());
+  const ItemUpdate second{{ItemId::deployment().code + (std::uint64_t{1} << ItemId::kKeyBits)}, 1, 0, bytes};
+  EXPECT_FALSE(decode_datagram(encode(4, Items{4, 11, {}, {second}}, count)).has_value()) << "a robot has one";
+}
+
 TEST(Datagram, SaysWhatIsWrong) {
   auto bytes = encode(1, Hello{1, 1, Time{}, "a", {}});
   bytes[0] = std::byte{9};

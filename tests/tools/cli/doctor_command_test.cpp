@@ -134,6 +134,18 @@ TEST(DoctorCommand, SaysWhyAPeerHasNotMergedByWhatARunLeft) {
   EXPECT_THAT(doctor({"--peer", "robot_9", "--run", folder / ""}).out, HasSubstr("robot_9: never heard of → start"));
 }
 
+TEST(DoctorCommand, ADeploymentThatTheMapsContradictIsNamed) {
+  const TemporaryFolder folder;
+  put(folder / "report.json", R"json({"peers": {
+    "robot_2": {"accepted": true, "reason": "merged; the deployments of the two contradict that by 3.6 m", "tiles": 12},
+    "robot_3": {"accepted": false, "reason": "dropped; the maps contradict the deployments of the two"}}})json");
+  const Outcome merged = doctor({"--peer", "robot_2", "--run", folder / ""});
+  EXPECT_EQ(merged.exit_code, kDone);
+  EXPECT_THAT(merged.out, HasSubstr("note: robot_2: merged; the deployments of the two contradict that by 3.6 m"));
+  EXPECT_THAT(merged.out, HasSubstr("team.deployment"));
+  EXPECT_THAT(doctor({"--peer", "robot_3", "--run", folder / ""}).out, HasSubstr("→ correct team.deployment"));
+}
+
 TEST(DoctorCommand, SaysWhereThereIsNothingToBeHeardOfAPeer) {
   const TemporaryFolder folder;
   EXPECT_THAT(doctor({"--peer", "x", "--live-view", folder / "no.sock"}).out, HasSubstr("no.sock"));

@@ -22,10 +22,12 @@ using Peers = std::vector<LiveView::Peer>;
 using Level = Finding::Level;
 
 constexpr double kClockNoteS = 1;
+constexpr const char* kContradicted = "deployments";
 
 /// What to do about a reason, by what it has in it.
 std::string remedy_for(const std::string& reason) {
-  constexpr std::array<std::pair<const char*, const char*>, 14> kRemedies{{
+  constexpr std::array<std::pair<const char*, const char*>, 15> kRemedies{{
+      {kContradicted, "correct team.deployment in the profile that is wrong, or leave it out"},
       {"never heard",
        "start cairn-peers on both robots; its --peer addresses and --domain must fit, its --socket be the "
        "profile's team.socket"},
@@ -51,6 +53,9 @@ std::string remedy_for(const std::string& reason) {
 Finding judge(const LiveView::Peer& peer) {
   const std::string heard = peer.heard_s_ago >= 0 ? fmt::format(", heard {:.1f} s ago", peer.heard_s_ago) : "";
   const std::string figures = fmt::format(" ({} tiles{})", peer.tiles, heard);
+  if (peer.merged && peer.reason.find(kContradicted) != std::string::npos)
+    return {Level::kNote, peer.name + ": " + peer.reason + figures,
+            "measure again where both were put down, and correct team.deployment in the profile that is wrong"};
   if (peer.merged) return {Level::kOk, peer.name + ": merged" + figures, {}};
   return {Level::kProblem, peer.name + " is not merged: " + peer.reason + figures, remedy_for(peer.reason)};
 }
