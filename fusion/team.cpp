@@ -21,6 +21,13 @@ bool moved(const SE3& from, const SE3& to) {
   return change.translation().norm() > kMovedM || rotation_angle(change) > kTurnedRad;
 }
 
+/// What is made of the likeliest place: that it changes is what comparisons are for.
+std::string standing_of(const matching::GrowingMatch& match) {
+  const auto places = match.hypotheses().all();
+  if (places.empty()) return {};
+  return std::to_string(static_cast<int>(places.front().standing)) + " " + std::to_string(places.front().agreements);
+}
+
 peers::ExchangeConfig with_voxels(peers::ExchangeConfig config, double resolution_m) {
   config.voxel_um = static_cast<std::uint32_t>(std::lround(1e6 * resolution_m));
   return config;
@@ -80,6 +87,7 @@ void Team::take_tile(RobotId robot, peers::ItemId id, Time now) {
   const auto& items = exchange_.layers().at(robot).holding.items();
   const auto state = peers::decode_tile(items.at(id).payload);  // checked when it was received
   if (!state) return;
+  ++tile_news_[robot];
   map_.put({robot, id.submap()}, id.tile(), *state, now);
   if (id.submap() != 0) return;  // it has a frame of its own
   if (state->any_occupied())
@@ -154,38 +162,33 @@ Team::Pair& Team::pair_with(RobotId peer, peers::Epoch epoch) {
     pair.own_epoch = exchange_.epoch();
     pair.peer_epoch = epoch;
     pair.match = std::make_unique<matching::GrowingMatch>();
+    pair.worth = MatchWorth(config_.match);
     pair.edge = edge;
   }
   return pair;
-}
-
-bool Team::worth_comparing(RobotId peer, const Pair& pair, Time now) const {
-  const std::size_t own = walls_of(config_.id), other = walls_of(peer);
-  const auto grown = [&](std::size_t tiles, std::size_t then) {
-    return static_cast<double>(tiles) >= config_.match_growth * static_cast<double>(then);
-  };
-  return pair.match && std::min(own, other) >= config_.least_tiles &&
-         (pair.last == Time::min() || now >= pair.last + config_.match_period) &&
-         (grown(own, pair.own_tiles) || grown(other, pair.peer_tiles));
 }
 
 std::optional<MatchJob> Team::next_match(Time now) {
   if (match_out_) return std::nullopt;
   Pair* next = nullptr;
   RobotId with = 0;
+  MatchOutlook then;
+  double most = 0;
   for (const auto& [peer, layer] : exchange_.layers()) {
     if (peer <= config_.id) continue;  // the lower of two compares
     Pair& pair = pair_with(peer, layer.epoch);
-    if (!worth_comparing(peer, pair, now)) continue;
-    if (next == nullptr || pair.last < next->last) {
-      next = &pair;
-      with = peer;
-    }
+    if (!pair.match || pair.worth.rests(now) || std::min(walls_of(config_.id), walls_of(peer)) < config_.least_tiles)
+      continue;
+    const MatchOutlook now_known = outlook(peer);
+    const double worth = pair.worth.of(now_known, now);
+    if (worth == 0 || worth < most || (worth == most && pair.worth.last() >= next->worth.last())) continue;
+    next = &pair;
+    with = peer;
+    then = now_known;
+    most = worth;
   }
   if (next == nullptr) return std::nullopt;
-  next->last = now;
-  next->own_tiles = walls_of(config_.id);
-  next->peer_tiles = walls_of(with);
+  next->worth.begin(then, now);
   match_out_ = true;
   return MatchJob{with,          next->own_epoch,        next->peer_epoch, said_by(config_.id),
                   said_by(with), std::move(next->match), deployed(with)};
@@ -195,16 +198,21 @@ void run(MatchJob& job, Budget& budget) {
   const SemanticOcTree own_map = job.own.map(), other_map = job.other.map();  // features read them
   const auto own = matching::MapFeatures::build(own_map), other = matching::MapFeatures::build(other_map);
   if (own && other) job.match->update(*own, *other, budget, job.guess);
+  job.ran = true;
 }
 
-void Team::matched(MatchJob job) {
+void Team::matched(MatchJob job, Time now) {
   match_out_ = false;
-  const auto pair = pairs_.find(job.peer);
-  if (pair == pairs_.end() || pair->second.own_epoch != job.own_epoch || pair->second.peer_epoch != job.peer_epoch)
+  const auto found = pairs_.find(job.peer);
+  if (found == pairs_.end() || found->second.own_epoch != job.own_epoch || found->second.peer_epoch != job.peer_epoch)
     return;
-  pair->second.match = std::move(job.match);
-  weigh_deployment(job.peer, pair->second);
-  say_edge(job.peer, pair->second);
+  Pair& pair = found->second;
+  pair.match = std::move(job.match);
+  if (!job.ran) return;
+  const std::string before = std::exchange(pair.standing, standing_of(*pair.match));
+  pair.worth.end(pair.standing != before, now);
+  weigh_deployment(job.peer, pair);
+  say_edge(job.peer, pair);
 }
 
 /// Says where the peer is once that is sure, and when it is known better; takes it back when it is not sure any more.

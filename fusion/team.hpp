@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "fusion/match_worth.hpp"
 #include "fusion/matching/growing_match.hpp"
 #include "fusion/merging/team_map.hpp"
 #include "fusion/peers/claim.hpp"
@@ -29,10 +30,9 @@ struct TeamConfig {
   merging::Policy policy = merging::Policy::kRelativeEntropy;
   peers::ExchangeConfig exchange;
   peers::OwnTilesConfig own_tiles;
-  Duration match_period = std::chrono::seconds(5);  ///< of one pair, at least
-  double match_growth = 1.15;                       ///< the maps' since the pair was last compared, at least
-  std::size_t least_tiles = 60;                     ///< with something occupied, on both sides, to be compared at all
-  std::optional<UncertainPose> deployment;          ///< T_site_odom of its first beginning: see peers::Deployment
+  MatchWorthConfig match;
+  std::size_t least_tiles = 60;             ///< with something occupied, on both sides, to be compared at all
+  std::optional<UncertainPose> deployment;  ///< T_site_odom of its first beginning: see peers::Deployment
 };
 
 /// A robot's tiles as they were said: small enough to be copied for whoever makes a map of them.
@@ -54,6 +54,7 @@ struct MatchJob {
   SaidTiles own, other;
   std::unique_ptr<matching::GrowingMatch> match;
   std::optional<UncertainPose> guess;  ///< T_own_other
+  bool ran = false;
 };
 /// Does the job: seconds, for a machine that has nothing else to do.
 void run(MatchJob& job, Budget& budget);
@@ -90,8 +91,8 @@ class Team {
 
   /// The comparison that is most worth its time now, if any is. One at a time is out.
   [[nodiscard]] std::optional<MatchJob> next_match(Time now);
-  /// A job that was run. Maps that have begun anew meanwhile make it void.
-  void matched(MatchJob job);
+  /// A job that was run, or for which there was no time. Maps that have begun anew meanwhile make it void.
+  void matched(MatchJob job, Time now);
 
   /// Goes on with the team's map; true: it is up to date.
   bool fuse(Budget& budget) { return map_.fuse(budget); }
@@ -110,9 +111,9 @@ class Team {
   struct Pair {
     peers::Epoch own_epoch = 0, peer_epoch = 0;
     std::unique_ptr<matching::GrowingMatch> match;  // null while a job has it
-    Time last = Time::min();
-    std::size_t own_tiles = 0, peer_tiles = 0;  // when it was last compared
-    std::uint16_t edge = 0;                     // index of the item that says what came of it
+    MatchWorth worth;
+    std::string standing;    // of the likeliest place, when it was last compared
+    std::uint16_t edge = 0;  // index of the item that says what came of it
     std::optional<peers::Edge> said;
     bool found = false, deployment_refuted = false;  // by the maps, when they were last compared
   };
@@ -132,13 +133,15 @@ class Team {
   [[nodiscard]] Pair& pair_with(peers::RobotId peer, peers::Epoch epoch);
   [[nodiscard]] std::size_t walls_of(peers::RobotId robot) const;
   [[nodiscard]] SaidTiles said_by(peers::RobotId robot) const;
-  [[nodiscard]] bool worth_comparing(peers::RobotId peer, const Pair& pair, Time now) const;
+  [[nodiscard]] MatchOutlook outlook(peers::RobotId peer) const;
+  [[nodiscard]] std::optional<SE3> believed(peers::RobotId peer) const;
   void say_edge(peers::RobotId peer, Pair& pair);
 
   TeamConfig config_;
   peers::Exchange exchange_;
   peers::OwnTiles own_tiles_;
   std::map<peers::RobotId, std::set<TileKey>> walls_;  // tiles with something occupied
+  std::map<peers::RobotId, std::uint64_t> tile_news_;  // how many there were
   std::map<peers::RobotId, Pair> pairs_;
   std::map<peers::RobotId, std::pair<UncertainPose, float>> known_poses_;  // and their probability
   bool match_out_ = false, edges_changed_ = true;

@@ -49,18 +49,21 @@ std::vector<Look> rivals(std::vector<Look> looks) {
 }
 
 void drop(Hypothesis& h, const std::string& why) {
+  h.earned = h.earned || h.standing == Standing::kAccepted;
   h.standing = Standing::kDropped;
   h.reason = "dropped: " + why;
 }
 
 void suspend(Hypothesis& h, const std::string& why) {
+  h.earned = h.earned || h.standing == Standing::kAccepted;
   h.standing = Standing::kPending;
   h.agreements = 0;
   h.reason = why;
 }
 
-std::string so_often(int agreements, int needed) {
-  return "agreed on new ground " + std::to_string(agreements) + " of " + std::to_string(needed) + " times";
+std::string so_often(const Hypothesis& h, int needed) {
+  return (h.earned ? "agreed again " : "agreed on new ground ") + std::to_string(h.agreements) + " of " +
+         std::to_string(needed) + " times";
 }
 
 /// How many agreements it takes, by what a guess says of the place.
@@ -77,27 +80,24 @@ double discounted(double probability, const std::optional<UncertainPose>& guess,
   return kWrongGuess * probability / (1 - probability + kWrongGuess * probability);
 }
 
-/// The likeliest other place.
-struct Rival {
-  double probability = 0;
-  double with_guess = 0;  // the same, discounted
-};
-
-void judge(Hypothesis& h, const Look& look, const Decision& now, const Rival& rival, int needed) {
+/// `rival`: the probability of the likeliest other place, discounted.
+void judge(Hypothesis& h, const Look& look, const Decision& now, double rival, int needed) {
   h.T_a_b = look.T_a_b;
   h.evidence = look.evidence;
   h.probability_correct = now.probability_correct;
   h.contradictions = contradicts(look.evidence) ? h.contradictions + 1 : 0;
   if (h.contradictions >= kContradictions) return drop(h, now.reason);
   if (h.standing == Standing::kAccepted) {
-    if (rival.probability >= kOverthrown) suspend(h, "another pose has become likely");
+    if (rival >= kOverthrown) suspend(h, "another pose has become likely");
     return;
   }
-  const bool rivalled = rival.with_guess >= kRivalled, agrees = h.probability_correct >= kAgrees && !rivalled;
-  h.reason = agrees ? so_often(h.agreements, needed) : rivalled ? "another pose may be as good" : now.reason;
-  if (!agrees || !on_new_ground(h, look.evidence)) return;
-  h.ground_m2 = look.evidence.agreeing_m2;
-  h.reason = so_often(++h.agreements, needed);
+  const bool rivalled = rival >= kRivalled, agrees = h.probability_correct >= kAgrees && !rivalled;
+  h.reason = agrees ? so_often(h, needed) : rivalled ? "another pose may be as good" : now.reason;
+  if (h.earned && !agrees) h.agreements = 0;
+  if (!agrees || !(h.earned || on_new_ground(h, look.evidence))) return;
+  h.ground_m2 = std::max(h.ground_m2, look.evidence.agreeing_m2);
+  ++h.agreements;
+  h.reason = so_often(h, needed);
   if (h.agreements >= needed) h.standing = Standing::kAccepted;
 }
 
@@ -107,7 +107,13 @@ Hypothesis& PendingHypotheses::held_or_new(const SE3& T_a_b) {
   const auto it = std::find_if(all_.begin(), all_.end(), [&](const Hypothesis& h) {
     return h.standing != Standing::kDropped && same_place(h.T_a_b.mean, T_a_b);
   });
-  return it != all_.end() ? *it : all_.emplace_back();
+  if (it != all_.end()) return *it;
+  const auto again = std::find_if(all_.begin(), all_.end(),
+                                  [&](const Hypothesis& h) { return h.earned && same_place(h.T_a_b.mean, T_a_b); });
+  if (again == all_.end()) return all_.emplace_back();
+  again->standing = Standing::kPending;
+  again->agreements = again->contradictions = 0;
+  return *again;
 }
 
 void PendingHypotheses::take(std::vector<Look> looks, const std::optional<UncertainPose>& guess) {
@@ -116,13 +122,9 @@ void PendingHypotheses::take(std::vector<Look> looks, const std::optional<Uncert
   for (const Look& look : places) decisions.push_back(decide(look.evidence));
   for (std::size_t i = 0; i < places.size(); ++i) {
     const SE3& T = places[i].T_a_b.mean;
-    Rival rival;
-    for (std::size_t j = 0; j < places.size(); ++j) {
-      if (j == i) continue;
-      const double p = decisions[j].probability_correct;
-      rival.probability = std::max(rival.probability, p);
-      rival.with_guess = std::max(rival.with_guess, discounted(p, guess, places[j].T_a_b.mean, T));
-    }
+    double rival = 0;
+    for (std::size_t j = 0; j < places.size(); ++j)
+      if (j != i) rival = std::max(rival, discounted(decisions[j].probability_correct, guess, places[j].T_a_b.mean, T));
     judge(held_or_new(T), places[i], decisions[i], rival, needed(guess, T));
   }
   allow_one();

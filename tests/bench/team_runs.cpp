@@ -120,7 +120,7 @@ class TeamRun {
       match_time_ += thread_cpu_time() - before;
       ++matches_;
       if (g_options["looks"] != 0) print_looks(self, *job);
-      robot.team.matched(std::move(*job));
+      robot.team.matched(std::move(*job), now_);
     }
     const Duration before = thread_cpu_time();
     Budget slice = Budget::steps(100);

@@ -66,7 +66,7 @@ class Ride {
     if (auto job = robot.team.next_match(now_)) {
       Budget budget = Budget::steps(matching::kAmpleSteps);
       cairn::run(*job, budget);
-      robot.team.matched(std::move(*job));
+      robot.team.matched(std::move(*job), now_);
     }
     Budget slice = Budget::steps(200);
     (void)robot.team.fuse(slice);

@@ -74,7 +74,7 @@ void TeamTask::observe(Tick& tick) {
 }
 
 void TeamTask::learn(Tick& tick) {
-  while (MatchJob* job = parts_.results.take(tick)) team_->matched(std::move(*job));
+  while (MatchJob* job = parts_.results.take(tick)) team_->matched(std::move(*job), tick.release());
 }
 
 void TeamTask::speak(Tick& tick) {
@@ -97,7 +97,7 @@ void TeamTask::hand_out_a_job(Tick& tick) {
     *place = std::move(*job);
     parts_.jobs.push(tick);
   } else {
-    team_->matched(std::move(*job));  // later
+    team_->matched(std::move(*job), tick.release());  // later
   }
 }
 

@@ -141,6 +141,25 @@ TEST(Pending, ARivalSuspendsWhatWasAccepted) {
   EXPECT_EQ(pending.places().size(), 2U);
 }
 
+TEST(Pending, WhatWasAcceptedOnceMayComeBackOnTheSameGround) {
+  Look rival = agreeing(at(7), 300);
+  rival.evidence.score = 0.9;
+  for (const Look& against : {rival, contradicting(at(0))}) {
+    PendingHypotheses pending;
+    for (const double ground : {100.0, 200.0, 300.0}) pending.take({agreeing(at(0), ground)});
+    for (int i = 0; i < 2; ++i)
+      pending.take(against.T_a_b.mean.translation().x() > 1 ? std::vector{agreeing(at(0), 300), against}
+                                                            : std::vector{against});
+    EXPECT_EQ(pending.accepted(), nullptr);
+    for (int i = 0; i < 2; ++i) pending.take({agreeing(at(0), 300)});
+    pending.take({contradicting(at(0))});  // begins anew
+    for (int i = 0; i < 2; ++i) pending.take({agreeing(at(0), 300)});
+    EXPECT_EQ(pending.accepted(), nullptr);
+    pending.take({agreeing(at(0), 300)});
+    EXPECT_NE(pending.accepted(), nullptr) << pending.all()[0].reason;
+  }
+}
+
 TEST(Pending, TheOrderWithinARoundDoesNotMatter) {
   std::vector<Look> looks{agreeing(at(0), 200), contradicting(at(4)), agreeing(at(8), 90), agreeing(at(0.1), 200)};
   looks[2].evidence.score = 0.3;
