@@ -40,6 +40,7 @@ Team::Team(const TeamConfig& config, peers::Epoch epoch)
       exchange_(config.id, config.name, epoch, with_voxels(config.exchange, config.resolution_m)),
       own_tiles_(config.own_tiles),
       map_(config.resolution_m, config.policy) {
+  exchange_.set_interest([this](RobotId peer, RobotId robot) { return interest_of(peer, robot); });
   if (config.deployment) exchange_.say(peers::ItemId::deployment(), encode(peers::Deployment{*config.deployment}));
 }
 
@@ -151,6 +152,31 @@ void Team::focus() {
   if (own != poses_.T_team_odom.end()) map_.set_focus(own->second * position_odom_);
 }
 
+void Team::be_at(const UncertainPose& T_odom_base) {
+  position_odom_ = T_odom_base.mean.translation();
+  const Eigen::Vector3f at = position_odom_.cast<float>();
+  const Eigen::Vector3d x_axis = T_odom_base.mean.rotation().col(0);
+  constexpr double kMost = 1e6;  // others refuse more, and whoever says it
+  if (!at.allFinite() || at.cwiseAbs().maxCoeff() > kMost) return;
+  const Vector6 sigma = T_odom_base.covariance.diagonal().cwiseMax(0).cwiseSqrt();
+  exchange_.set_place({{at.x(), at.y(), at.z()},
+                       static_cast<float>(std::atan2(x_axis.y(), x_axis.x())),
+                       static_cast<float>(std::fmin(kMost, sigma.head<3>().maxCoeff())),
+                       static_cast<float>(std::fmin(kMost, sigma.tail<3>().maxCoeff()))});
+}
+
+/// Where the peer is, in a frame that is known to lie in the team's.
+peers::Interest Team::interest_of(RobotId peer, RobotId robot) const {
+  peers::Interest interest{{}, config_.resolution_m};
+  const auto link = exchange_.links().find(peer);
+  const auto of_peer = poses_.T_team_odom.find(peer), of_robot = poses_.T_team_odom.find(robot);
+  const bool known = of_peer != poses_.T_team_odom.end() && of_robot != poses_.T_team_odom.end();
+  if (!known || link == exchange_.links().end() || !link->second.place) return interest;
+  const Eigen::Vector3f at(link->second.place->position_m.data());
+  interest.position_odom = of_robot->second.inverse() * (of_peer->second * at.cast<double>());
+  return interest;
+}
+
 /// What is known about a pair is void when one of the two has begun anew.
 Team::Pair& Team::pair_with(RobotId peer, peers::Epoch epoch) {
   const auto [entry, added] = pairs_.try_emplace(peer);
@@ -179,7 +205,7 @@ std::optional<MatchJob> Team::next_match(Time now) {
     Pair& pair = pair_with(peer, layer.epoch);
     if (!pair.match || pair.worth.rests(now) || std::min(walls_of(config_.id), walls_of(peer)) < config_.least_tiles)
       continue;
-    const MatchOutlook now_known = outlook(peer);
+    const MatchOutlook now_known = outlook(peer, pair);
     const double worth = pair.worth.of(now_known, now);
     if (worth == 0 || worth < most || (worth == most && pair.worth.last() >= next->worth.last())) continue;
     next = &pair;

@@ -71,12 +71,14 @@ struct PeerStanding {
 class Team {
  public:
   Team(const TeamConfig& config, peers::Epoch epoch);
+  Team(const Team&) = delete;
+  Team& operator=(const Team&) = delete;
 
   /// One's own map begins anew; what was said of it is void, where the robot was put down too: the new odom frame lies
   /// where it is now. `epoch` is higher than the last.
   void begin(peers::Epoch epoch);
-  /// Where the robot is, in its odom frame: the team's map is brought up to date there first.
-  void be_at(const Eigen::Vector3d& position_odom) { position_odom_ = position_odom; }
+  /// Where the robot is: peers are told, and the team's map is brought up to date there first.
+  void be_at(const UncertainPose& T_odom_base);
   /// A tile of one's own map has changed; odom frame, of this epoch.
   void observe(TileKey tile, const TileState& state, Time now) { own_tiles_.observe(tile, state, now); }
   /// Where a peer's odom frame lies in this robot's by something else than their maps: a survey, a marker both saw.
@@ -130,11 +132,12 @@ class Team {
   void take_tile(peers::RobotId robot, peers::ItemId id, Time now);
   void agree();
   void focus();
+  [[nodiscard]] peers::Interest interest_of(peers::RobotId peer, peers::RobotId robot) const;
   [[nodiscard]] Pair& pair_with(peers::RobotId peer, peers::Epoch epoch);
   [[nodiscard]] std::size_t walls_of(peers::RobotId robot) const;
   [[nodiscard]] SaidTiles said_by(peers::RobotId robot) const;
-  [[nodiscard]] MatchOutlook outlook(peers::RobotId peer) const;
-  [[nodiscard]] std::optional<SE3> believed(peers::RobotId peer) const;
+  [[nodiscard]] MatchOutlook outlook(peers::RobotId peer, const Pair& pair) const;
+  [[nodiscard]] std::optional<SE3> believed(peers::RobotId peer, const Pair& pair) const;
   void say_edge(peers::RobotId peer, Pair& pair);
 
   TeamConfig config_;

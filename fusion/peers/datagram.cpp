@@ -2,6 +2,8 @@
 #include "fusion/peers/datagram.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cmath>
 #include <utility>
 
 #include "fusion/peers/claim.hpp"
@@ -20,6 +22,23 @@ bool possible(std::int64_t nanoseconds) {
 
 Error too_short() { return {Errc::kTruncated, "the datagram ends early"}; }
 
+/// A byte that says whether there is one, then six floats. False: no such place.
+bool read_place(ByteReader& in, std::optional<Hello::Place>& place) {
+  constexpr float kMost = 1e6F, kHalfTurn = 3.1416F;
+  const auto known = in.read<std::uint8_t>();
+  if (!known || *known > 1) return false;
+  if (*known == 0) return true;
+  std::array<float, 6> values{};
+  for (float& value : values) value = in.read<float>().value_or(NAN);
+  const auto within = [](float value, float least, float most) { return value >= least && value <= most; };
+  for (const std::size_t i : {0U, 1U, 2U})
+    if (!within(values[i], -kMost, kMost)) return false;
+  if (!within(values[3], -kHalfTurn, kHalfTurn)) return false;
+  if (!within(values[4], 0, kMost) || !within(values[5], 0, kMost)) return false;
+  place = Hello::Place{{values[0], values[1], values[2]}, values[3], values[4], values[5]};
+  return true;
+}
+
 Result<Hello> read_hello(ByteReader& in) {
   Hello hello;
   const auto epoch = in.read<Epoch>();
@@ -32,10 +51,13 @@ Result<Hello> read_hello(ByteReader& in) {
   if (!possible(*stamp)) return Error{Errc::kMalformed, "a clock beyond 36 years"};
   if (*length > Hello::kMaxName) return Error{Errc::kMalformed, "a robot's name of more than 24 bytes"};
   const auto name = in.read_bytes(*length);
-  const auto echoes = name ? in.read<std::uint8_t>() : std::nullopt;
+  std::optional<Hello::Place> place;
+  if (!name) return too_short();
+  if (!read_place(in, place)) return Error{Errc::kMalformed, "a place that cannot be"};
+  const auto echoes = in.read<std::uint8_t>();
   if (!echoes) return too_short();
   if (*echoes > Hello::kMaxEchoes) return Error{Errc::kMalformed, "more than 32 echoes"};
-  hello = {*epoch, *newest, Time{Duration{*stamp}}, {}, {}, *voxel_um};
+  hello = {*epoch, *newest, Time{Duration{*stamp}}, {}, {}, *voxel_um, place};
   for (const std::byte c : *name) hello.name += static_cast<char>(c);
   if (!std::ranges::all_of(hello.name, is_printable))
     return Error{Errc::kMalformed, "a robot's name that cannot be printed"};

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <variant>
@@ -31,6 +33,13 @@ struct Hello {
     Time stamp{};  ///< as the other wrote it
     Duration age{};
   };
+  /// Where the sender is, in its odom frame, and how well it knows.
+  struct Place {
+    std::array<float, 3> position_m{};
+    float yaw_rad = 0;                 ///< −π…π
+    float sigma_m = 0, sigma_rad = 0;  ///< the largest standard deviation of each
+    friend bool operator==(const Place&, const Place&) = default;
+  };
   static constexpr std::size_t kMaxName = 24, kMaxEchoes = 32;
 
   Epoch epoch = 0;
@@ -39,6 +48,7 @@ struct Hello {
   std::string name;    ///< for people
   std::vector<Echo> echoes;
   std::uint32_t voxel_um = 0;  ///< edge of its map's voxels in micrometres; maps of other voxels are not exchanged
+  std::optional<Place> place{};
 };
 
 /// "This I know of each robot." Whoever knows more sends it.

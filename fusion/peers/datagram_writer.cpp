@@ -90,6 +90,12 @@ std::vector<std::byte> encode(RobotId sender, const Hello& hello) {
   const std::size_t length = std::min(hello.name.size(), Hello::kMaxName);
   append_le(out, static_cast<std::uint8_t>(length));
   for (std::size_t i = 0; i < length; ++i) append_le(out, is_printable(hello.name[i]) ? hello.name[i] : '?');
+  append_le(out, static_cast<std::uint8_t>(hello.place ? 1 : 0));
+  if (hello.place) {
+    for (const float coordinate : hello.place->position_m) append_le(out, coordinate);
+    for (const float value : {hello.place->yaw_rad, hello.place->sigma_m, hello.place->sigma_rad})
+      append_le(out, value);
+  }
   const std::size_t echoes = std::min(hello.echoes.size(), Hello::kMaxEchoes);
   append_le(out, static_cast<std::uint8_t>(echoes));
   for (std::size_t i = 0; i < echoes; ++i) {

@@ -23,6 +23,7 @@ Exchange::Exchange(RobotId self, std::string name, Epoch epoch, const ExchangeCo
 
 void Exchange::begin(Epoch epoch) {
   layers_.insert_or_assign(self_, Layer{epoch, Holding(config_.max_bytes_per_robot)});
+  place_.reset();
   changes_[self_] = {true, {}};
   for (auto& [robot, link] : links_)
     std::erase_if(link.in_flight, [&](const auto& sent) { return sent.first.first == self_; });
@@ -50,7 +51,9 @@ Link* Exchange::link_of(RobotId robot) {
 /// Says everything again in a later epoch than the one that others know.
 void Exchange::outdo(Epoch epoch) {
   const Holding said = std::move(layers_.at(self_).holding);
+  const auto place = place_;
   begin(std::min(epoch + 1, kLastEpoch));
+  place_ = place;
   for (const auto& [id, item] : said.items()) say(id, item.payload);
 }
 
@@ -102,6 +105,7 @@ Result<void> Exchange::take(RobotId sender, Link& link, const Hello& hello, Time
   link.epoch = hello.epoch;
   link.newest = hello.newest;
   link.voxel_um = hello.voxel_um;
+  link.place = hello.place;
   link.echo = {0, hello.stamp, {}};
   link.echo_heard = now;
   for (const Hello::Echo& echo : hello.echoes)
@@ -179,7 +183,7 @@ std::size_t Exchange::send_to_all(std::vector<std::byte> bytes, std::vector<Outg
 
 void Exchange::send_hello(Time now, std::vector<Outgoing>& out) {
   const Layer& own = layers_.at(self_);
-  Hello hello{own.epoch, own.holding.newest(), now, name_, {}, config_.voxel_um};
+  Hello hello{own.epoch, own.holding.newest(), now, name_, {}, config_.voxel_um, place_};
   auto link = links_.upper_bound(next_echo_);
   for (std::size_t i = 0; i < std::min(links_.size(), kEchoes); ++i, ++link) {
     if (link == links_.end()) link = links_.begin();
@@ -219,23 +223,24 @@ Missing Exchange::missing_at(const Link& link, const Address& address) const {
   const bool none = known == link.known.end() || known->second.epoch < address.layer.epoch;
   if (known != link.known.end() && known->second.epoch > address.layer.epoch) return {};
   if (address.robot != self_ && known != link.known.end() && known->second.direct) return {};
-  Missing missing =
-      address.layer.holding.missing(none ? VersionSet{} : known->second.versions, kLookedAt + link.in_flight.size());
+  const VersionSet at_peer = none ? VersionSet{} : known->second.versions;
+  Missing missing = address.layer.holding.missing(at_peer, kLookedAt + link.in_flight.size());
+  const auto interest = interest_ ? std::optional(interest_(address.peer, address.robot)) : std::nullopt;
+  if (interest) add_near_by(missing.updates, *interest, address, at_peer);
   std::erase_if(missing.updates, [&](const ItemUpdate& update) {
     return link.in_flight.contains({address.robot, update.version});
   });
-  if (urgency_) sort_by_urgency(missing.updates, address);
+  if (interest) interest->sort(missing.updates);
   return missing;
 }
 
-void Exchange::sort_by_urgency(std::vector<ItemUpdate>& updates, const Address& address) const {
-  std::vector<std::pair<double, std::size_t>> order;
-  for (std::size_t i = 0; i < updates.size(); ++i)
-    order.emplace_back(urgency_(address.peer, address.robot, updates[i]), i);
-  std::ranges::sort(order);
-  std::vector<ItemUpdate> sorted;
-  for (const auto& [urgency, i] : order) sorted.push_back(updates[i]);
-  updates = std::move(sorted);
+/// To updates by ascending version, of which the last are the newest that were looked at.
+void Exchange::add_near_by(std::vector<ItemUpdate>& updates, const Interest& interest, const Address& address,
+                           const VersionSet& at_peer) const {
+  if (updates.size() < kLookedAt) return;  // that is all
+  const Version looked_at = updates.back().version;
+  for (const ItemUpdate& update : address.layer.holding.missing_of(interest.near_by(), at_peer))
+    if (update.version > looked_at) updates.push_back(update);
 }
 
 void Exchange::send_layer(Time now, const Address& address, Link& link, std::vector<Outgoing>& out) {

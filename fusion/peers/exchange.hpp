@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <functional>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -11,6 +12,7 @@
 
 #include "fusion/peers/datagram.hpp"
 #include "fusion/peers/holding.hpp"
+#include "fusion/peers/interest.hpp"
 #include "fusion/peers/link.hpp"
 #include "hal/result.hpp"
 #include "hal/time.hpp"
@@ -56,8 +58,8 @@ using Changes = std::map<RobotId, LayerChange>;
 /// datagrams arrive, only on some of them doing so. Pure: no clock, no socket; the same calls give the same bytes.
 class Exchange {
  public:
-  /// Lower is sent earlier; `update` is of `robot` and meant for `peer`.
-  using Urgency = std::function<double(RobotId peer, RobotId robot, const ItemUpdate& update)>;
+  /// What `peer` can use first of what `robot` says.
+  using InterestOf = std::function<Interest(RobotId peer, RobotId robot)>;
 
   Exchange(RobotId self, std::string name, Epoch epoch, const ExchangeConfig& config = {});
 
@@ -72,7 +74,10 @@ class Exchange {
   /// Appends what is to be sent now: what is due of hellos and digests, then missing items while the bytes last.
   void send(Time now, std::vector<Outgoing>& out);
 
-  void set_urgency(Urgency urgency) { urgency_ = std::move(urgency); }
+  /// Without it, or for whoever it knows nothing of, the oldest is sent first.
+  void set_interest(InterestOf interest) { interest_ = std::move(interest); }
+  /// Where this robot is, to be told to others.
+  void set_place(const Hello::Place& place) { place_ = place; }
 
   [[nodiscard]] RobotId self() const { return self_; }
   /// The last one begun; or a later one, after a peer turned out to hold something of this robot that it never said:
@@ -110,12 +115,14 @@ class Exchange {
   void send_items(Time now, RobotId peer, Link& link, std::vector<Outgoing>& out);
   void send_layer(Time now, const Address& address, Link& link, std::vector<Outgoing>& out);
   [[nodiscard]] Missing missing_at(const Link& link, const Address& address) const;
-  void sort_by_urgency(std::vector<ItemUpdate>& updates, const Address& address) const;
+  void add_near_by(std::vector<ItemUpdate>& updates, const Interest& interest, const Address& address,
+                   const VersionSet& at_peer) const;
 
   RobotId self_;
   std::string name_;
   ExchangeConfig config_;
-  Urgency urgency_;
+  InterestOf interest_;
+  std::optional<Hello::Place> place_;
   std::map<RobotId, Layer> layers_;
   std::map<RobotId, Link> links_;
   Changes changes_;

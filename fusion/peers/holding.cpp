@@ -61,6 +61,17 @@ void Holding::note_superseded(VersionRange gap, VersionSet& out) const {
     out.add({std::max(known.first, gap.first), std::min(known.last, gap.last)});
 }
 
+std::vector<ItemUpdate> Holding::missing_of(std::span<const ItemId> ids, const VersionSet& at_peer) const {
+  std::vector<ItemUpdate> updates;
+  for (const ItemId id : ids) {
+    const auto item = items_.find(id);
+    if (item == items_.end() || at_peer.contains(item->second.version)) continue;
+    const auto held = by_version_.find(item->second.version);
+    if (held != by_version_.end() && held->second == id) updates.push_back(update_of(held));
+  }
+  return updates;
+}
+
 Missing Holding::missing(const VersionSet& at_peer, std::size_t most) const {
   Missing missing;
   Version after = 0;  // all up to this one is settled

@@ -57,6 +57,8 @@ class Holding {
   /// What is held and `at_peer` does not contain, the `most` lowest versions at the most. The payloads are valid until
   /// the holding changes.
   [[nodiscard]] Missing missing(const VersionSet& at_peer, std::size_t most) const;
+  /// Those of `ids` that are held and whose newest version `at_peer` does not contain.
+  [[nodiscard]] std::vector<ItemUpdate> missing_of(std::span<const ItemId> ids, const VersionSet& at_peer) const;
   /// Versions that have been superseded, as far as the sender knows; they need not be waited for.
   void settle(const VersionSet& superseded);
   [[nodiscard]] std::size_t bytes() const { return bytes_; }

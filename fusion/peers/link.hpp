@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <utility>
 
@@ -37,10 +38,11 @@ struct Link {
   double loss = 0;                                        ///< share of the items sent lately that did not arrive
   void note_fate(bool arrived) { loss += 0.02 * ((arrived ? 0 : 1) - loss); }
   std::uint64_t received_bytes = 0, sent_bytes = 0, received_items = 0, sent_items = 0;
-  std::uint64_t repeated_items = 0;  ///< received, and known already
-  std::uint64_t refused = 0;         ///< datagrams that cannot be
-  std::uint64_t unsupported = 0;     ///< of these, of another format
-  std::uint32_t voxel_um = 0;        ///< by its last hello; 0 before
+  std::uint64_t repeated_items = 0;   ///< received, and known already
+  std::uint64_t refused = 0;          ///< datagrams that cannot be
+  std::uint64_t unsupported = 0;      ///< of these, of another format
+  std::uint32_t voxel_um = 0;         ///< by its last hello; 0 before
+  std::optional<Hello::Place> place;  ///< by its last hello, in its odom frame
 };
 
 }  // namespace cairn::peers

@@ -191,6 +191,11 @@ bool is_uniform_tile(std::span<const std::byte> bytes) {
   return (byte & ~unsigned{kUniformBits}) == 0 && (byte & kUniform) != 0 && (occupied || !high);
 }
 
+bool has_occupied(std::span<const std::byte> bytes) {
+  const auto flags = bytes.empty() ? 0U : std::to_integer<unsigned>(bytes[0]);
+  return (flags & ((flags & kUniform) != 0 ? kUniformOccupied : kSomeOccupied)) != 0;
+}
+
 Result<TileState> decode_tile(std::span<const std::byte> bytes) {
   ByteReader in(bytes);
   const auto flags = in.read<std::uint8_t>();

@@ -27,6 +27,9 @@ void encode_tile(const TileState& state, std::vector<std::byte>& out);
 /// The reverse; exactly what encode_tile() can have written, all of `bytes`. kTruncated or kMalformed otherwise.
 [[nodiscard]] Result<TileState> decode_tile(std::span<const std::byte> bytes);
 
+/// Whether some voxel is occupied, of bytes that decode_tile() takes.
+[[nodiscard]] bool has_occupied(std::span<const std::byte> bytes);
+
 /// Whether the bytes are a tile all of whose voxels are alike: no need to build it in order to know.
 [[nodiscard]] bool is_uniform_tile(std::span<const std::byte> bytes);
 

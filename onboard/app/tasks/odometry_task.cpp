@@ -106,7 +106,7 @@ void MappingTask::share_tiles(TileChannel& tiles) {
 
 /// Scans change the same tiles again and again: reading them with each would be a quarter of the work in a forest.
 void MappingTask::note_changes(const LocatedScan& scan, Tick& tick) {
-  changes_ = {scan.epoch, scan.T_odom_base.mean.translation()};
+  changes_ = {scan.epoch, scan.T_odom_base};
   if (scan.stamp < next_batch_ && scan.stamp >= next_batch_ - kBatchPeriod) return;
   next_batch_ = scan.stamp + kBatchPeriod;
   hand_on_tiles(tick);
@@ -117,7 +117,7 @@ void MappingTask::hand_on_tiles(Tick& tick) {
   TileBatch* out = tiles_ != nullptr && changes_ ? tiles_->back(tick) : nullptr;
   if (out == nullptr) return;
   out->epoch = changes_->epoch;
-  out->position_odom = changes_->position_odom;
+  out->T_odom_base = changes_->T_odom_base;
   out->tiles.clear();
   const auto add = [&](TileKey tile) { out->tiles.emplace_back(tile, read_tile(robot_.map(), tile)); };
   if (changes_->epoch == 0) std::ranges::for_each(resumed_tiles_, add);

@@ -100,7 +100,7 @@ class MappingTask final : public scheduler::Task {
   std::vector<TileKey> resumed_tiles_;  // not handed on yet; of epoch 0
   struct Changes {
     std::uint32_t epoch;
-    Eigen::Vector3d position_odom;
+    UncertainPose T_odom_base;
   };
   std::optional<Changes> changes_;  // not handed on yet
   Time next_batch_{};

@@ -13,8 +13,8 @@ namespace cairn {
 
 /// What some scans changed in the robot's own map, as it was after the last of them.
 struct TileBatch {
-  std::uint32_t epoch = 0;  ///< see TrackPoint
-  Eigen::Vector3d position_odom = Eigen::Vector3d::Zero();
+  std::uint32_t epoch = 0;    ///< see TrackPoint
+  UncertainPose T_odom_base;  ///< at the scan
   std::vector<std::pair<TileKey, TileState>> tiles;
 };
 

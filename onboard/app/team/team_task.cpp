@@ -68,7 +68,7 @@ void TeamTask::observe(Tick& tick) {
   while (const TileBatch* batch = parts_.tiles.take(tick)) {
     if (!team_) continue;
     if (std::exchange(epoch_, batch->epoch) != batch->epoch) team_->begin(after(team_->exchange().epoch()));
-    team_->be_at(batch->position_odom);
+    team_->be_at(batch->T_odom_base);
     for (const auto& [tile, state] : batch->tiles) team_->observe(tile, state, tick.release());
   }
 }

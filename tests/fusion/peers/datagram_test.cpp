@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "fusion/peers/claim.hpp"
 #include "fusion/peers/tile_codec.hpp"
 #include "fusion/peers/wire.hpp"
@@ -59,6 +61,21 @@ TEST(Datagram, HellosComeBack) {
   EXPECT_EQ(back.echoes[0].robot, 2U);
   EXPECT_EQ(back.echoes[0].stamp, hello.echoes[0].stamp);
   EXPECT_EQ(back.echoes[0].age, hello.echoes[0].age);
+}
+
+TEST(Datagram, AHelloSaysWhereTheSenderIs) {
+  Hello hello{7, 123, Time{}, "robot_1", {}, 0, Hello::Place{{1, -2.5F, 0.25F}, -3, 0.1F, 0.02F}};
+  const auto bytes = encode(1, hello);
+  const Hello back = content_of<Hello>(bytes);
+  EXPECT_EQ(back.place, hello.place);
+  EXPECT_EQ(encode(1, back), bytes);
+  for (std::size_t n = 0; n < bytes.size(); ++n) EXPECT_FALSE(decode_datagram(std::span(bytes).first(n)).has_value());
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  for (const Hello::Place& wrong :
+       {Hello::Place{{nan, 0, 0}, 0, 0, 0}, {{2e6F, 0, 0}, 0, 0, 0}, {{}, 4, 0, 0}, {{}, 0, -1, 0}, {{}, 0, 0, nan}}) {
+    hello.place = wrong;
+    EXPECT_FALSE(decode_datagram(encode(1, hello)).has_value());
+  }
 }
 
 TEST(Datagram, AnyNameThatAProfileHasCanBeRead) {

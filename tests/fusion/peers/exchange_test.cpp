@@ -4,6 +4,8 @@
 
 #include <gtest/gtest.h>
 
+#include <iostream>
+
 #include "fusion/peers/tile_codec.hpp"
 #include "tests/fusion/peers/tile_states.hpp"
 
@@ -84,15 +86,54 @@ TEST(Exchange, NeverSendsMoreThanItMayInALongTime) {
   EXPECT_GE(sent, 50U * 4000);
 }
 
-TEST(Exchange, TheMostUrgentGoesFirst) {
-  Exchange a(1, "one", 5), b(2, "two", 6);
-  a.set_urgency([](RobotId, RobotId, const ItemUpdate& update) { return update.id.tile().morton == 400 ? 0.0 : 1.0; });
-  Time now{};
-  talk(a, b, now, seconds(2));
-  for (unsigned i = 0; i < 500; ++i) a.say(ItemId::tile(0, {i}), tile(i));
-  while (!b.layers().contains(1)) talk(a, b, now, milliseconds(100));
-  EXPECT_TRUE(b.layers().at(1).holding.items().contains(ItemId::tile(0, {400})));
-  EXPECT_LT(b.layers().at(1).holding.items().size(), 400U);
+TileKey tile_in_row(unsigned i) {
+  return TileKey::of_voxel(static_cast<std::uint16_t>(32768 + 8 * (i % 100)),
+                           static_cast<std::uint16_t>(32768 + 8 * (i / 100)), 32768);
+}
+
+/// One has mapped a hall of 100 × 40 tiles, row by row; the other joins somewhere over 64 kbit/s. Seconds until it
+/// knows the tiles around itself, and until it knows all.
+std::pair<double, double> join(bool with_interest) {
+  ExchangeConfig config;
+  config.bytes_per_second = 8000;
+  Exchange a(1, "one", 5, config), b(2, "two", 6, config);
+  constexpr unsigned kTiles = 4000, kAtX = 70, kAtY = 30;
+  const auto at = [](unsigned tiles) { return 1.6F * (static_cast<float>(tiles) + 0.5F); };
+  b.set_place({{at(kAtX), at(kAtY), 0.5F}, 0, 0.1F, 0.01F});
+  if (with_interest)
+    a.set_interest([&](RobotId peer, RobotId) {
+      Interest interest;
+      if (const auto& place = a.links().at(peer).place)
+        interest.position_odom = Eigen::Map<const Eigen::Vector3f>(place->position_m.data()).cast<double>();
+      return interest;
+    });
+  for (unsigned i = 0; i < kTiles; ++i) a.say(ItemId::tile(0, tile_in_row(i)), tile(i));
+  const auto knows = [&](unsigned x, unsigned y) {
+    const auto layer = b.layers().find(1);
+    return layer != b.layers().end() &&
+           layer->second.holding.items().contains(ItemId::tile(0, tile_in_row(100 * y + x)));
+  };
+  std::pair<double, double> after{-1, -1};
+  for (Time now{}; now < Time{std::chrono::minutes(5)} && after.second < 0;) {
+    talk(a, b, now, milliseconds(100));
+    bool around = true;
+    for (unsigned y = kAtY - 3; y <= kAtY + 3; ++y)
+      for (unsigned x = kAtX - 3; x <= kAtX + 3; ++x) around = around && knows(x, y);
+    if (around && after.first < 0) after.first = to_seconds(now - Time{});
+    if (b.layers().contains(1) && b.layers().at(1).holding.items().size() == kTiles)
+      after.second = to_seconds(now - Time{});
+  }
+  return after;
+}
+
+TEST(Exchange, WhoJoinsGetsWhatIsAroundItFirst) {
+  const auto [around_by_age, all_by_age] = join(false);
+  const auto [around, all] = join(true);
+  std::cout << "tiles around a robot that joins after " << around << " s, all after " << all << " s; oldest first "
+            << around_by_age << " s and " << all_by_age << " s\n";
+  EXPECT_GT(around, 0);
+  EXPECT_LT(around, 0.2 * around_by_age);
+  EXPECT_LT(all, 1.1 * all_by_age);
 }
 
 TEST(Exchange, WhoSendsTooMuchThatCannotBeIsNotListenedTo) {
