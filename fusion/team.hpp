@@ -71,8 +71,11 @@ struct PeerStanding {
 class Team {
  public:
   Team(const TeamConfig& config, peers::Epoch epoch);
+  Team(Team&&) = delete;
+  Team& operator=(Team&&) = delete;
   Team(const Team&) = delete;
   Team& operator=(const Team&) = delete;
+  ~Team() = default;
 
   /// One's own map begins anew; what was said of it is void, where the robot was put down too: the new odom frame lies
   /// where it is now. `epoch` is higher than the last.

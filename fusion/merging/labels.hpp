@@ -5,9 +5,11 @@
 #include <cstddef>
 #include <span>
 
+#include "onboard/mapping/voxel_label.hpp"
+
 namespace cairn::merging {
 
-inline constexpr std::size_t kClasses = 19;  ///< Cityscapes
+inline constexpr std::size_t kClasses = VoxelLabel::kClasses;  ///< Cityscapes
 /// A probability for each class, 0…1.
 using ClassProbabilities = std::array<double, kClasses>;
 
@@ -16,6 +18,11 @@ using ClassProbabilities = std::array<double, kClasses>;
 /// (7.21 takes the largest). At least one opinion; probabilities are kept inside [10⁻⁶, 1 − 10⁻⁶]. The sums do not
 /// depend on the order (fixed point).
 [[nodiscard]] ClassProbabilities fuse_labels(std::span<const ClassProbabilities> opinions);
+
+/// The same for labels as robots exchange them: the likeliest class, the lowest of equal ones, by its own probability
+/// before the normalisation, in the nearest grade. Whole numbers: the same in any order, on any machine; one opinion
+/// stays what it is. At least one, none of which is no label.
+[[nodiscard]] VoxelLabel fuse_labels(std::span<const VoxelLabel> opinions);
 
 /// Entropy of normalised class probabilities over log(19): 0 for one certain class, 1 for none preferred.
 [[nodiscard]] double label_entropy(const ClassProbabilities& p);

@@ -37,9 +37,16 @@ class Window {
           if (found == layer.end()) continue;
           tiles_[index(x, y, z)] = &found->second.state;
           any_ = true;
+          labelled_ = labelled_ || !found->second.state.labels.empty();
         }
   }
   [[nodiscard]] bool any() const { return any_; }
+  [[nodiscard]] bool labelled() const { return labelled_; }
+  [[nodiscard]] VoxelLabel label(int x, int y, int z) const {
+    const TileState* tile = tiles_[index(x >> 3, y >> 3, z >> 3)];
+    if (tile == nullptr) return {};
+    return tile->label(static_cast<unsigned>(x & 7), static_cast<unsigned>(y & 7), static_cast<unsigned>(z & 7));
+  }
   /// Of a voxel, counted from the tree's corner; it lies in the box.
   [[nodiscard]] float log_odds(int x, int y, int z) const {
     const TileState* tile = tiles_[index(x >> 3, y >> 3, z >> 3)];
@@ -54,7 +61,7 @@ class Window {
 
   std::array<const TileState*, kEdge * kEdge * kEdge> tiles_{};
   Eigen::Vector3i low_;
-  bool any_ = false;
+  bool any_ = false, labelled_ = false;
 };
 
 }  // namespace
@@ -122,7 +129,7 @@ Placement::Fixed Placement::first_centre(TileKey tile) const {
   return moved(submap_from_team_, {2 * first[0] + 1, 2 * first[1] + 1, 2 * first[2] + 1});
 }
 
-bool Placement::read(const TileLayer& layer, TileKey tile, TileVoxels& voxels) const {
+bool Placement::read(const TileLayer& layer, TileKey tile, Said& said) const {
   const Window window(layer, sources_of(tile));
   if (!window.any()) return false;
   const Fixed corner = first_centre(tile);
@@ -131,10 +138,13 @@ bool Placement::read(const TileLayer& layer, TileKey tile, TileVoxels& voxels) c
     return static_cast<int>((corner[i] + R[i][0] * x + R[i][1] * y + R[i][2] * z) >> kBits) + kHalfTree;
   };
   bool any = false;
+  said.labelled = window.labelled();
   for (int at = 0; at < kTileVoxels; ++at) {
     const int x = coordinate(at), y = coordinate(at >> 1), z = coordinate(at >> 2);
-    const float value = window.log_odds(key(0, x, y, z), key(1, x, y, z), key(2, x, y, z));
-    voxels[static_cast<std::size_t>(at)] = value;
+    const int u = key(0, x, y, z), v = key(1, x, y, z), w = key(2, x, y, z);
+    const float value = window.log_odds(u, v, w);
+    said.voxels[static_cast<std::size_t>(at)] = value;
+    if (said.labelled) said.labels[static_cast<std::size_t>(at)] = window.label(u, v, w);
     any = any || value != SemanticNode::kAbsent;
   }
   return any;

@@ -36,8 +36,14 @@ class Placement {
 
   /// The team's tiles that a submap's tile can have a say in.
   [[nodiscard]] TileBox touched_by(TileKey tile) const;
-  /// What the submap says of one of the team's tiles; false where that is nothing.
-  [[nodiscard]] bool read(const TileLayer& layer, TileKey tile, TileVoxels& voxels) const;
+  /// What a submap says of one of the team's tiles.
+  struct Said {
+    TileVoxels voxels;
+    bool labelled = false;
+    TileLabels labels;  ///< where any
+  };
+  /// False where that is nothing.
+  [[nodiscard]] bool read(const TileLayer& layer, TileKey tile, Said& said) const;
 
   /// The submap's tiles that can have a say in one of the team's.
   [[nodiscard]] TileBox sources_of(TileKey tile) const;

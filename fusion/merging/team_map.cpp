@@ -7,6 +7,8 @@
 #include <limits>
 #include <utility>
 
+#include "fusion/merging/labels.hpp"
+
 namespace cairn::merging {
 namespace {
 
@@ -137,20 +139,32 @@ TileKey TeamMap::take_nearest(View& view) const {
 
 void TeamMap::fuse_tile(View& view, TileKey tile) {
   std::size_t known = 0;
+  bool labelled = false;
   for (const auto& [submap, placement] : view.placements) {
     const auto layer = layers_.find(submap);
     if (layer == layers_.end()) continue;
-    if (voxels_.size() <= known) voxels_.emplace_back();
-    if (placement.read(layer->second, tile, voxels_[known])) ++known;
+    if (said_.size() <= known) said_.emplace_back();
+    if (!placement.read(layer->second, tile, said_[known])) continue;
+    labelled = labelled || said_[known].labelled;
+    ++known;
   }
   TileVoxels fused;
+  TileLabels labels;
   for (std::size_t i = 0; i < fused.size(); ++i) {
     opinions_.clear();
     for (std::size_t k = 0; k < known; ++k)
-      if (voxels_[k][i] != SemanticNode::kAbsent) opinions_.push_back(voxels_[k][i]);
+      if (said_[k].voxels[i] != SemanticNode::kAbsent) opinions_.push_back(said_[k].voxels[i]);
     fused[i] = opinions_.empty() ? SemanticNode::kAbsent : std::nearbyintf(fold_(opinions_) * kSteps) / kSteps;
+    labels[i] = labelled && fused[i] >= kLimits.occupied ? fused_label(known, i) : VoxelLabel{};
   }
-  write_tile(*view.fused, tile, fused);
+  write_tile(*view.fused, tile, fused, labelled ? &labels : nullptr);
+}
+
+VoxelLabel TeamMap::fused_label(std::size_t known, std::size_t voxel) {
+  labels_.clear();
+  for (std::size_t k = 0; k < known; ++k)
+    if (said_[k].labelled && said_[k].labels[voxel].any()) labels_.push_back(said_[k].labels[voxel]);
+  return labels_.empty() ? VoxelLabel{} : fuse_labels(labels_);
 }
 
 void TeamMap::step(View& view) {
@@ -194,10 +208,10 @@ std::size_t TeamMap::backlog() const {
 
 TeamMap::Origin TeamMap::origin_of(TileKey tile) const {
   Origin origin;
-  TileVoxels voxels;
+  Placement::Said said;
   for (const auto& [submap, placement] : shown_.placements) {
     const auto layer = layers_.find(submap);
-    if (layer == layers_.end() || !placement.read(layer->second, tile, voxels)) continue;
+    if (layer == layers_.end() || !placement.read(layer->second, tile, said)) continue;
     if (origin.robots.empty() || origin.robots.back() != submap.robot) origin.robots.push_back(submap.robot);
     for_each_tile(placement.sources_of(tile), [&](TileKey source) {
       const auto received = layer->second.find(source);

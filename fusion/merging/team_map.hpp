@@ -29,8 +29,8 @@ using SubmapPoses = std::map<SubmapKey, SE3>;  ///< T_team_submap of those that 
 
 /// The newest tiles of everyone, and the team's map made of them. The finished map is a pure function of the newest
 /// tiles and poses: the order in which they came, how the work was cut into slices and where the robot was do not
-/// matter, and without a robot's submaps the bytes are those from before it came. Log-odds are multiples of 2⁻¹⁰, so
-/// that machines that round differently agree.
+/// matter, and without a robot's submaps the bytes are those from before it came. Labels are fused where the voxel is
+/// occupied. Log-odds are multiples of 2⁻¹⁰, so that machines that round differently agree.
 ///
 /// The work is done in steps of one tile, whose cost is bounded (tens of microseconds for a few robots). New tiles
 /// change the map at once, a tile at a time. New poses change all of it: a second map is built beside the first,
@@ -89,6 +89,7 @@ class TeamMap {
   void step(View& view);
   [[nodiscard]] TileKey take_nearest(View& view) const;
   void fuse_tile(View& view, TileKey tile);
+  [[nodiscard]] VoxelLabel fused_label(std::size_t known, std::size_t voxel);
   void begin_wanted();
   void show_next();
 
@@ -102,8 +103,9 @@ class TeamMap {
   unsigned turn_ = 0;
   Eigen::Vector3d focus_ = Eigen::Vector3d::Zero();
   RememberedFold fold_;
-  std::vector<TileVoxels> voxels_;  // of a tile, by submap; reused
+  std::vector<Placement::Said> said_;  // of a tile, by submap; reused
   std::vector<float> opinions_;
+  std::vector<VoxelLabel> labels_;
 };
 
 }  // namespace cairn::merging

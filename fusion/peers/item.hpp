@@ -54,6 +54,6 @@ struct ItemId {
 };
 
 /// No item's payload is longer.
-inline constexpr std::size_t kMaxPayload = 512;
+inline constexpr std::size_t kMaxPayload = 768;
 
 }  // namespace cairn::peers

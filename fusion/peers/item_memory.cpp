@@ -3,6 +3,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <vector>
 
 #include "fusion/peers/tile_codec.hpp"
 
@@ -13,6 +14,14 @@ constexpr std::size_t kBlockBytes = 128, kInnerBlocks = 8 + 1;  // see NodePool;
 constexpr std::size_t kItemBytes = 192;                         // two nodes of a map, a block of the heap
 constexpr std::size_t kTileBytes = sizeof(TileState) + 128;     // likewise, and a stamp
 constexpr std::size_t kMaps = 2;
+
+/// One bit of each voxel's label.
+TileState::Plane label_bit(const TileState& state, unsigned bit) {
+  TileState::Plane plane{};
+  for (std::size_t i = 0; i < state.labels.size(); ++i)
+    plane[i / 64] |= std::uint64_t{state.labels[i].code >> bit & 1U} << (i % 64);
+  return plane;
+}
 
 /// Of 16 cubes of 2³ voxels in two layers, a bit for each that differs within itself on this plane.
 std::uint64_t uneven(std::uint64_t lower, std::uint64_t upper) {
@@ -26,11 +35,14 @@ std::uint64_t uneven(std::uint64_t lower, std::uint64_t upper) {
 }  // namespace
 
 std::size_t blocks_of(const TileState& state) {
+  std::vector<TileState::Plane> labels;
+  for (unsigned bit = 0; bit < 7 && !state.labels.empty(); ++bit) labels.push_back(label_bit(state, bit));
   std::size_t cubes = 0;
   for (std::size_t z = 0; z < TileState::kEdge; z += 2) {
     std::uint64_t differs = 0;
     for (const TileState::Plane* plane : {&state.known, &state.occupied, &state.low, &state.high})
       differs |= uneven((*plane)[z], (*plane)[z + 1]);
+    for (const TileState::Plane& plane : labels) differs |= uneven(plane[z], plane[z + 1]);
     cubes += static_cast<std::size_t>(std::popcount(differs));
   }
   return cubes + kInnerBlocks;
@@ -40,7 +52,7 @@ std::size_t memory_of(ItemId id, std::span<const std::byte> payload) {
   const std::size_t kept = payload.size() + kItemBytes;
   if (id.kind() != ItemKind::kTile) return kept;
   const auto state = decode_tile(payload);
-  return state ? kept + kTileBytes + kMaps * kBlockBytes * blocks_of(*state) : kept;
+  return state ? kept + kTileBytes + state->labels.size() + kMaps * kBlockBytes * blocks_of(*state) : kept;
 }
 
 }  // namespace cairn::peers

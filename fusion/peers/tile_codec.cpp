@@ -6,23 +6,23 @@
 #include <cstdint>
 #include <optional>
 
+#include "fusion/peers/tile_labels.hpp"
+#include "fusion/peers/tile_planes.hpp"
 #include "hal/bytes.hpp"
 
 namespace cairn::peers {
 namespace {
 
-using Plane = TileState::Plane;
-constexpr unsigned kEdge = TileState::kEdge;
 constexpr std::uint64_t kAll = ~std::uint64_t{0};
 constexpr std::uint8_t kUniform = 0x80, kUniformOccupied = 4, kUniformBits = 0x87;
-constexpr std::uint8_t kSomeUnknown = 1, kSomeOccupied = 2, kSomeWeak = 4, kBits = 7;
+constexpr std::uint8_t kSomeUnknown = 1, kSomeOccupied = 2, kSomeWeak = 4, kSomeLabels = 8, kBits = 15;
 
 bool is(const Plane& plane, std::uint64_t value) {
   return std::all_of(plane.begin(), plane.end(), [value](std::uint64_t slice) { return slice == value; });
 }
 bool uniform(const Plane& plane) { return (plane[0] == 0 || plane[0] == kAll) && is(plane, plane[0]); }
 bool uniform(const TileState& s) {
-  return is(s.known, kAll) && uniform(s.occupied) && uniform(s.low) && uniform(s.high);
+  return s.labels.empty() && is(s.known, kAll) && uniform(s.occupied) && uniform(s.low) && uniform(s.high);
 }
 
 Plane weak(const TileState& s) {
@@ -31,19 +31,6 @@ Plane weak(const TileState& s) {
   return plane;
 }
 
-/// What differs from the row below, in each slice; and back.
-Plane row_changes(Plane plane) {
-  for (std::uint64_t& slice : plane) slice ^= slice << 8;
-  return plane;
-}
-Plane from_row_changes(Plane changes) {
-  for (std::uint64_t& slice : changes) {
-    slice ^= slice << 8;
-    slice ^= slice << 16;
-    slice ^= slice << 32;
-  }
-  return changes;
-}
 Plane slice_changes(Plane plane) {
   for (unsigned z = kEdge; --z > 0;) plane[z] ^= plane[z - 1];
   return plane;
@@ -51,50 +38,6 @@ Plane slice_changes(Plane plane) {
 Plane from_slice_changes(Plane changes) {
   for (unsigned z = 1; z < kEdge; ++z) changes[z] ^= changes[z - 1];
   return changes;
-}
-
-std::uint8_t row(std::uint64_t slice, unsigned y) { return static_cast<std::uint8_t>(slice >> (8 * y)); }
-
-std::uint8_t rows_in(std::uint64_t slice) {
-  std::uint8_t rows = 0;
-  for (unsigned y = 0; y < kEdge; ++y)
-    if (row(slice, y) != 0) rows = static_cast<std::uint8_t>(rows | 1U << y);
-  return rows;
-}
-
-void put(std::vector<std::byte>& out, std::uint8_t value) { out.push_back(std::byte{value}); }
-
-void put_plane(std::vector<std::byte>& out, const Plane& plane) {
-  const std::size_t slices_at = out.size();
-  std::uint8_t slices = 0;
-  put(out, 0);
-  for (unsigned z = 0; z < kEdge; ++z) {
-    if (plane[z] == 0) continue;
-    slices = static_cast<std::uint8_t>(slices | 1U << z);
-    const std::uint8_t rows = rows_in(plane[z]);
-    put(out, rows);
-    for (unsigned left = rows; left != 0; left &= left - 1)
-      put(out, row(plane[z], static_cast<unsigned>(std::countr_zero(left))));
-  }
-  out[slices_at] = std::byte{slices};
-}
-
-/// Nothing where the bytes end early or could be fewer.
-std::optional<Plane> read_plane(ByteReader& in) {
-  Plane plane{};
-  const auto slices = in.read<std::uint8_t>();
-  if (!slices) return std::nullopt;
-  for (unsigned z_left = *slices; z_left != 0; z_left &= z_left - 1) {
-    const auto rows = in.read<std::uint8_t>();
-    if (!rows || *rows == 0) return std::nullopt;
-    for (unsigned y_left = *rows; y_left != 0; y_left &= y_left - 1) {
-      const auto voxels = in.read<std::uint8_t>();
-      if (!voxels || *voxels == 0) return std::nullopt;
-      plane[static_cast<unsigned>(std::countr_zero(z_left))] |= std::uint64_t{*voxels}
-                                                                << (8 * std::countr_zero(y_left));
-    }
-  }
-  return plane;
 }
 
 void put_grades(std::vector<std::byte>& out, const TileState& s) {
@@ -146,7 +89,7 @@ std::uint8_t uniform_byte(const TileState& s) {
 
 std::uint8_t what_follows(const TileState& s) {
   return static_cast<std::uint8_t>((is(s.known, kAll) ? 0U : kSomeUnknown) | (s.any_occupied() ? kSomeOccupied : 0U) |
-                                   (is(weak(s), 0) ? 0U : kSomeWeak));
+                                   (is(weak(s), 0) ? 0U : kSomeWeak) | (s.labels.empty() ? 0U : kSomeLabels));
 }
 
 /// The planes and grades that `flags` announce.
@@ -164,12 +107,14 @@ bool read_mixed(ByteReader& in, std::uint8_t flags, TileState& s) {
   }
   if ((flags & kSomeWeak) != 0) {
     const auto plane = read_plane(in);
-    if (!plane || !TileState{s.known, *plane, {}, {}}.valid()) return false;
+    if (!plane || !TileState{s.known, *plane, {}, {}, {}}.valid()) return false;
     for (unsigned z = 0; z < kEdge; ++z)
       if (((*plane)[z] & s.occupied[z]) != 0) return false;
     s.low = *plane;
   }
-  return read_grades(in, s) && s.valid() && !s.empty();
+  if (!read_grades(in, s)) return false;
+  if ((flags & kSomeLabels) != 0 && !read_labels(in, s)) return false;
+  return s.valid() && !s.empty();
 }
 
 }  // namespace
@@ -182,6 +127,7 @@ void encode_tile(const TileState& state, std::vector<std::byte>& out) {
   if ((flags & kSomeOccupied) != 0) put_plane(out, row_changes(state.occupied));
   if ((flags & kSomeWeak) != 0) put_plane(out, weak(state));
   put_grades(out, state);
+  if ((flags & kSomeLabels) != 0) put_labels(out, state);
 }
 
 bool is_uniform_tile(std::span<const std::byte> bytes) {

@@ -22,13 +22,26 @@ using Tree = Result<std::unique_ptr<SemanticOcTree>>;
 
 constexpr int kZstdLevel = 3;
 
+// As deep as the tree: 16 levels.
+// NOLINTNEXTLINE(misc-no-recursion)
+bool any_label(const SemanticNode& node) {
+  if (node.block() == nullptr) return node.present() && VoxelLabel::from_id(node.label_id()).any();
+  return std::any_of(node.block(), node.block() + SemanticNode::kChildren, any_label);
+}
+
 /// Turns a canonical tree into compressed chunks.
 class ChunkWriter {
  public:
+  explicit ChunkWriter(bool labelled) : labelled_(labelled) {}
+
   void node(const SemanticNode& node) {
     if (structure_.size() + values_.size() >= cairn_format::kChunkBytes) flush();
     const SemanticNode* block = node.block();
-    if (block == nullptr) return append_le(values_, node.getLogOdds());
+    if (block == nullptr) {
+      append_le(values_, node.getLogOdds());
+      if (labelled_) append_le(values_, VoxelLabel::from_id(node.label_id()).code);
+      return;
+    }
     unsigned children = 0, inner = 0;
     for (unsigned i = 0; i < SemanticNode::kChildren; ++i) {
       children |= (block[i].present() ? 1U : 0U) << i;
@@ -61,6 +74,7 @@ class ChunkWriter {
   std::vector<std::byte> stored;
 
  private:
+  bool labelled_;
   std::vector<std::byte> structure_, values_;
 };
 
@@ -75,6 +89,13 @@ class ChunkReader {
     return read<T>(structure_);
   }
   Result<float> value() { return read<float>(values_); }
+  /// Of the leaf whose value was read.
+  Result<VoxelLabel> label() {
+    if (!header_.labelled) return VoxelLabel{};
+    const auto code = values_.read<std::uint8_t>();
+    if (code && VoxelLabel{*code}.valid()) return VoxelLabel{*code};
+    return Error{Errc::kMalformed, "a leaf has no label, or one that is none", {}, chunk_offset_, {}};
+  }
   /// Nothing is left over.
   [[nodiscard]] bool exhausted() const { return empty() && next_ == header_.chunks.size(); }
   /// Of the chunk in use, in the file.
@@ -129,7 +150,9 @@ class NodeReader {
     const bool leaf = depth == 0 ? root_is_leaf_ : ((inner_[depth - 1] >> builder_.child_index()) & 1U) == 0;
     if (leaf) {
       const auto value = chunks_.value();
-      return value ? builder_.leaf(*value) : value.error();
+      if (!value) return value.error();
+      const auto label = chunks_.label();
+      return label ? builder_.leaf(*value, *label) : label.error();
     }
     const auto masks = chunks_.structure<std::uint16_t>();
     if (!masks) return masks.error();
@@ -153,6 +176,8 @@ Result<void> read_nodes(ChunkReader& chunks, const Header& header, const MapLimi
     if (Result<void> given = reader.next(); !given) return given;
   if (builder.nodes() != header.nodes || !chunks.exhausted())
     return Error{Errc::kMalformed, "the header announces another number of nodes", {}, {}, {}};
+  if (header.labelled && (tree.getRoot() == nullptr || !any_label(*tree.getRoot())))
+    return Error{Errc::kMalformed, "the header announces labels, and there are none", {}, {}, {}};
   if (tree.size() != header.nodes) return Error{Errc::kMalformed, "the tree is not pruned", {}, {}, {}};
   return {};
 }
@@ -166,10 +191,12 @@ std::vector<std::byte> encode_cairn(const SemanticOcTree& tree, std::string_view
     canonical.canonicalise();
     return encode_cairn(canonical, metadata);
   }
-  ChunkWriter writer;
+  const bool labelled = tree.getRoot() != nullptr && any_label(*tree.getRoot());
+  ChunkWriter writer(labelled);
   if (tree.getRoot() != nullptr) writer.node(*tree.getRoot());
   writer.flush();
-  const Header header{tree.getResolution(), tree.sensor_model(), tree.size(), metadata, std::move(writer.chunks), 0};
+  const Header header{
+      tree.getResolution(), tree.sensor_model(), tree.size(), metadata, std::move(writer.chunks), 0, labelled};
   return cairn_format::assemble(header, writer.stored);
 }
 

@@ -17,6 +17,7 @@ constexpr std::size_t kFixedBytes = 72;  // up to the metadata
 constexpr std::size_t kChunkEntryBytes = 16;
 constexpr std::size_t kHashBytes = 8;
 constexpr std::size_t kFileBytesOffset = 16;
+constexpr std::uint32_t kLabelled = 1;  // of the flags
 
 Error fault(Errc code, std::string_view cause, std::uint64_t offset, std::string detail = {}) {
   return {code, cause, {}, offset, std::move(detail)};
@@ -35,7 +36,7 @@ struct Fixed {
   SensorModel model{};
   std::uint32_t metadata_bytes = 0;
   std::uint64_t nodes = 0;
-  std::uint32_t chunks = 0, reserved = 0;
+  std::uint32_t chunks = 0, flags = 0;
 };
 
 Fixed read_fixed(std::span<const std::byte> bytes) {
@@ -44,7 +45,7 @@ Fixed read_fixed(std::span<const std::byte> bytes) {
   const auto take = [&in](auto& value) { value = *in.read<std::remove_reference_t<decltype(value)>>(); };
   take(f.version), take(f.header_bytes), take(f.file_bytes), take(f.resolution);
   take(f.model.hit), take(f.model.miss), take(f.model.min), take(f.model.max), take(f.model.occupied);
-  take(f.metadata_bytes), take(f.nodes), take(f.chunks), take(f.reserved);
+  take(f.metadata_bytes), take(f.nodes), take(f.chunks), take(f.flags);
   return f;
 }
 
@@ -112,7 +113,7 @@ std::vector<std::byte> assemble(const Header& header, std::span<const std::byte>
   append_le(out, static_cast<std::uint32_t>(header.metadata.size()));
   append_le(out, header.nodes);
   append_le(out, static_cast<std::uint32_t>(header.chunks.size()));
-  append_le(out, std::uint32_t{0});
+  append_le(out, header.labelled ? kLabelled : 0U);
   append(out, header.metadata);
   for (const Chunk& chunk : header.chunks) {
     append_le(out, chunk.raw_bytes);
@@ -138,8 +139,8 @@ Result<Header> parse(std::span<const std::byte> bytes) {
   if (!(f.resolution >= kMinResolution && f.resolution <= kMaxResolution))
     return fault(Errc::kMalformed, "the resolution is senseless", 24, std::to_string(f.resolution) + " m");
   if (auto error = check_model(f.model)) return *error;
-  if (f.reserved != 0) return fault(Errc::kUnsupported, "a reserved field is in use", 68);
-  Header header{f.resolution, f.model, f.nodes, {}, {}, f.header_bytes};
+  if ((f.flags & ~kLabelled) != 0) return fault(Errc::kUnsupported, "a reserved field is in use", 68);
+  Header header{f.resolution, f.model, f.nodes, {}, {}, f.header_bytes, (f.flags & kLabelled) != 0};
   header.metadata = {reinterpret_cast<const char*>(bytes.data()) + kFixedBytes, f.metadata_bytes};
   if (auto error = read_chunks(bytes, f, header)) return *error;
   if (auto error = check_hash(bytes, bytes.size() - kHashBytes, "the checksum of the file is wrong")) return *error;

@@ -33,6 +33,7 @@ struct Header {
   std::string_view metadata;
   std::vector<Chunk> chunks;
   std::size_t bytes = 0;  ///< of the header itself; the first chunk starts there
+  bool labelled = false;  ///< each leaf has a VoxelLabel after its log-odds
 };
 
 /// XXH3-64.

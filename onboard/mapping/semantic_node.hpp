@@ -15,7 +15,8 @@ namespace cairn {
 /// octomap::OcTreeNode*, to code that walks children.
 ///
 /// OctoMap wastes four bytes of its node as padding. Here they hold the id of an entry in a label store outside of the
-/// tree (evidence for the 19 classes); 0 means that the voxel has no label. Nodes are only pruned when their ids are
+/// tree (evidence for the 19 classes), or, up to VoxelLabel::kCodes, the label itself; 0 means that the voxel has no
+/// label. Nodes are only pruned when their ids are
 /// equal too.
 class SemanticNode : public octomap::OcTreeNode {
  public:

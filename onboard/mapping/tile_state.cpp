@@ -2,6 +2,9 @@
 #include "onboard/mapping/tile_state.hpp"
 
 #include <algorithm>
+#include <array>
+#include <span>
+#include <utility>
 
 namespace cairn {
 namespace {
@@ -56,12 +59,48 @@ Path path_to(SemanticOcTree& map, NodeWriter& writer, TileKey tile) {
   return path;
 }
 
+/// How often each label occurs.
+using LabelCounts = std::array<std::size_t, VoxelLabel::kCodes + 1>;
+LabelCounts count(std::span<const VoxelLabel> labels) {
+  LabelCounts counts{};
+  for (const VoxelLabel label : labels) ++counts[label.code];
+  counts[0] = 0;
+  return counts;
+}
+std::size_t kinds(const LabelCounts& counts) {
+  return static_cast<std::size_t>(std::ranges::count_if(counts, [](std::size_t n) { return n > 0; }));
+}
+
+bool sound(const TileState& state) {
+  if (state.labels.empty()) return true;
+  if (state.labels.size() != static_cast<std::size_t>(kTileVoxels)) return false;
+  for (std::size_t i = 0; i < state.labels.size(); ++i) {
+    const bool occupied = (state.occupied[i / 64] >> (i % 64) & 1U) != 0;
+    if (!state.labels[i].valid() || (state.labels[i].any() && !occupied)) return false;
+  }
+  const std::size_t different = kinds(count(state.labels));
+  return different > 0 && different <= TileState::kMostLabels;
+}
+
 }  // namespace
 
 bool TileState::valid() const {
   std::uint64_t wrong = 0;
   for (unsigned z = 0; z < kEdge; ++z) wrong |= ((occupied[z] | low[z]) & ~known[z]) | (high[z] & ~occupied[z]);
-  return wrong == 0;
+  return wrong == 0 && sound(*this);
+}
+
+void TileState::set_labels(std::vector<VoxelLabel> of_voxels) {
+  labels = std::move(of_voxels);
+  LabelCounts counts = count(labels);
+  while (kinds(counts) > kMostLabels) {
+    std::size_t rarest = 0;
+    for (std::size_t code = 1; code < counts.size(); ++code)
+      if (counts[code] > 0 && (rarest == 0 || counts[code] < counts[rarest])) rarest = code;
+    std::ranges::replace(labels, VoxelLabel{static_cast<std::uint8_t>(rarest)}, VoxelLabel{});
+    counts[rarest] = 0;
+  }
+  if (kinds(counts) == 0) labels.clear();
 }
 
 float TileState::log_odds(unsigned x, unsigned y, unsigned z) const {
@@ -102,22 +141,33 @@ TileState read_tile(const SemanticOcTree& map, TileKey tile) {
   for_each_voxel([&](unsigned x, unsigned y, unsigned z, std::size_t i) {
     if (voxels[i] != SemanticNode::kAbsent) state.set(x, y, z, voxels[i], threshold);
   });
+  TileLabels labels;
+  if (!state.any_occupied() || !read_labels(*node, labels)) return state;
+  std::vector<VoxelLabel> of_voxels;
+  for_each_voxel([&](unsigned x, unsigned y, unsigned z, std::size_t i) {
+    of_voxels.push_back((state.occupied[z] >> (8 * y + x) & 1U) != 0 ? labels[i] : VoxelLabel{});
+  });
+  state.set_labels(std::move(of_voxels));
   return state;
 }
 
 void write_tile(SemanticOcTree& map, TileKey tile, const TileState& state) {
   TileVoxels voxels;
   for_each_voxel([&](unsigned x, unsigned y, unsigned z, std::size_t i) { voxels[i] = state.log_odds(x, y, z); });
-  write_tile(map, tile, voxels);
+  if (state.labels.empty()) return write_tile(map, tile, voxels);
+  TileLabels labels;
+  for_each_voxel([&](unsigned x, unsigned y, unsigned z, std::size_t i) { labels[i] = state.label(x, y, z); });
+  write_tile(map, tile, voxels, &labels);
 }
 
-void write_tile(SemanticOcTree& map, TileKey tile, const TileVoxels& voxels) {
+void write_tile(SemanticOcTree& map, TileKey tile, const TileVoxels& voxels, const TileLabels* labels) {
   const bool empty = std::ranges::all_of(voxels, [](float v) { return v == SemanticNode::kAbsent; });
   if (empty && read_tile(map, tile).empty()) return;
   NodeWriter& writer = map.writer(0);
   const Path path = path_to(map, writer, tile);
   clear_below(writer, path.back());
-  bool known = write_voxels(voxels, writer, path.back());
+  path.back()->set_label_id(0);
+  bool known = write_voxels(voxels, writer, path.back(), labels);
   for (unsigned depth = kTileDepth; depth-- > 0;) {
     if (!known) {
       path[depth + 1]->setLogOdds(SemanticNode::kAbsent);

@@ -22,6 +22,10 @@ struct TileState {
   Plane occupied{};  ///< known voxels only
   Plane low{};       ///< lower bit of the grade; grade 0 is the surest. Known voxels only
   Plane high{};      ///< upper bit; occupied voxels only
+  /// Of occupied voxels, x fastest; empty where none has one, else of all 512 voxels, of not more than kMostLabels
+  /// kinds.
+  std::vector<VoxelLabel> labels{};
+  static constexpr std::size_t kMostLabels = 16;
 
   static constexpr std::array<float, 2> kFree{-1.6F, -0.4F};  ///< log-odds of the grades
   static constexpr std::array<float, 4> kOccupied{3.5F, 2.5F, 1.5F, 0.5F};
@@ -35,7 +39,12 @@ struct TileState {
 
   /// Log-odds of a voxel, each coordinate 0…7; SemanticNode::kAbsent where it is unknown.
   [[nodiscard]] float log_odds(unsigned x, unsigned y, unsigned z) const;
-  /// The nearest grade; a value from `threshold` on is occupied.
+  [[nodiscard]] VoxelLabel label(unsigned x, unsigned y, unsigned z) const {
+    return labels.empty() ? VoxelLabel{} : labels[x + kEdge * (y + kEdge * z)];
+  }
+  /// Of labels of occupied voxels, x fastest; of more than kMostLabels kinds the rarest are left out.
+  void set_labels(std::vector<VoxelLabel> of_voxels);
+  /// The nearest grade; a value from `threshold` on is occupied. Labels stay as they are.
   void set(unsigned x, unsigned y, unsigned z, float log_odds, float threshold = 0);
 };
 
@@ -46,8 +55,8 @@ struct TileState {
 /// removes the tile.
 void write_tile(SemanticOcTree& map, TileKey tile, const TileState& state);
 
-/// The same for any log-odds.
-void write_tile(SemanticOcTree& map, TileKey tile, const TileVoxels& voxels);
+/// The same for any log-odds; `labels` null: none.
+void write_tile(SemanticOcTree& map, TileKey tile, const TileVoxels& voxels, const TileLabels* labels = nullptr);
 
 /// Every tile in which the map knows something, in canonical order; not more than `most`.
 [[nodiscard]] std::vector<TileKey> known_tiles(const SemanticOcTree& map, std::size_t most);

@@ -12,7 +12,7 @@ bool nothing_known(const float* voxels, int count) {
 
 /// Of voxels of which at least one is known.
 // NOLINTNEXTLINE(misc-no-recursion)
-void write_voxels(const float* voxels, int count, NodeWriter& writer, SemanticNode* node) {
+void write_voxels(const float* voxels, const VoxelLabel* labels, int count, NodeWriter& writer, SemanticNode* node) {
   writer.add_block(node);
   const int each = count / static_cast<int>(SemanticNode::kChildren);
   std::ptrdiff_t made = 0;
@@ -20,16 +20,36 @@ void write_voxels(const float* voxels, int count, NodeWriter& writer, SemanticNo
     const float* of_child = voxels + static_cast<int>(i) * each;
     if (nothing_known(of_child, each)) continue;
     ++made;
-    if (each == 1)
-      node->block()[i].setLogOdds(*of_child);
-    else
-      write_voxels(of_child, each, writer, node->block() + i);
+    const VoxelLabel* labels_of_child = labels != nullptr ? labels + static_cast<int>(i) * each : nullptr;
+    SemanticNode* child = node->block() + i;
+    if (each > 1) {
+      write_voxels(of_child, labels_of_child, each, writer, child);
+      continue;
+    }
+    child->setLogOdds(*of_child);
+    if (labels != nullptr) child->set_label_id(labels_of_child->code);
   }
   writer.count(made);
   writer.refresh(node);
 }
 
+// NOLINTNEXTLINE(misc-no-recursion)
+bool read_labels(const SemanticNode& node, VoxelLabel* labels, int count) {
+  if (node.block() == nullptr) {
+    const VoxelLabel label = VoxelLabel::from_id(node.label_id());
+    std::fill_n(labels, count, label);
+    return label.any();
+  }
+  const int each = count / static_cast<int>(SemanticNode::kChildren);
+  bool any = false;
+  for (unsigned i = 0; i < SemanticNode::kChildren; ++i)
+    any = read_labels(node.block()[i], labels + static_cast<int>(i) * each, each) || any;
+  return any;
+}
+
 }  // namespace
+
+bool read_labels(const SemanticNode& node, TileLabels& labels) { return read_labels(node, labels.data(), kTileVoxels); }
 
 // NOLINTNEXTLINE(misc-no-recursion)
 void read_voxels(const SemanticNode& node, float* voxels, int count) {
@@ -47,9 +67,9 @@ void read_voxels(const SemanticNode& node, float* voxels, int count) {
   }
 }
 
-bool write_voxels(const TileVoxels& voxels, NodeWriter& writer, SemanticNode* leaf) {
+bool write_voxels(const TileVoxels& voxels, NodeWriter& writer, SemanticNode* leaf, const TileLabels* labels) {
   if (nothing_known(voxels.data(), kTileVoxels)) return false;
-  write_voxels(voxels.data(), kTileVoxels, writer, leaf);
+  write_voxels(voxels.data(), labels != nullptr ? labels->data() : nullptr, kTileVoxels, writer, leaf);
   return true;
 }
 

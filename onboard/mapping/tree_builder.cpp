@@ -6,9 +6,11 @@
 
 namespace cairn {
 
-Result<void> TreeBuilder::leaf(float log_odds) {
+Result<void> TreeBuilder::leaf(float log_odds, VoxelLabel label) {
   if (!std::isfinite(log_odds)) return Error{Errc::kMalformed, "a log-odds value is not finite"};
-  place()->setLogOdds(log_odds);
+  SemanticNode* leaf = place();
+  leaf->setLogOdds(log_odds);
+  leaf->set_label_id(label.code);
   close_complete();
   return {};
 }

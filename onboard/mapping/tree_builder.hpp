@@ -7,6 +7,7 @@
 
 #include "hal/result.hpp"
 #include "onboard/mapping/semantic_octree.hpp"
+#include "onboard/mapping/voxel_label.hpp"
 
 namespace cairn {
 
@@ -35,7 +36,7 @@ class TreeBuilder {
   [[nodiscard]] std::uint64_t nodes() const { return nodes_; }
 
   /// The next node is a leaf.
-  Result<void> leaf(float log_odds);
+  Result<void> leaf(float log_odds, VoxelLabel label = {});
   /// The next node is an inner one; the children in the mask follow, lowest bit first.
   Result<void> inner(std::uint8_t children);
 

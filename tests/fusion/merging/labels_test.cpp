@@ -4,7 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <numeric>
+#include <random>
 #include <vector>
 
 namespace cairn::merging {
@@ -46,6 +48,51 @@ TEST(FuseLabels, IsNormalisedAndDoesNotDependOnTheOrder) {
   const auto ba = fuse_labels(std::vector<ClassProbabilities>{mostly(3, 1.0), mostly(1, 0.8), mostly(2, 0.9)});
   EXPECT_EQ(ab, ba);
   EXPECT_NEAR(std::accumulate(ab.begin(), ab.end(), 0.0), 1, 1e-12);
+}
+
+std::vector<VoxelLabel> random_labels(std::mt19937& random, unsigned classes) {
+  std::vector<VoxelLabel> labels;
+  for (auto count = 1 + random() % 5; count > 0; --count) {
+    const unsigned class_id = static_cast<unsigned>(random() % classes);
+    labels.push_back(VoxelLabel::of(class_id, static_cast<unsigned>(random() % VoxelLabel::kGrades)));
+  }
+  return labels;
+}
+
+TEST(FuseCoarseLabels, OneOpinionStaysWhatItIs) {
+  for (unsigned code = 1; code <= VoxelLabel::kCodes; ++code) {
+    const std::array only{VoxelLabel{static_cast<std::uint8_t>(code)}};
+    EXPECT_EQ(fuse_labels(only), only[0]);
+  }
+}
+
+TEST(FuseCoarseLabels, TheOrderDoesNotMatter) {
+  std::mt19937 random(1);
+  for (unsigned i = 0; i < 2000; ++i) {
+    auto labels = random_labels(random, 1 + i % 19);
+    const VoxelLabel fused = fuse_labels(labels);
+    std::ranges::shuffle(labels, random);
+    EXPECT_EQ(fuse_labels(labels), fused);
+  }
+}
+
+TEST(FuseCoarseLabels, IsTheClassThatProbabilitiesGive) {
+  std::mt19937 random(2);
+  for (int i = 0; i < 2000; ++i) {
+    const auto labels = random_labels(random, 3);
+    std::vector<ClassProbabilities> opinions;
+    for (const VoxelLabel label : labels)
+      opinions.push_back(mostly(label.class_id(), VoxelLabel::kProbability[label.grade()]));
+    const auto exact = fuse_labels(opinions);
+    EXPECT_NEAR(exact[fuse_labels(labels).class_id()], exact[label_of(exact)], 1e-4);
+  }
+}
+
+TEST(FuseCoarseLabels, AgreementMakesSurerAndDisagreementLess) {
+  const VoxelLabel car = VoxelLabel::of(kCar, 2), road = VoxelLabel::of(kRoad, 2);
+  EXPECT_LT(fuse_labels(std::vector{car, car}).grade(), car.grade());
+  EXPECT_EQ(fuse_labels(std::vector{car, car}).class_id(), kCar);
+  EXPECT_GT(fuse_labels(std::vector{car, road}).grade(), car.grade());
 }
 
 TEST(LabelEntropy, IsZeroForCertaintyAndOneForNone) {

@@ -121,6 +121,67 @@ TEST(TeamMap, HowTheWorkWasCutAndOrderedDoesNotMatter) {
   }
 }
 
+std::map<std::uint64_t, std::uint32_t> labels_of(const SemanticOcTree& map) {
+  std::map<std::uint64_t, std::uint32_t> labels;
+  SemanticOcTree fine(map);
+  fine.expand();
+  for (auto leaf = fine.begin_leafs(); leaf != fine.end_leafs(); ++leaf)
+    if (leaf->label_id() != 0)
+      labels[std::uint64_t{leaf.getKey()[0]} << 32U | std::uint64_t{leaf.getKey()[1]} << 16U | leaf.getKey()[2]] =
+          leaf->label_id();
+  return labels;
+}
+
+Tiles labelled(Tiles tiles, unsigned seed) {
+  std::mt19937 random(seed);
+  for (auto& [submap, layer] : tiles)
+    for (auto& [tile, state] : layer)
+      if (random() % 3 != 0) state = peers::with_labels(state, random, 12);
+  return tiles;
+}
+
+TEST(TeamMap, LabelsAreFusedInWhateverOrderTheyCame) {
+  const Tiles plain = random_tiles(7, 3), tiles = labelled(plain, 1);
+  const auto map = fused(tiles, poses_of(tiles));
+  const auto labels = labels_of(map->map());
+  EXPECT_GT(labels.size(), 500U);
+  EXPECT_TRUE(map->map().is_canonical());
+  TeamMap other(kResolution, Policy::kRelativeEntropy);
+  other.place(poses_of(tiles));
+  put_all(other, labelled(plain, 2));
+  finish(other);
+  for (auto layer = tiles.rbegin(); layer != tiles.rend(); ++layer)
+    for (auto tile = layer->second.rbegin(); tile != layer->second.rend(); ++tile)
+      other.put(layer->first, tile->first, tile->second, Time{});
+  finish(other);
+  EXPECT_EQ(labels_of(other.map()), labels);
+  EXPECT_EQ(differing_nodes(other.map(), map->map()), 0U);
+}
+
+TEST(TeamMap, TwoWhoAgreeAboutALabelAreSurer) {
+  TileState wall;
+  wall.set(2, 3, 4, 3.5F);
+  std::vector<VoxelLabel> car(512), tree(512);
+  car[2 + 8 * (3 + 8 * 4)] = VoxelLabel::of(13, 2);
+  tree[2 + 8 * (3 + 8 * 4)] = VoxelLabel::of(8, 1);
+  const TileKey at = TileKey::of_voxel(32768, 32768, 32768);
+  const auto fused_of = [&](const std::vector<std::vector<VoxelLabel>>& said) {
+    Tiles tiles;
+    SubmapPoses poses;
+    for (std::uint64_t robot = 1; robot <= said.size(); ++robot) {
+      wall.set_labels(said[robot - 1]);
+      tiles[{robot, 0}][at] = wall;
+      poses[{robot, 0}] = SE3();
+    }
+    return VoxelLabel::from_id(labels_of(fused(tiles, poses)->map()).begin()->second);
+  };
+  EXPECT_EQ(fused_of({car}), VoxelLabel::of(13, 2));
+  EXPECT_EQ(fused_of({car, std::vector<VoxelLabel>(512)}), VoxelLabel::of(13, 2)) << "who says nothing changes nothing";
+  EXPECT_EQ(fused_of({car, car}).class_id(), 13U);
+  EXPECT_LT(fused_of({car, car}).grade(), 2U);
+  EXPECT_EQ(fused_of({car, tree}).class_id(), 8U) << "the surer";
+}
+
 TEST(TeamMap, WithoutARobotItIsWhatItWasBefore) {
   Tiles tiles = random_tiles(6, 3);
   auto map = fused(tiles, poses_of(tiles));

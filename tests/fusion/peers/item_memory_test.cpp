@@ -29,7 +29,8 @@ TEST(ItemMemory, ATreeNeverNeedsMoreBlocks) {
   constexpr std::size_t kAbove = 16 - TileKey::kVoxelBits;  // blocks on the way down to a tile
   std::mt19937 random(1);
   for (int round = 0; round < 300; ++round) {
-    const TileState state = round == 0 ? checkerboard(0) : wall_tile_state(random);
+    TileState state = round == 0 ? checkerboard(0) : wall_tile_state(random);
+    if (round % 2 == 1) state = with_labels(state, random, 5);
     SemanticOcTree map(0.2);
     write_tile(map, TileKey::of_voxel(32768, 32768, 32768), state);
     EXPECT_LE(blocks_in(map.getRoot()), blocks_of(state) + kAbove);

@@ -26,6 +26,43 @@ TEST(TileCodec, DecodesWhatItEncodes) {
   }
 }
 
+TEST(TileCodec, LabelsComeBackAndCostNothingWhereThereAreNone) {
+  std::mt19937 random(4);
+  for (int i = 0; i < 2000; ++i) {
+    const TileState plain = random_tile_state(random);
+    const auto kinds = static_cast<unsigned>(1 + random() % VoxelLabel::kCodes);
+    const TileState state = with_labels(plain, random, kinds);
+    const auto bytes = encoded(state);
+    ASSERT_LE(bytes.size(), kMaxTileBytes);
+    const auto decoded = decode_tile(bytes);
+    ASSERT_TRUE(decoded.has_value());
+    ASSERT_EQ(*decoded, state);
+    ASSERT_EQ(has_occupied(bytes), plain.any_occupied());
+    if (state.labels.empty()) {
+      ASSERT_EQ(bytes, encoded(plain));
+    }
+  }
+}
+
+TEST(TileCodec, OnlyOneFormOfLabelsIsTaken) {
+  std::mt19937 random(5);
+  int decoded_ones = 0;
+  for (int i = 0; i < 30000; ++i) {
+    const TileState wall = wall_tile_state(random);
+    const auto kinds = static_cast<unsigned>(1 + random() % 20);
+    auto bytes = encoded(with_labels(wall, random, kinds));
+    for (auto changes = 1 + random() % 2; changes > 0; --changes)
+      bytes[random() % bytes.size()] ^= static_cast<std::byte>(1U << random() % 8);
+    if (random() % 4 == 0) bytes.resize(random() % (bytes.size() + 3));
+    const auto decoded = decode_tile(bytes);
+    if (!decoded) continue;
+    ++decoded_ones;
+    ASSERT_TRUE(decoded->valid());
+    ASSERT_EQ(encoded(*decoded), bytes);
+  }
+  EXPECT_GT(decoded_ones, 1000);
+}
+
 TEST(TileCodec, ATileOfOneKindIsOneByte) {
   for (const float value : {-1.6F, -0.4F, 0.5F, 1.5F, 2.5F, 3.5F}) {
     TileState state;
@@ -40,6 +77,8 @@ TEST(TileCodec, TheWorstTileFits) {
   TileState worst;
   for (unsigned i = 0; i < 512; ++i)
     if (i % 2 == (i / 8 + i / 64) % 2) worst.set(i % 8, i / 8 % 8, i / 64, i % 4 < 2 ? -0.4F : 1.5F);
+  worst = with_labels(worst, random, 16);
+  EXPECT_FALSE(worst.labels.empty());
   EXPECT_LE(encoded(worst).size(), kMaxTileBytes);
 }
 

@@ -27,6 +27,18 @@ inline TileState random_tile_state(std::mt19937& random) {
   return state;
 }
 
+/// Labels for some of its occupied voxels, of up to so many kinds.
+inline TileState with_labels(TileState state, std::mt19937& random, unsigned kinds) {
+  std::vector<VoxelLabel> labels(512);
+  for (std::size_t i = 0; i < 512; ++i) {
+    const unsigned drawn = static_cast<unsigned>(random());
+    if ((state.occupied[i / 64] >> (i % 64) & 1U) != 0 && drawn % 3 != 0)
+      labels[i].code = static_cast<std::uint8_t>(1 + drawn / 3 % kinds);
+  }
+  state.set_labels(labels);
+  return state;
+}
+
 /// A wall, somewhat rough, with free space on one side of it and nothing known behind: what most tiles look like.
 inline TileState wall_tile_state(std::mt19937& random) {
   TileState state;

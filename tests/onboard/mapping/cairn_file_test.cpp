@@ -6,6 +6,7 @@
 
 #include "hal/bytes.hpp"
 #include "onboard/mapping/cairn_format.hpp"
+#include "onboard/mapping/tile_state.hpp"
 #include "tests/onboard/mapping/random_maps.hpp"
 #include "tests/onboard/mapping/tree_compare.hpp"
 
@@ -45,6 +46,47 @@ TEST_P(CairnFile, DecodeIsTheInverseOfEncode) {
   EXPECT_EQ((*back)->sensor_model(), tree->sensor_model());
   EXPECT_EQ(encode_cairn(**back, "robot: husky"), bytes);
   EXPECT_EQ(decode_cairn_metadata(bytes).value(), "robot: husky");
+}
+
+std::vector<std::uint32_t> labels_of(const SemanticOcTree& tree) {
+  std::vector<std::uint32_t> labels;
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf) labels.push_back(leaf->label_id());
+  return labels;
+}
+
+TEST_P(CairnFile, LabelsAreKeptAndCostNothingWhereThereAreNone) {
+  auto tree = random_map<SemanticOcTree>(GetParam(), 4000);
+  const Bytes plain = encode_cairn(*tree);
+  std::mt19937 random(GetParam());
+  TileState state;
+  std::vector<VoxelLabel> labels(512);
+  for (unsigned i = 0; i < 512; ++i) state.set(i % 8, i / 8 % 8, i / 64, 2.5F);
+  for (VoxelLabel& label : labels) label.code = static_cast<std::uint8_t>(random() % 9);
+  state.set_labels(labels);
+  write_tile(*tree, TileKey::of_voxel(32768, 32768, 32768), state);
+  const Bytes bytes = encode_cairn(*tree);
+  const auto back = decode_cairn(bytes);
+  ASSERT_TRUE(back) << to_string(back.error());
+  EXPECT_EQ(differing_nodes(**back, *tree), 0U);
+  EXPECT_EQ(labels_of(**back), labels_of(*tree));
+  EXPECT_EQ(encode_cairn(**back), bytes);
+  EXPECT_EQ(plain[68], std::byte{0});
+  EXPECT_EQ(bytes[68], std::byte{1});
+}
+
+TEST(CairnFileRead, LabelsThatAreNoneAreRefused) {
+  for (const unsigned code : {0U, 1U, 76U, 77U, 255U}) {
+    Bytes raw;
+    append_le(raw, std::uint32_t{0});
+    append_le(raw, 2.5F);
+    append_le(raw, static_cast<std::uint8_t>(code));
+    Bytes frame(ZSTD_compressBound(raw.size()));
+    frame.resize(ZSTD_compress(frame.data(), frame.size(), raw.data(), raw.size(), 1));
+    const cairn_format::Chunk chunk{static_cast<std::uint32_t>(raw.size()), static_cast<std::uint32_t>(frame.size()),
+                                    cairn_format::hash(frame)};
+    const auto file = cairn_format::assemble({0.1, SemanticOcTree(0.1).sensor_model(), 1, {}, {chunk}, 0, true}, frame);
+    EXPECT_EQ(decode_cairn(file).has_value(), code == 1 || code == 76) << code;
+  }
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, CairnFile, testing::Values(1U, 2U, 3U, 4U));

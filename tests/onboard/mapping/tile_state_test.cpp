@@ -35,6 +35,80 @@ TileKey random_tile(std::mt19937& random) {
   return TileKey::of_voxel(near(), near(), near());
 }
 
+/// With labels of some of its occupied voxels.
+TileState labelled_state(std::mt19937& random) {
+  TileState state = random_state(random);
+  const auto kinds = 1 + random() % VoxelLabel::kCodes;
+  std::vector<VoxelLabel> labels(512);
+  for (std::size_t i = 0; i < 512; ++i)
+    if ((state.occupied[i / 64] >> (i % 64) & 1U) != 0 && random() % 3 != 0)
+      labels[i].code = static_cast<std::uint8_t>(1 + random() % kinds);
+  state.set_labels(labels);
+  return state;
+}
+
+TEST(TileState, LabelsComeBackFromTheMap) {
+  std::mt19937 random(5);
+  std::map<TileKey, TileState> oracle;
+  SemanticOcTree map(0.1);
+  std::size_t labelled = 0;
+  for (int i = 0; i < 300; ++i) {
+    const TileKey tile = random_tile(random);
+    oracle[tile] = random() % 2 == 0 ? random_state(random) : labelled_state(random);
+    if (oracle[tile].empty()) continue;
+    ASSERT_TRUE(oracle[tile].valid());
+    write_tile(map, tile, oracle[tile]);
+    ASSERT_TRUE(map.is_canonical());
+    ASSERT_EQ(read_tile(map, tile), oracle[tile]);
+    labelled += oracle[tile].labels.empty() ? 0 : 1;
+  }
+  EXPECT_GT(labelled, 50U);
+  for (const auto& [tile, state] : oracle) EXPECT_TRUE(state.empty() || read_tile(map, tile) == state);
+}
+
+TEST(TileState, OneLabelThroughoutIsOneNode) {
+  TileState state;
+  for (unsigned i = 0; i < 512; ++i) state.set(i % 8, i / 8 % 8, i / 64, 3.5F);
+  state.set_labels(std::vector<VoxelLabel>(512, VoxelLabel::of(3, 1)));
+  SemanticOcTree map(0.1), unlabelled(0.1);
+  write_tile(map, {7}, state);
+  EXPECT_EQ(read_tile(map, {7}), state);
+  state.labels.clear();
+  write_tile(unlabelled, {7}, state);
+  EXPECT_EQ(map.size(), unlabelled.size());
+  write_tile(map, {7}, state);
+  EXPECT_TRUE(read_tile(map, {7}).labels.empty()) << "labels go with the state that had them";
+}
+
+TEST(TileState, TheRarestOfTooManyLabelsAreLeftOut) {
+  TileState state;
+  for (unsigned i = 0; i < 512; ++i) state.set(i % 8, i / 8 % 8, i / 64, 3.5F);
+  std::vector<VoxelLabel> labels(512);
+  for (unsigned i = 0; i < 512; ++i) labels[i].code = static_cast<std::uint8_t>(1 + (i < 40 ? i : i % 16));
+  state.set_labels(labels);
+  EXPECT_TRUE(state.valid());
+  for (unsigned i = 40; i < 512; ++i) EXPECT_EQ(state.labels[i], labels[i]);
+  for (unsigned i = 16; i < 40; ++i) EXPECT_FALSE(state.labels[i].any());
+}
+
+TEST(TileState, LabelsThatCannotBeAreNotValid) {
+  TileState state;
+  state.set(0, 0, 0, 2);
+  state.set(1, 0, 0, -2);
+  EXPECT_TRUE(state.valid());
+  state.labels.assign(512, {});
+  EXPECT_FALSE(state.valid()) << "no labels at all";
+  state.labels[0] = VoxelLabel::of(18, 3);
+  EXPECT_TRUE(state.valid());
+  state.labels[0].code = 77;
+  EXPECT_FALSE(state.valid());
+  state.labels[0] = {};
+  state.labels[1] = VoxelLabel::of(0, 0);
+  EXPECT_FALSE(state.valid()) << "of what is free";
+  state.labels.resize(3);
+  EXPECT_FALSE(state.valid());
+}
+
 TEST(TileState, ReadsWhatOctoMapFinds) {
   const auto map = random_map<SemanticOcTree>(3, 3000);
   saturate_block(*map, true);
