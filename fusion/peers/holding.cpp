@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <iterator>
+#include <utility>
 
 #include "fusion/peers/item_memory.hpp"
 
@@ -30,12 +31,21 @@ Holding::Taken Holding::take(const ItemUpdate& update) {
   return Taken::kNew;
 }
 
+/// The same thing, said in another submap.
+Holding::Items::iterator Holding::under(ItemId id, Items::iterator held) {
+  auto node = items_.extract(held);
+  node.key() = id;
+  return items_.insert(std::move(node)).position;
+}
+
 void Holding::put(ItemId id, Version version, std::span<const std::byte> payload) {
   auto [held, added] = items_.try_emplace(id);
   if (!added) {
-    if (const auto old = by_version_.find(held->second.version); old != by_version_.end() && old->second == id)
+    const ItemId before = held->first;
+    if (const auto old = by_version_.find(held->second.version); old != by_version_.end() && old->second == before)
       by_version_.erase(old);
-    bytes_ -= memory_of(id, held->second.payload);
+    bytes_ -= memory_of(before, held->second.payload);
+    if (before != id) held = under(id, held);
   }
   held->second.version = version;
   held->second.payload.assign(payload.begin(), payload.end());

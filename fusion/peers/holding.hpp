@@ -39,6 +39,7 @@ class Holding {
     Version version = 0;
     std::vector<std::byte> payload;
   };
+  using Items = std::map<ItemId, Item, BySubject>;
   enum class Taken : std::uint8_t { kNew, kKnown, kFull };
   static constexpr std::size_t kMaxBytes = std::size_t{64}
                                            << 20;  ///< of items, with what is made of them: see memory_of()
@@ -50,7 +51,8 @@ class Holding {
   /// `update` is valid: version > superseded.
   Taken take(const ItemUpdate& update);
 
-  [[nodiscard]] const std::map<ItemId, Item>& items() const { return items_; }
+  /// A tile is found under whatever submap one asks for it; the key says which one it was said in.
+  [[nodiscard]] const Items& items() const { return items_; }
   [[nodiscard]] const VersionSet& known() const { return known_; }
   /// The highest version held.
   [[nodiscard]] Version newest() const { return by_version_.empty() ? 0 : by_version_.rbegin()->first; }
@@ -67,10 +69,11 @@ class Holding {
   using ByVersion = std::map<Version, ItemId>;
   [[nodiscard]] ItemUpdate update_of(ByVersion::const_iterator held) const;
   void note_superseded(VersionRange gap, VersionSet& out) const;
+  Items::iterator under(ItemId id, Items::iterator held);
   void put(ItemId id, Version version, std::span<const std::byte> payload);
 
   std::size_t max_bytes_, bytes_ = 0;
-  std::map<ItemId, Item> items_;
+  Items items_;
   ByVersion by_version_;
   VersionSet known_;
 };

@@ -45,12 +45,20 @@ struct ItemId {
            (kind() != ItemKind::kDeployment || submap() == 0);
   }
 
+  /// What it is about: a tile is the same thing in whatever submap it is said.
+  [[nodiscard]] constexpr std::uint64_t subject() const { return kind() == ItemKind::kTile ? tile().morton : code; }
+
   friend constexpr auto operator<=>(const ItemId&, const ItemId&) = default;
 
  private:
   static constexpr ItemId of(ItemKind kind, std::uint16_t submap, std::uint64_t key) {
     return {static_cast<std::uint64_t>(kind) << (kKeyBits + kSubmapBits) | std::uint64_t{submap} << kKeyBits | key};
   }
+};
+
+/// Of two items about the same thing, only the newer one is held.
+struct BySubject {
+  constexpr bool operator()(const ItemId& x, const ItemId& y) const { return x.subject() < y.subject(); }
 };
 
 /// No item's payload is longer.

@@ -35,13 +35,14 @@ void OwnTiles::say(Exchange& exchange, Time now) {
   std::vector<std::byte> payload;
   std::erase_if(waiting_, [&](const auto& entry) {
     const auto& [tile, waiting] = entry;
-    const ItemId id = ItemId::tile(0, tile);
-    const bool again = said.contains(id);
-    if (!quiet && !due(waiting, again ? &said_[tile] : nullptr, now)) return false;
+    const auto last = said_.find(tile);
+    const bool again = last != said_.end() && said.contains(ItemId::tile(last->second.submap, tile));
+    if (again && last->second.state == waiting.state) return true;  // as peers know it, whatever the submap
+    if (!quiet && !due(waiting, again ? &last->second : nullptr, now)) return false;
     payload.clear();
     encode_tile(waiting.state, payload);
-    exchange.say(id, payload);
-    said_[tile] = {waiting.state, again};
+    exchange.say(ItemId::tile(waiting.submap, tile), payload);
+    said_[tile] = {waiting.state, waiting.submap, again};
     return true;
   });
 }

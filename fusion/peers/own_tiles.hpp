@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <map>
 
 #include "fusion/peers/exchange.hpp"
@@ -30,10 +31,12 @@ class OwnTiles {
  public:
   explicit OwnTiles(const OwnTilesConfig& config) : config_(config) {}
 
-  void observe(TileKey tile, const TileState& state, Time now) {
+  /// `submap`: the present one; the tile is said in it.
+  void observe(TileKey tile, const TileState& state, Time now, std::uint16_t submap = 0) {
     auto [waiting, added] = waiting_.try_emplace(tile);
     if (added) waiting->second.first = now;
     waiting->second.state = state;
+    waiting->second.submap = submap;
     waiting->second.last = last_ = now;
   }
   /// Says what is due.
@@ -47,10 +50,12 @@ class OwnTiles {
  private:
   struct Waiting {
     TileState state;
+    std::uint16_t submap = 0;
     Time first{}, last{};
   };
   struct Said {
     TileState state;
+    std::uint16_t submap = 0;
     bool again = false;  // more than once
   };
   [[nodiscard]] bool due(const Waiting& waiting, const Said* said, Time now) const;

@@ -29,7 +29,8 @@ bool same(const Holding& a, const Holding& b) {
   if (a.items().size() != b.items().size()) return false;
   for (const auto& [id, held] : a.items()) {
     const auto other = b.items().find(id);
-    if (other == b.items().end() || other->second.version != held.version || other->second.payload != held.payload)
+    if (other == b.items().end() || other->first != id || other->second.version != held.version ||
+        other->second.payload != held.payload)
       return false;
   }
   return true;
@@ -70,6 +71,31 @@ TEST(Holding, ComesToTheSameWhateverHappensOnTheWay) {
     EXPECT_TRUE(same(own, peer));
     EXPECT_TRUE(peer.known().complete(own.newest()));
     EXPECT_EQ(peer.known().ranges().size(), 1U);
+  }
+}
+
+/// A robot says its tiles in whatever submap it is in.
+TEST(Holding, ATileIsHeldInTheSubmapItWasSaidInLastWhateverArrivesWhen) {
+  for (unsigned seed = 0; seed < 40; ++seed) {
+    std::mt19937 random(seed);
+    Holding own, peer;
+    std::map<TileKey, ItemId> last;
+    std::vector<std::pair<ItemUpdate, std::vector<std::byte>>> on_the_way;
+    for (unsigned step = 0; step < 300; ++step) {
+      const auto submap = static_cast<std::uint16_t>(step / 60);
+      const ItemId id = ItemId::tile(submap, {random() % 20});
+      if (own.say(id, payload(step))) last[id.tile()] = id;
+      for (const ItemUpdate& update : missing(own, peer, 1 + random() % 5))
+        on_the_way.push_back({update, {update.payload.begin(), update.payload.end()}});
+      auto& [update, bytes] = on_the_way[random() % on_the_way.size()];
+      update.payload = bytes;
+      peer.take(update);
+    }
+    bring_up_to_date(own, peer);
+    EXPECT_TRUE(same(own, peer));
+    EXPECT_EQ(peer.items().size(), last.size());
+    EXPECT_EQ(peer.bytes(), own.bytes());
+    for (const auto& [tile, id] : last) EXPECT_EQ(peer.items().find(ItemId::tile(0, tile))->first, id);
   }
 }
 
