@@ -33,8 +33,8 @@ bool meets(const std::set<TileKey>& tiles, const Eigen::Vector3d& voxels) {
 
 }  // namespace
 
-std::size_t common_tiles(const std::set<TileKey>& a, const std::set<TileKey>& b, const SE3& T_a_b,
-                         double resolution_m) {
+std::size_t tiles_of_both(const std::set<TileKey>& a, const std::set<TileKey>& b, const SE3& T_a_b,
+                          double resolution_m) {
   const std::size_t step = std::max<std::size_t>(1, (b.size() + kLookedAt - 1) / kLookedAt);
   std::size_t common = 0, i = 0;
   for (const TileKey tile : b) {

@@ -29,9 +29,9 @@ struct MatchOutlook {
   bool merged = false;                              ///< a comparison can only confirm it, refine it, or take it back
 };
 
-/// How many tiles of b lie on tiles of a, by where b lies in a: of a sample of b's, where they are many.
-[[nodiscard]] std::size_t common_tiles(const std::set<TileKey>& a, const std::set<TileKey>& b, const SE3& T_a_b,
-                                       double resolution_m);
+/// About how many tiles of b meet tiles of a, by where b lies in a: by a sample of b's, where they are many.
+[[nodiscard]] std::size_t tiles_of_both(const std::set<TileKey>& a, const std::set<TileKey>& b, const SE3& T_a_b,
+                                        double resolution_m);
 
 /// When comparing the maps of one pair is worth the time. Maps that have grown may say something new: what both
 /// see, where a pose is likely, and all of them before it is believed. Without growth little is to be expected, but not

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fusion/team.hpp"
 
+#include <Eigen/Cholesky>
 #include <algorithm>
 #include <cmath>
 #include <utility>
@@ -12,20 +13,17 @@ namespace {
 
 using peers::RobotId;
 
-constexpr double kMovedM = 0.02, kTurnedRad = 0.003;  // an edge that is said again
-
+constexpr double kLeastVariance = 1e-12;       // m², rad²
 constexpr std::uint16_t kKnownEdges = 0x8000;  // those before are found by comparing maps, from 0xC000 by deployment
 
-bool moved(const SE3& from, const SE3& to) {
-  const SE3 change = from.inverse() * to;
-  return change.translation().norm() > kMovedM || rotation_angle(change) > kTurnedRad;
+/// Whether a peer's numbers can be those of a covariance: of nothing that is known to a micrometre, either, which would
+/// make the equations of all unsolvable.
+bool definite(const Matrix6& covariance) {
+  return Matrix6(covariance - kLeastVariance * Matrix6::Identity()).llt().info() == Eigen::Success;
 }
 
-/// What is made of the likeliest place: that it changes is what comparisons are for.
-std::string standing_of(const matching::GrowingMatch& match) {
-  const auto places = match.hypotheses().all();
-  if (places.empty()) return {};
-  return std::to_string(static_cast<int>(places.front().standing)) + " " + std::to_string(places.front().agreements);
+bool refined(peers::ItemId edge) {
+  return edge.submap() >= Refinements::kFirstEdge && edge.submap() - Refinements::kFirstEdge < Refinements::kMost;
 }
 
 peers::ExchangeConfig with_voxels(peers::ExchangeConfig config, double resolution_m) {
@@ -39,6 +37,7 @@ Team::Team(const TeamConfig& config, peers::Epoch epoch)
     : config_(config),
       exchange_(config.id, config.name, epoch, with_voxels(config.exchange, config.resolution_m)),
       own_tiles_(config.own_tiles),
+      own_submaps_(config.own_submaps, kTileEdge * config.resolution_m),
       map_(config.resolution_m, config.policy) {
   exchange_.set_interest([this](RobotId peer, RobotId robot) { return interest_of(peer, robot); });
   if (config.deployment) exchange_.say(peers::ItemId::deployment(), encode(peers::Deployment{*config.deployment}));
@@ -46,6 +45,7 @@ Team::Team(const TeamConfig& config, peers::Epoch epoch)
 
 void Team::begin(peers::Epoch epoch) {
   own_tiles_.clear();
+  own_submaps_.clear();
   exchange_.begin(epoch);
 }
 
@@ -73,7 +73,7 @@ void Team::say_known_poses() {
 void Team::take_news(Time now) {
   for (const auto& [robot, change] : exchange_.take_changes()) {
     if (change.anew) {
-      walls_.erase(robot);
+      tiles_.erase(robot);
       map_.drop(robot);
       edges_changed_ = true;
     }
@@ -84,41 +84,22 @@ void Team::take_news(Time now) {
   }
 }
 
+/// A tile is in the submap it was said in last.
 void Team::take_tile(RobotId robot, peers::ItemId id, Time now) {
   const auto& items = exchange_.layers().at(robot).holding.items();
-  const auto state = peers::decode_tile(items.at(id).payload);  // checked when it was received
+  const auto item = items.find(id);
+  const std::uint16_t submap = item->first.submap();
+  const auto state = peers::decode_tile(item->second.payload);  // checked when it was received
   if (!state) return;
   ++tile_news_[robot];
-  map_.put({robot, id.submap()}, id.tile(), *state, now);
-  if (id.submap() != 0) return;  // it has a frame of its own
-  if (state->any_occupied())
-    walls_[robot].insert(id.tile());
-  else
-    walls_[robot].erase(id.tile());
+  if (const auto before = tiles_[robot].put(id.tile(), submap, state->any_occupied()))
+    map_.put({robot, *before}, id.tile(), TileState{}, now);
+  map_.put({robot, submap}, id.tile(), *state, now);
 }
 
 std::size_t Team::walls_of(RobotId robot) const {
-  const auto found = walls_.find(robot);
-  return found == walls_.end() ? 0 : found->second.size();
-}
-
-/// Of its first submap: others have frames of their own.
-SaidTiles Team::said_by(RobotId robot) const {
-  SaidTiles said{config_.resolution_m, {}, {}};
-  for (const auto& [id, item] : exchange_.layers().at(robot).holding.items()) {
-    if (id.kind() != peers::ItemKind::kTile || id.submap() != 0) continue;
-    said.tiles.push_back({id.tile(), said.payloads.size(), item.payload.size()});
-    said.payloads.insert(said.payloads.end(), item.payload.begin(), item.payload.end());
-  }
-  return said;
-}
-
-SemanticOcTree SaidTiles::map() const {
-  SemanticOcTree map(resolution_m);
-  for (const Tile& tile : tiles)
-    if (const auto state = peers::decode_tile(std::span(payloads).subspan(tile.begin, tile.bytes)))
-      write_tile(map, tile.key, *state);
-  return map;
+  const auto found = tiles_.find(robot);
+  return found == tiles_.end() ? 0 : found->second.walls();
 }
 
 std::vector<PairClaim> Team::claims() const {
@@ -129,22 +110,42 @@ std::vector<PairClaim> Team::claims() const {
     const auto end = items.lower_bound(peers::ItemId::deployment());
     for (auto item = items.lower_bound(peers::ItemId::edge(0)); item != end; ++item) {
       const auto edge = peers::decode_edge(item->second.payload);
-      if (!edge || edge->probability == 0) continue;  // withdrawn
+      if (!edge || edge->probability == 0 || !definite(edge->T_own_other.covariance)) continue;  // 0: withdrawn
       const auto other = layers.find(edge->other);
       if (other == layers.end() || other->second.epoch != edge->other_epoch || edge->other == robot) continue;
-      claims.push_back({robot, edge->other, edge->T_own_other, static_cast<double>(edge->probability)});
+      claims.push_back({robot, edge->other, edge->T_own_other, static_cast<double>(edge->probability), edge->own_submap,
+                        edge->other_submap, refined(item->first)});
     }
   }
   return claims;
 }
 
+/// As far as they are known without a gap.
+SubmapChains Team::chains() const {
+  SubmapChains chains;
+  for (const auto& [robot, layer] : exchange_.layers()) {
+    const auto& items = layer.holding.items();
+    for (std::uint16_t k = 1; k < peers::OwnSubmaps::kMost; ++k) {
+      const auto item = items.find(peers::ItemId::submap(k));
+      if (item == items.end()) break;
+      const auto submap = peers::decode_submap(item->second.payload);
+      if (!submap || !definite(submap->T_odom_submap.covariance)) break;
+      chains[robot].push_back(submap->T_odom_submap);
+    }
+  }
+  return chains;
+}
+
+bool Team::known_submap(RobotId robot, std::uint16_t submap) const {
+  const auto chain = chains_.find(robot);
+  return submap == 0 || (chain != chains_.end() && submap <= chain->second.size());
+}
+
 void Team::agree() {
   if (!std::exchange(edges_changed_, false)) return;
-  poses_ = team_poses(config_.id, claims());
-  merging::SubmapPoses submaps;
-  for (const auto& [robot, T_team_odom] : poses_.T_team_odom)
-    submaps.emplace(merging::SubmapKey{robot, 0}, T_team_odom);
-  map_.place(submaps);
+  chains_ = chains();
+  poses_ = team_poses(config_.id, claims(), chains_);
+  map_.place(poses_.submaps);
 }
 
 void Team::focus() {
@@ -158,6 +159,7 @@ void Team::be_at(const UncertainPose& T_odom_base) {
   const Eigen::Vector3d x_axis = T_odom_base.mean.rotation().col(0);
   constexpr double kMost = 1e6;  // others refuse more, and whoever says it
   if (!at.allFinite() || at.cwiseAbs().maxCoeff() > kMost) return;
+  own_submaps_.be_at(position_odom_, exchange_);
   const Vector6 sigma = T_odom_base.covariance.diagonal().cwiseMax(0).cwiseSqrt();
   exchange_.set_place({{at.x(), at.y(), at.z()},
                        static_cast<float>(std::atan2(x_axis.y(), x_axis.x())),
@@ -175,87 +177,6 @@ peers::Interest Team::interest_of(RobotId peer, RobotId robot) const {
   const Eigen::Vector3f at(link->second.place->position_m.data());
   interest.position_odom = of_robot->second.inverse() * (of_peer->second * at.cast<double>());
   return interest;
-}
-
-/// What is known about a pair is void when one of the two has begun anew.
-Team::Pair& Team::pair_with(RobotId peer, peers::Epoch epoch) {
-  const auto [entry, added] = pairs_.try_emplace(peer);
-  Pair& pair = entry->second;
-  if (added) pair.edge = static_cast<std::uint16_t>(pairs_.size() - 1);
-  if (pair.own_epoch != exchange_.epoch() || pair.peer_epoch != epoch) {
-    const std::uint16_t edge = pair.edge;
-    pair = Pair{};
-    pair.own_epoch = exchange_.epoch();
-    pair.peer_epoch = epoch;
-    pair.match = std::make_unique<matching::GrowingMatch>();
-    pair.worth = MatchWorth(config_.match);
-    pair.edge = edge;
-  }
-  return pair;
-}
-
-std::optional<MatchJob> Team::next_match(Time now) {
-  if (match_out_) return std::nullopt;
-  Pair* next = nullptr;
-  RobotId with = 0;
-  MatchOutlook then;
-  double most = 0;
-  for (const auto& [peer, layer] : exchange_.layers()) {
-    if (peer <= config_.id) continue;  // the lower of two compares
-    Pair& pair = pair_with(peer, layer.epoch);
-    if (!pair.match || pair.worth.rests(now) || std::min(walls_of(config_.id), walls_of(peer)) < config_.least_tiles)
-      continue;
-    const MatchOutlook now_known = outlook(peer, pair);
-    const double worth = pair.worth.of(now_known, now);
-    if (worth == 0 || worth < most || (worth == most && pair.worth.last() >= next->worth.last())) continue;
-    next = &pair;
-    with = peer;
-    then = now_known;
-    most = worth;
-  }
-  if (next == nullptr) return std::nullopt;
-  next->worth.begin(then, now);
-  match_out_ = true;
-  return MatchJob{with,          next->own_epoch,        next->peer_epoch, said_by(config_.id),
-                  said_by(with), std::move(next->match), deployed(with)};
-}
-
-void run(MatchJob& job, Budget& budget) {
-  const SemanticOcTree own_map = job.own.map(), other_map = job.other.map();  // features read them
-  const auto own = matching::MapFeatures::build(own_map), other = matching::MapFeatures::build(other_map);
-  if (own && other) job.match->update(*own, *other, budget, job.guess);
-  job.ran = true;
-}
-
-void Team::matched(MatchJob job, Time now) {
-  match_out_ = false;
-  const auto found = pairs_.find(job.peer);
-  if (found == pairs_.end() || found->second.own_epoch != job.own_epoch || found->second.peer_epoch != job.peer_epoch)
-    return;
-  Pair& pair = found->second;
-  pair.match = std::move(job.match);
-  if (!job.ran) return;
-  const std::string before = std::exchange(pair.standing, standing_of(*pair.match));
-  pair.worth.end(pair.standing != before, now);
-  weigh_deployment(job.peer, pair);
-  say_edge(job.peer, pair);
-}
-
-/// Says where the peer is once that is sure, and when it is known better; takes it back when it is not sure any more.
-void Team::say_edge(RobotId peer, Pair& pair) {
-  const matching::Hypothesis* accepted = pair.match->hypotheses().accepted();
-  const bool said = pair.said && pair.said->probability > 0;
-  if (accepted == nullptr && !said) return;
-  peers::Edge edge{0, peer, pair.peer_epoch, 0, {}, 0};
-  if (accepted != nullptr) {
-    if (said && !moved(pair.said->T_own_other.mean, accepted->T_a_b.mean)) return;
-    edge.T_own_other = accepted->T_a_b;
-    edge.probability = static_cast<float>(accepted->probability_correct);
-  } else {
-    edge.T_own_other = pair.said->T_own_other;
-  }
-  pair.said = edge;
-  exchange_.say(peers::ItemId::edge(pair.edge), encode(edge));
 }
 
 }  // namespace cairn

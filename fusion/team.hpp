@@ -5,17 +5,20 @@
 #include <map>
 #include <memory>
 #include <optional>
-#include <set>
 #include <span>
 #include <string>
 #include <vector>
 
+#include "fusion/match_job.hpp"
 #include "fusion/match_worth.hpp"
 #include "fusion/matching/growing_match.hpp"
 #include "fusion/merging/team_map.hpp"
 #include "fusion/peers/claim.hpp"
 #include "fusion/peers/exchange.hpp"
+#include "fusion/peers/own_submaps.hpp"
 #include "fusion/peers/own_tiles.hpp"
+#include "fusion/refinements.hpp"
+#include "fusion/robot_tiles.hpp"
 #include "fusion/team_graph.hpp"
 #include "hal/budget.hpp"
 #include "hal/result.hpp"
@@ -30,34 +33,11 @@ struct TeamConfig {
   merging::Policy policy = merging::Policy::kRelativeEntropy;
   peers::ExchangeConfig exchange;
   peers::OwnTilesConfig own_tiles;
+  peers::OwnSubmapsConfig own_submaps;
   MatchWorthConfig match;
   std::size_t least_tiles = 60;             ///< with something occupied, on both sides, to be compared at all
   std::optional<UncertainPose> deployment;  ///< T_site_odom of its first beginning: see peers::Deployment
 };
-
-/// A robot's tiles as they were said: small enough to be copied for whoever makes a map of them.
-struct SaidTiles {
-  struct Tile {
-    TileKey key;
-    std::size_t begin = 0, bytes = 0;  ///< in `payloads`
-  };
-  double resolution_m = 0;
-  std::vector<Tile> tiles;
-  std::vector<std::byte> payloads;
-  [[nodiscard]] SemanticOcTree map() const;
-};
-
-/// Two maps to be compared, away from everyone else's work, and what is known of the pair. It owns all it needs.
-struct MatchJob {
-  peers::RobotId peer = 0;
-  peers::Epoch own_epoch = 0, peer_epoch = 0;
-  SaidTiles own, other;
-  std::unique_ptr<matching::GrowingMatch> match;
-  std::optional<UncertainPose> guess;  ///< T_own_other
-  bool ran = false;
-};
-/// Does the job: seconds, for a machine that has nothing else to do.
-void run(MatchJob& job, Budget& budget);
 
 /// Why a peer's map is, or is not, a part of the team's.
 struct PeerStanding {
@@ -80,10 +60,13 @@ class Team {
   /// One's own map begins anew; what was said of it is void, where the robot was put down too: the new odom frame lies
   /// where it is now. `epoch` is higher than the last.
   void begin(peers::Epoch epoch);
-  /// Where the robot is: peers are told, and the team's map is brought up to date there first.
+  /// Where the robot is: peers are told, the team's map is brought up to date there first, and the way from one place
+  /// to the next is what odometry may drift along.
   void be_at(const UncertainPose& T_odom_base);
-  /// A tile of one's own map has changed; odom frame, of this epoch.
-  void observe(TileKey tile, const TileState& state, Time now) { own_tiles_.observe(tile, state, now); }
+  /// A tile of one's own map has changed; odom frame, of this epoch. It is said as a part of the present submap.
+  void observe(TileKey tile, const TileState& state, Time now) {
+    own_tiles_.observe(tile, state, now, own_submaps_.current());
+  }
   /// Where a peer's odom frame lies in this robot's by something else than their maps: a survey, a marker both saw.
   /// Said to all, for every beginning of either, until it is claimed otherwise; it must agree with what the maps say.
   void claim(peers::RobotId peer, const UncertainPose& T_own_peer, double probability) {
@@ -117,6 +100,7 @@ class Team {
     peers::Epoch own_epoch = 0, peer_epoch = 0;
     std::unique_ptr<matching::GrowingMatch> match;  // null while a job has it
     MatchWorth worth;
+    Time refined = Time::min();
     std::string standing;    // of the likeliest place, when it was last compared
     std::uint16_t edge = 0;  // index of the item that says what came of it
     std::optional<peers::Edge> said;
@@ -138,20 +122,30 @@ class Team {
   [[nodiscard]] peers::Interest interest_of(peers::RobotId peer, peers::RobotId robot) const;
   [[nodiscard]] Pair& pair_with(peers::RobotId peer, peers::Epoch epoch);
   [[nodiscard]] std::size_t walls_of(peers::RobotId robot) const;
-  [[nodiscard]] SaidTiles said_by(peers::RobotId robot) const;
+  [[nodiscard]] double tile_m() const { return kTileEdge * config_.resolution_m; }
+  [[nodiscard]] SubmapChains chains() const;
+  [[nodiscard]] bool known_submap(peers::RobotId robot, std::uint16_t submap) const;
+  [[nodiscard]] std::map<std::uint16_t, SE3> undrifted(peers::RobotId robot) const;
+  [[nodiscard]] SaidTiles said_by(peers::RobotId robot, std::optional<std::uint16_t> submap = {}) const;
   [[nodiscard]] MatchOutlook outlook(peers::RobotId peer, const Pair& pair) const;
   [[nodiscard]] std::optional<SE3> believed(peers::RobotId peer, const Pair& pair) const;
-  void say_edge(peers::RobotId peer, Pair& pair);
+  [[nodiscard]] std::optional<MatchJob> next_refinement(Time now);
+  [[nodiscard]] peers::Edge edge_of(const MatchJob& job, const UncertainPose& T_own_other) const;
+  void say_edge(const MatchJob& job, Pair& pair);
+  void say_refined(const Refinement& refinement, peers::Epoch peer_epoch);
 
   TeamConfig config_;
   peers::Exchange exchange_;
   peers::OwnTiles own_tiles_;
-  std::map<peers::RobotId, std::set<TileKey>> walls_;  // tiles with something occupied
+  peers::OwnSubmaps own_submaps_;
+  std::map<peers::RobotId, RobotTiles> tiles_;
   std::map<peers::RobotId, std::uint64_t> tile_news_;  // how many there were
   std::map<peers::RobotId, Pair> pairs_;
   std::map<peers::RobotId, std::pair<UncertainPose, float>> known_poses_;  // and their probability
   bool match_out_ = false, edges_changed_ = true;
   TeamPoses poses_;
+  SubmapChains chains_;  // that the poses were found with
+  Refinements refinements_;
   Eigen::Vector3d position_odom_ = Eigen::Vector3d::Zero();
   merging::TeamMap map_;
 };

@@ -29,7 +29,8 @@ MatchOutlook Team::outlook(peers::RobotId peer, const Pair& pair) const {
   MatchOutlook known{walls_of(config_.id), walls_of(peer), {},
                      news_of(config_.id),  news_of(peer),  poses_.T_team_odom.contains(peer)};
   if (const auto T_own_peer = believed(peer, pair))
-    known.common_tiles = common_tiles(walls_.at(config_.id), walls_.at(peer), *T_own_peer, config_.resolution_m);
+    known.common_tiles = tiles_of_both(tiles_.at(config_.id).all_walls(), tiles_.at(peer).all_walls(), *T_own_peer,
+                                       config_.resolution_m);
   return known;
 }
 

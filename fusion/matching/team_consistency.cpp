@@ -11,19 +11,12 @@ namespace cairn::matching {
 namespace {
 
 constexpr double kLoopWorth = 4;                        // log-odds
-constexpr double kChi2 = 22.46;                         // 99.9 %, 6 degrees of freedom
 constexpr double kBendM = 0.15, kBendRad = 0.026;       // of two maps, standard deviations
 constexpr double kMostCertain = 0.999, kLeast = 0.001;  // no claim is believed or doubted more
 
 double log_odds(double p) {
   const double bounded = std::clamp(p, kLeast, kMostCertain);
   return std::log(bounded / (1 - bounded));
-}
-
-UncertainPose bent(const UncertainPose& pose) {
-  Vector6 sigma;
-  sigma << kBendM, kBendM, kBendM, kBendRad, kBendRad, kBendRad;
-  return {pose.mean, pose.covariance + Matrix6(sigma.cwiseAbs2().asDiagonal())};
 }
 
 /// Chooses among claims, the surest first, each with and without.
@@ -100,11 +93,18 @@ bool Chooser::closes(const std::vector<std::size_t>& loop, const Claim& last) co
     at = c.a == at ? c.b : c.a;
   }
   const UncertainPose around = compose(inverse(along), bent(last.T_a_b));
-  const Vector6 error = around.mean.log();
-  return error.dot(around.covariance.ldlt().solve(error)) < kChi2;
+  return distance2(around.mean.log(), around.covariance) < kChi2;
 }
 
 }  // namespace
+
+UncertainPose bent(const UncertainPose& pose) {
+  Vector6 sigma;
+  sigma << kBendM, kBendM, kBendM, kBendRad, kBendRad, kBendRad;
+  return {pose.mean, pose.covariance + Matrix6(sigma.cwiseAbs2().asDiagonal())};
+}
+
+double distance2(const Vector6& error, const Matrix6& covariance) { return error.dot(covariance.ldlt().solve(error)); }
 
 Agreement agreement_of(std::span<const Claim> claims) {
   Agreement out{std::vector<bool>(claims.size(), false), std::vector<int>(claims.size(), 0)};

@@ -9,6 +9,13 @@
 
 namespace cairn::matching {
 
+inline constexpr double kChi2 = 22.46;  ///< bound on 99.9 % of squared distances, with 6 degrees of freedom
+
+/// What a comparison of two maps says, allowing for what maps bend: 0.15 m and 1.5° more.
+[[nodiscard]] UncertainPose bent(const UncertainPose& pose);
+/// Squared Mahalanobis distance.
+[[nodiscard]] double distance2(const Vector6& error, const Matrix6& covariance);
+
 /// A claim about two robots of a team: where the map of `b` lies in that of `a`. There may be several about one pair.
 struct Claim {
   int a = 0, b = 0;

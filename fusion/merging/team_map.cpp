@@ -14,7 +14,7 @@ namespace {
 
 constexpr unsigned kRegionBits = 9;                     // 8³ tiles
 constexpr unsigned kTurns = 4;                          // of so many steps one is for what is shown
-constexpr int kMarkedAtOnce = 16;                       // tiles in a step
+constexpr std::size_t kMarkedAtOnce = 16;               // tiles in a step
 constexpr std::size_t kChunk = std::size_t{128} << 10;  // of memory: a step that needs one takes 30 µs longer
 constexpr int kTeamTiles = 1 << 13;
 constexpr float kSteps = 1024;  // of log-odds
@@ -88,9 +88,31 @@ void TeamMap::begin_wanted() {
     shown_.poses = wanted_;
     return;
   }
+  if (!redo_ && add_to_shown(view)) return;
   redo_ = false;
   view.fused = empty_map();
   next_ = std::move(view);
+}
+
+/// A submap that has just begun holds next to nothing: what is shown takes it in where all others stay where they are.
+bool TeamMap::add_to_shown(const View& wanted) {
+  const auto ahead = [](const auto& x, const auto& y) { return x.first < y.first; };
+  std::map<SubmapKey, Placement> added;
+  std::ranges::set_difference(wanted.placements, shown_.placements, std::inserter(added, added.end()), ahead);
+  std::size_t tiles = 0;
+  for (const auto& [submap, placement] : added)
+    if (const auto layer = layers_.find(submap); layer != layers_.end()) tiles += layer->second.size();
+  const auto stays = [&](const auto& shown) {
+    const auto found = wanted.placements.find(shown.first);
+    return found != wanted.placements.end() && found->second == shown.second;
+  };
+  if (tiles > kMarkedAtOnce || shown_.marking || !std::ranges::all_of(shown_.placements, stays)) return false;
+  for (const auto& [submap, placement] : added)
+    if (const auto layer = layers_.find(submap); layer != layers_.end())
+      for (const auto& [tile, received] : layer->second) mark(shown_.dirty, placement, tile);
+  shown_.placements = wanted.placements;
+  shown_.poses = wanted_;
+  return true;
 }
 
 void TeamMap::mark(Dirty& dirty, const Placement& placement, TileKey tile) {
@@ -103,7 +125,7 @@ void TeamMap::mark_some(View& view) const {
   const auto layer = layers_.find(*view.marking);
   if (layer != layers_.end()) {
     auto tile = view.marked ? layer->second.upper_bound(*view.marked) : layer->second.begin();
-    for (int i = 0; i < kMarkedAtOnce && tile != layer->second.end(); ++i, ++tile) {
+    for (std::size_t i = 0; i < kMarkedAtOnce && tile != layer->second.end(); ++i, ++tile) {
       mark(view.dirty, placement->second, tile->first);
       view.marked = tile->first;
     }

@@ -33,9 +33,9 @@ using SubmapPoses = std::map<SubmapKey, SE3>;  ///< T_team_submap of those that 
 /// occupied. Log-odds are multiples of 2⁻¹⁰, so that machines that round differently agree.
 ///
 /// The work is done in steps of one tile, whose cost is bounded (tens of microseconds for a few robots). New tiles
-/// change the map at once, a tile at a time. New poses change all of it: a second map is built beside the first,
-/// which goes on being kept up to date, and takes its place when it is complete. So whoever asks never sees a map of
-/// two minds.
+/// change the map at once, a tile at a time, as do submaps that have just begun. Other new poses change all of it: a
+/// second map is built beside the first, which goes on being kept up to date, and takes its place when it is complete.
+/// So whoever asks never sees a map of two minds.
 class TeamMap {
  public:
   /// All submaps have this resolution.
@@ -91,6 +91,7 @@ class TeamMap {
   void fuse_tile(View& view, TileKey tile);
   [[nodiscard]] VoxelLabel fused_label(std::size_t known, std::size_t voxel);
   void begin_wanted();
+  [[nodiscard]] bool add_to_shown(const View& wanted);
   void show_next();
 
   double resolution_m_;

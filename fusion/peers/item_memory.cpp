@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::size_t kBlockBytes = 128, kInnerBlocks = 8 + 1;  // see NodePool; the two levels above the voxels' blocks
 constexpr std::size_t kItemBytes = 192;                         // two nodes of a map, a block of the heap
-constexpr std::size_t kTileBytes = sizeof(TileState) + 128;     // likewise, and a stamp
+constexpr std::size_t kTileBytes = sizeof(TileState) + 192;     // likewise, a stamp, and which submap it is in
 constexpr std::size_t kMaps = 2;
 
 /// One bit of each voxel's label.

@@ -3,14 +3,18 @@
 // takes to send, and whether all end with one map that fits the world.
 //   team_runs RECORDINGS… [key=value …]     RECORDINGS: a folder of robot_1, robot_2, …
 //   keys: resolution (0.1 m), loss (0.2), jitter_ms (300), rate (bytes/s, 16000), after (s of silence at the end, 30),
-//   out (a folder for the team's map of each robot), looks (1: every place that was looked at, with what speaks for it)
+//   out (a folder for the team's map of each robot), looks (1: every place that was looked at, with what speaks for
+//   it), submap (m of path, 25), drift (of the way, 0) and drift_deg (a metre, 0) that odd robots' odometry is given,
+//   the others' with the other sign
 #include <xxhash.h>
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
 #include <map>
+#include <optional>
 #include <sstream>
 #include <string>
 
@@ -30,7 +34,8 @@ namespace fs = std::filesystem;
 using peers::RobotId;
 
 std::map<std::string, double> g_options{{"resolution", 0.1}, {"loss", 0.2}, {"jitter_ms", 300},
-                                        {"rate", 16000},     {"after", 30}, {"looks", 0}};
+                                        {"rate", 16000},     {"after", 30}, {"looks", 0},
+                                        {"submap", 25},      {"drift", 0},  {"drift_deg", 0}};
 fs::path g_out;
 constexpr Duration kTick = std::chrono::milliseconds(100);
 
@@ -72,6 +77,7 @@ class TeamRun {
         (void)robot.team.receive(arrived.bytes, now_);
       }
       for (auto& robot : robots_) step(*robot);
+      if (end == Time::max() && now_.time_since_epoch() % std::chrono::seconds(1) == Duration::zero()) note_errors();
     }
   }
 
@@ -91,7 +97,9 @@ class TeamRun {
           to_milliseconds(longest_slice_));
       sent_[i + 1].print();
       if (!world) continue;
-      const SE3 T_world_team = robots_[robot.team.poses().anchor - 1]->T_world_odom();
+      const RobotId anchor = robot.team.poses().anchor;
+      const SE3 T_world_team =
+          robots_[anchor - 1]->T_world_odom() * robot.team.poses().T_team_odom.at(anchor).inverse();
       const auto& own = robot.robot().map();
       const team::Area there{own, robot.team.poses().T_team_odom.at(static_cast<RobotId>(i + 1))};
       std::printf("  own map: iou %.3f, %zu occupied; team's: iou %.3f, there %.3f, %zu occupied\n",
@@ -103,12 +111,22 @@ class TeamRun {
     std::printf("  from said to fused: p50 %.2f s, p99 %.2f s, max %.2f s of %zu; %d matches, %.2f s each\n",
                 ages_.quantile(0.5), ages_.quantile(0.99), ages_.quantile(1), ages_.count(), matches_,
                 to_seconds(match_time_) / std::max(1, matches_));
+    const auto& poses = robots_.front()->team.poses();
+    std::printf(
+        "  %zu submaps, %td of %zu claims kept; %d refinements, %.2f s each; steps %.1f s, longest %.1f ms; "
+        "fusing %.1f s; inter-robot error along the run: mean %.3f m, max %.3f m\n",
+        poses.submaps.size(), std::ranges::count(poses.kept, true), poses.kept.size(), refinements_,
+        to_seconds(refine_time_) / std::max(1, refinements_), to_seconds(step_time_), to_milliseconds(longest_step_),
+        to_seconds(fuse_time_), error_sum_ / std::max(1, errors_), worst_);
   }
 
  private:
   void step(RecordedRobot& robot) {
     std::vector<peers::Outgoing> out;
+    const Duration before_step = thread_cpu_time();
     robot.team.step(now_, out);
+    step_time_ += thread_cpu_time() - before_step;
+    longest_step_ = std::max(longest_step_, thread_cpu_time() - before_step);
     const RobotId self = robot.team.exchange().self();
     for (const auto& datagram : out)
       sent_[self].add(datagram.bytes, network_.send(self, robots_.size(), datagram, now_));
@@ -117,15 +135,16 @@ class TeamRun {
       const Duration before = thread_cpu_time();
       Budget budget = Budget::steps(matching::kAmpleSteps);
       cairn::run(*job, budget);
-      match_time_ += thread_cpu_time() - before;
-      ++matches_;
-      if (g_options["looks"] != 0) print_looks(self, *job);
+      (job->refinement ? refine_time_ : match_time_) += thread_cpu_time() - before;
+      ++(job->refinement ? refinements_ : matches_);
+      if (g_options["looks"] != 0 && !job->refinement) print_looks(self, *job);
       robot.team.matched(std::move(*job), now_);
     }
     const Duration before = thread_cpu_time();
     Budget slice = Budget::steps(100);
     const bool up_to_date = robot.team.fuse(slice);
     longest_slice_ = std::max(longest_slice_, thread_cpu_time() - before);
+    fuse_time_ += thread_cpu_time() - before;
     ages_.fused(robot.team, up_to_date, now_);
     if (const auto size = robot.team.poses().T_team_odom.size(); size != team_sizes_[self]) {
       team_sizes_[self] = size;
@@ -166,6 +185,25 @@ class TeamRun {
     }
   }
 
+  /// Of where a robot sees another: what teammates want to know of each other.
+  [[nodiscard]] std::optional<SE3> error_between(RobotId a, RobotId b) const {
+    const auto& poses = robots_[a - 1]->team.poses().T_team_odom;
+    if (!poses.contains(a) || !poses.contains(b)) return std::nullopt;
+    const auto base = [&](RobotId id) { return poses.at(id) * robots_[id - 1]->T_odom_base(); };
+    const auto truth = [&](RobotId id) { return robots_[id - 1]->T_world_base(); };
+    return (truth(a).inverse() * truth(b)).inverse() * (base(a).inverse() * base(b));
+  }
+
+  void note_errors() {
+    for (RobotId a = 1; a <= robots_.size(); ++a)
+      for (RobotId b = a + 1; b <= robots_.size(); ++b)
+        if (const auto error = error_between(a, b)) {
+          error_sum_ += error->translation().norm();
+          worst_ = std::max(worst_, error->translation().norm());
+          ++errors_;
+        }
+  }
+
   void report_pair(RobotId a, RobotId b) {
     const Team& team = robots_[a - 1]->team;
     const auto& poses = team.poses().T_team_odom;
@@ -174,11 +212,7 @@ class TeamRun {
                   team.standing(b, now_).reason.c_str());
       return;
     }
-    // Where the other robot is, as seen from this one: what teammates want to know of each other.
-    const auto base = [&](RobotId id) { return robots_[id - 1]->robot().track().back().T_odom_base.mean; };
-    const auto truth = [&](RobotId id) { return robots_[id - 1]->T_world_odom() * base(id); };
-    const SE3 estimate = (poses.at(a) * base(a)).inverse() * poses.at(b) * base(b);
-    const SE3 error = (truth(a).inverse() * truth(b)).inverse() * estimate;
+    const SE3 error = error_between(a, b).value_or(SE3());
     const SE3 frames = true_pose(a, b).inverse() * (poses.at(a).inverse() * poses.at(b));
     std::printf("  %d-%d error %.3f m %.3f deg (frames %.3f m %.3f deg)%s\n", static_cast<int>(a), static_cast<int>(b),
                 error.translation().norm(), rotation_angle(error) * 57.29578, frames.translation().norm(),
@@ -189,8 +223,10 @@ class TeamRun {
   fs::path folder_;
   fleet::Network network_;
   Time now_{};
-  Duration longest_slice_{}, match_time_{};
-  int matches_ = 0;
+  Duration longest_slice_{}, match_time_{}, refine_time_{}, fuse_time_{}, step_time_{}, longest_step_{};
+  int matches_ = 0, refinements_ = 0;
+  double error_sum_ = 0, worst_ = 0;
+  int errors_ = 0;
   std::map<RobotId, std::size_t> team_sizes_;
   std::map<RobotId, SentBytes> sent_;
   Ages ages_;
@@ -204,11 +240,14 @@ int run(const fs::path& folder) {
     config.name = "robot_" + std::to_string(i);
     config.resolution_m = g_options["resolution"];
     config.exchange.bytes_per_second = static_cast<std::size_t>(g_options["rate"]);
+    config.own_submaps.length_m = g_options["submap"];
     auto robot = RecordedRobot::open(folder / config.name, config);
     if (!robot) {
       std::puts(to_string(robot.error()).c_str());
       return 1;
     }
+    const double sign = i % 2 == 1 ? 1 : -1;
+    (*robot)->set_drift({sign * g_options["drift"], sign * g_options["drift_deg"] / 57.29578});
     robots.push_back(*std::move(robot));
   }
   TeamRun team(std::move(robots), folder);

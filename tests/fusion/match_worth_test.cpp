@@ -79,12 +79,12 @@ TEST(MatchWorth, CommonTilesAreThoseThatLieOnEachOther) {
   const auto at = [](double x, double y, double yaw) {
     return SE3::from_xyz_rpy((Vector6() << x, y, 0, 0, 0, yaw).finished());
   };
-  EXPECT_EQ(common_tiles(row, row, SE3(), 0.2), 3000U);
-  EXPECT_NEAR(static_cast<double>(common_tiles(row, row, at(1500 * 1.6, 0, 0), 0.2)), 1500, 30);
-  EXPECT_EQ(common_tiles(row, row, at(0, 5, 0), 0.2), 0U);
-  EXPECT_LT(common_tiles(row, turned, SE3(), 0.2), 60U);
-  EXPECT_GT(common_tiles(row, turned, at(0, 0, M_PI / 2), 0.2), 2900U);
-  EXPECT_EQ(common_tiles(row, row, at(1e6, 0, 0), 0.2), 0U);
+  EXPECT_EQ(tiles_of_both(row, row, SE3(), 0.2), 3000U);
+  EXPECT_NEAR(static_cast<double>(tiles_of_both(row, row, at(1500 * 1.6, 0, 0), 0.2)), 1500, 30);
+  EXPECT_EQ(tiles_of_both(row, row, at(0, 5, 0), 0.2), 0U);
+  EXPECT_LT(tiles_of_both(row, turned, SE3(), 0.2), 60U);
+  EXPECT_GT(tiles_of_both(row, turned, at(0, 0, M_PI / 2), 0.2), 2900U);
+  EXPECT_EQ(tiles_of_both(row, row, at(1e6, 0, 0), 0.2), 0U);
 }
 
 TEST(MatchWorth, MoreIsWorthMore) {

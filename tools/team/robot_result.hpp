@@ -21,7 +21,7 @@ namespace cairn::team {
 struct RobotResult {
   std::string name;
   std::string team_sha256;
-  std::string anchor;                          ///< the robot whose odom is the team's frame
+  std::string anchor;                          ///< the robot whose odom, as it began, is the team's frame
   SE3 T_team_odom;                             ///< this robot's odom in it
   std::vector<std::string> merged_with;        ///< in the order of the team
   std::map<std::string, SE3> T_map_peer;       ///< of those whose pose is accepted

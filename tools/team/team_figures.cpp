@@ -30,7 +30,7 @@ std::optional<double> iou_of(const std::vector<RobotResult>& robots, const Robot
                              const SemanticOcTree* world) {
   const RobotResult* anchor = find(robots, robot.anchor);
   if (world == nullptr || robot.team_map == nullptr || anchor == nullptr || !anchor->standing) return std::nullopt;
-  return iou_with_world(*robot.team_map, anchor->standing->T_world_odom(), *world);
+  return iou_with_world(*robot.team_map, anchor->standing->T_world_odom() * anchor->T_team_odom.inverse(), *world);
 }
 
 RobotFigures figures_of(const std::vector<RobotResult>& robots, const RobotResult& robot, const SemanticOcTree* world) {

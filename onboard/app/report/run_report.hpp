@@ -54,8 +54,8 @@ struct PeerStats {
 
 /// The team's map, as this robot has it.
 struct TeamStats {
-  std::uint64_t id = 0, anchor = 0;          ///< this robot's; the one whose odom frame is the team's
-  std::map<std::uint64_t, SE3> T_team_odom;  ///< of the robots that are in it
+  std::uint64_t id = 0, anchor = 0;          ///< this robot's; the one whose first odom frame is the team's
+  std::map<std::uint64_t, SE3> T_team_odom;  ///< of the robots that are in it, by now
   std::vector<std::string> merged_with;      ///< their names, without this one's
   std::uint64_t tiles = 0;                   ///< that this robot said
   std::string sha256;                        ///< over team.cairn and team.tum: the same on every robot of the team

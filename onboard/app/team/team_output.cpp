@@ -1,24 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/team/team_output.hpp"
 
+#include <iterator>
+
 #include "drivers/recording/trajectory_file.hpp"
 #include "onboard/mapping/map_file.hpp"
 
 namespace cairn {
 namespace {
 
-/// Where a peer's odom frame lies in this robot's, by the claims of both about each other; of the pose graph, where
-/// there are none.
+/// Where a peer's odom frame lies in this robot's by now, by all that the team knows.
 UncertainPose pose_of(const Team& team, peers::RobotId peer) {
-  const auto& poses = team.poses().T_team_odom;
+  const TeamPoses& poses = team.poses();
   const peers::RobotId self = team.exchange().self();
   UncertainPose pose;
-  if (!poses.contains(self) || !poses.contains(peer)) return pose;
-  pose.mean = poses.at(self).inverse() * poses.at(peer);
-  for (const PairClaim& claim : team.claims()) {
-    if (claim.a == self && claim.b == peer) pose.covariance = claim.T_a_b.covariance;
-    if (claim.a == peer && claim.b == self) pose.covariance = inverse(claim.T_a_b).covariance;
-  }
+  if (!poses.T_team_odom.contains(self) || !poses.T_team_odom.contains(peer)) return pose;
+  pose.mean = poses.T_team_odom.at(self).inverse() * poses.T_team_odom.at(peer);
+  const auto newest = [&](peers::RobotId robot) { return std::prev(poses.nodes.upper_bound({robot, 0xFFFF})); };
+  const auto own = newest(self), other = newest(peer);
+  const Matrix6 covariance = Marginals(poses.graph).between(own->second, other->second).covariance;
+  const Matrix6 at_odom = (poses.T_team_odom.at(peer).inverse() * poses.graph.poses[other->second]).adjoint();
+  pose.covariance = at_odom * covariance * at_odom.transpose();
   return pose;
 }
 

@@ -2,6 +2,7 @@
 #include "onboard/app/team/team_profile.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <random>
 
@@ -41,6 +42,9 @@ void declare(config::Section& s, TeamProfile& p) {
   s.group("deployment", p.deployment,
           "where the robot is put down, in a metric frame that its team shares: a guess for finding the others, which "
           "their maps must confirm; with less than a voxel and half a degree it merges maps before they overlap");
+  s.number("submap_m", p.submap_m, {5, 1'000'000}, "m", "path after which its map may bend: a new submap begins");
+  s.number("drift_percent", p.drift_percent, {0.01, 20}, "%", "of the path that odometry may be off, per axis");
+  s.number("drift_deg_per_m", p.drift_deg_per_m, {0.0001, 2}, "°/m", "of the path that odometry may be turned");
 }
 
 Result<void> check(const TeamProfile& profile) {
@@ -62,6 +66,7 @@ TeamConfig team_config(const TeamProfile& profile, peers::RobotId id, const std:
   config.resolution_m = resolution_m;
   config.deployment = profile.deployment.T_site_odom();
   config.exchange.bytes_per_second = static_cast<std::size_t>(profile.bytes_per_second);
+  config.own_submaps = {profile.submap_m, profile.drift_percent / 100, profile.drift_deg_per_m * M_PI / 180};
   return config;
 }
 

@@ -62,20 +62,36 @@ Result<void> RecordedRobot::advance(Time now) {
 
 void RecordedRobot::take(const Scan& scan, Time now) {
   Budget budget = Budget::steps(1000);
-  if (!robot_.locate(scan, budget, located_) || !robot_.extend_map(located_)) return;
+  if (!robot_.locate(scan, budget, located_)) return;
+  drift_on(located_.T_odom_base.mean);
+  located_.T_odom_base.mean = T_drift_ * located_.T_odom_base.mean;
+  if (!robot_.extend_map(located_)) return;
+  team.be_at(located_.T_odom_base);
   for (const TileKey tile : robot_.take_changed_tiles()) team.observe(tile, read_tile(robot_.map(), tile), now);
 }
 
-SE3 RecordedRobot::T_world_odom() const {
+void RecordedRobot::drift_on(const SE3& T_odom_base) {
+  const Eigen::Vector3d step = T_odom_base.translation() - last_position_;
+  last_position_ = T_odom_base.translation();
+  if (step.norm() < 1e-9) return;
+  // The map grows by what is too much of a step, and turns about the robot.
+  const Eigen::Vector3d here = T_drift_ * T_odom_base.translation(), ahead = T_drift_.rotation() * step;
+  const Eigen::AngleAxisd turn(drift_.yaw_per_metre * step.norm(), Eigen::Vector3d::UnitZ());
+  const SE3 turned(Eigen::Quaterniond(turn), here - turn * here + drift_.scale * ahead);
+  T_drift_ = turned * T_drift_;
+}
+
+SE3 RecordedRobot::T_odom_base() const { return T_drift_ * robot_.track().back().T_odom_base.mean; }
+
+SE3 RecordedRobot::T_world_base() const {
   const TrackPoint& last = robot_.track().back();
   const auto next = std::ranges::lower_bound(truth_, last.stamp, {}, &recording::StampedPose::stamp);
-  if (next == truth_.begin()) return next->pose * last.T_odom_base.mean.inverse();
-  if (next == truth_.end()) return truth_.back().pose * last.T_odom_base.mean.inverse();
+  if (next == truth_.begin()) return next->pose;
+  if (next == truth_.end()) return truth_.back().pose;
   const auto before = std::prev(next);
   const double f = to_seconds(last.stamp - before->stamp) / to_seconds(next->stamp - before->stamp);
-  const SE3 truth(before->pose.quaternion().slerp(f, next->pose.quaternion()),
-                  (1 - f) * before->pose.translation() + f * next->pose.translation());
-  return truth * last.T_odom_base.mean.inverse();
+  return {before->pose.quaternion().slerp(f, next->pose.quaternion()),
+          (1 - f) * before->pose.translation() + f * next->pose.translation()};
 }
 
 }  // namespace cairn::bench

@@ -26,8 +26,17 @@ class RecordedRobot {
   Result<void> advance(Time now);
   [[nodiscard]] bool ended() const { return ended_; }
 
-  /// Where odom lies in the world, by where the robot truly is and where it thinks it is.
-  [[nodiscard]] SE3 T_world_odom() const;
+  /// Errors that odometry is given on top of its own, for each metre: of the way, and rad about its z axis.
+  struct Drift {
+    double scale = 0, yaw_per_metre = 0;
+  };
+  void set_drift(const Drift& drift) { drift_ = drift; }
+
+  /// Where the robot thinks it is, drift and all, and where it truly is.
+  [[nodiscard]] SE3 T_odom_base() const;
+  [[nodiscard]] SE3 T_world_base() const;
+  /// Where odom lies in the world by now, by these two.
+  [[nodiscard]] SE3 T_world_odom() const { return T_world_base() * T_odom_base().inverse(); }
   [[nodiscard]] const Robot& robot() const { return robot_; }
   [[nodiscard]] std::uint64_t raw_bytes() const { return raw_bytes_; }
 
@@ -37,6 +46,7 @@ class RecordedRobot {
  private:
   RecordedRobot(const RobotConfig& robot, const TeamConfig& config);
   void take(const Scan& scan, Time now);
+  void drift_on(const SE3& T_odom_base);
 
   Monitor monitor_;
   Workers workers_{1};
@@ -49,6 +59,9 @@ class RecordedRobot {
   Time start_{};
   std::uint64_t raw_bytes_ = 0;
   LocatedScan located_;
+  Drift drift_;
+  SE3 T_drift_;  // what odometry is given on top
+  Eigen::Vector3d last_position_ = Eigen::Vector3d::Zero();
 };
 
 }  // namespace cairn::bench

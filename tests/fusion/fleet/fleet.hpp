@@ -18,10 +18,11 @@ namespace cairn::fleet {
 using peers::Exchange;
 
 /// Robots that run a real team in one thread, with a virtual clock and network. They know where the others are, by
-/// claims, and so hold one map.
+/// claims, and so hold one map. They drive as they observe, from submap to submap, and every comparison of two submaps
+/// finds that they have drifted a little.
 class Fleet {
  public:
-  static constexpr Duration kTick = std::chrono::milliseconds(200);
+  static constexpr Duration kTick = std::chrono::milliseconds(200), kComparisons = std::chrono::seconds(10);
 
   Fleet(unsigned robots, std::size_t bytes_per_second, const LinkQuality& quality, unsigned seed)
       : network(quality, seed), bytes_per_second_(bytes_per_second), random_(seed ^ 0x5EEDU) {
@@ -42,6 +43,7 @@ class Fleet {
     config.id = id;
     config.name = "robot_" + std::to_string(id);
     config.exchange.bytes_per_second = bytes_per_second_;
+    config.own_submaps.length_m = 120;
     robots_[id] = std::make_unique<Team>(config, epoch);
     for (const RobotId other : {id - 1, id + 1})
       if (other > 0) robots_[id]->claim(other, T_of(id, other), 0.99);
@@ -51,6 +53,8 @@ class Fleet {
   /// A robot sees something: some tiles change, many of them again.
   void observe(RobotId id, int tiles) {
     if (!up(id)) return;
+    path_m_[id] += 1;
+    robots_.at(id)->be_at({SE3(Eigen::Quaterniond::Identity(), {path_m_[id], 0, 0}), {}});
     for (int i = 0; i < tiles; ++i) {
       const auto at = [&](unsigned most) { return static_cast<std::uint16_t>(32768 + 8 * (random_() % most)); };
       const auto z = at(4), y = at(6), x = at(5);  // of arguments, each compiler draws another first
@@ -124,9 +128,23 @@ class Fleet {
     out_.clear();
     robot.step(clock(id), out_);
     for (const peers::Outgoing& datagram : out_) network.send(id, robots_.size(), datagram, now_);
+    if (now_.time_since_epoch() % kComparisons < kTick) compare(robot, clock(id));
     if (now_.time_since_epoch() % every_ >= kTick) return;
     Budget budget = Budget::steps(slice_);
     (void)robot.fuse(budget);
+  }
+
+  void compare(Team& robot, Time now) {
+    auto job = robot.next_match(now);
+    if (!job) return;
+    if (job->refinement) {
+      const double drift = std::uniform_real_distribution<>(-0.2, 0.2)(random_);
+      UncertainPose& found = job->refinement->found.emplace();
+      found.mean = job->refinement->guess.mean * SE3(Eigen::Quaterniond::Identity(), {drift, -drift, 0});
+      found.covariance = 1e-4 * Matrix6::Identity();
+      job->refinement->probability = 0.97;
+    }
+    robot.matched(std::move(*job), now);
   }
 
   static bool knows_all(const Exchange& robot, const Exchange& origin) {
@@ -147,6 +165,7 @@ class Fleet {
   int slice_ = 1;
   Duration every_ = std::chrono::seconds(1);  // little, while nobody asks: a test runs thousands of minutes
   std::vector<peers::Outgoing> out_;
+  std::map<RobotId, double> path_m_;
   std::size_t refused_ = 0;
 };
 

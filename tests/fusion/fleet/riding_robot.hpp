@@ -11,14 +11,21 @@
 
 namespace cairn::fleet {
 
-/// A robot of a team that rides through a scene and maps it; poses are exact, ranges have 2 cm noise. Its odom frame is
-/// that of its start, turned by `yaw`.
+/// What odometry makes of each metre that was driven.
+struct Drift {
+  double scale = 0;          ///< of the way, too much
+  double yaw_per_metre = 0;  ///< rad
+};
+
+/// A robot of a team that rides through a scene and maps it; ranges have 2 cm noise, poses are exact but for its drift.
+/// Its odom frame is that of its start, turned by `yaw`.
 class RidingRobot {
  public:
-  RidingRobot(const TeamConfig& config, const support::Scene& scene, double from, double yaw)
+  RidingRobot(const TeamConfig& config, const support::Scene& scene, double from, double yaw, const Drift& drift = {})
       : team(config, std::uint64_t{1} << 32U),
         scene_(scene),
         phi_(from),
+        drift_(drift),
         lidar_(mount(), 0.02, static_cast<unsigned>(config.id)),
         mapper_(mapping(config.resolution_m), workers_) {
     Vector6 turned;
@@ -28,8 +35,11 @@ class RidingRobot {
 
   /// Goes on by `dphi` of the ride's curve and takes a scan there.
   void ride(double dphi, Time now) {
+    const SE3 was = support::pose_on(scene_.ride, phi_);
     phi_ += dphi;
     const SE3 at = support::pose_on(scene_.ride, phi_);
+    T_odom_world_ = T_odom_world_ * was * drifted(was.inverse() * at) * at.inverse();
+    team.be_at({T_odom_world_ * at, Matrix6::Identity() * 1e-4});
     const Scan scan = lidar_.scan(
         scene_.world, [&](double) { return at; }, 0);
     const SE3 T_odom_lidar = T_odom_world_ * at * mount();
@@ -40,12 +50,21 @@ class RidingRobot {
     for (const TileKey tile : mapper_.take_changed_tiles()) team.observe(tile, read_tile(mapper_.tree(), tile), now);
   }
 
+  /// Where the robot is in the world.
+  [[nodiscard]] SE3 T_world_base() const { return support::pose_on(scene_.ride, phi_); }
+  /// By now.
   [[nodiscard]] const SE3& T_odom_world() const { return T_odom_world_; }
   [[nodiscard]] const SemanticOcTree& map() const { return mapper_.tree(); }
 
   Team team;
 
  private:
+  [[nodiscard]] SE3 drifted(const SE3& moved) const {
+    if (drift_.scale == 0 && drift_.yaw_per_metre == 0) return moved;
+    const double turned = drift_.yaw_per_metre * moved.translation().norm();
+    const Eigen::AngleAxisd yaw(turned, Eigen::Vector3d::UnitZ());
+    return {moved.quaternion() * Eigen::Quaterniond(yaw), (1 + drift_.scale) * moved.translation()};
+  }
   static SE3 mount() {
     Vector6 v;
     v << 0.2, 0, 0.6, 0, 0, 0;
@@ -60,6 +79,7 @@ class RidingRobot {
 
   support::Scene scene_;
   double phi_;
+  Drift drift_;
   SE3 T_odom_world_;
   support::Vlp16 lidar_;
   Workers workers_{1};

@@ -94,6 +94,25 @@ TEST(TeamMap, IsWhatMergingWholeMapsGives) {
   }
 }
 
+TEST(TeamMap, ASubmapThatHasJustBegunBelongsToWhatIsShown) {
+  Tiles tiles = random_tiles(6, 2);
+  auto& begun = tiles[{2, 1}];
+  while (begun.size() > 10) begun.erase(begun.begin());
+  const auto at_once = fused(tiles, poses_of(tiles));
+  TeamMap map(kResolution, Policy::kRelativeEntropy);
+  put_all(map, tiles);
+  SubmapPoses before = poses_of(tiles);
+  before.erase({2, 1});
+  map.place(before);
+  finish(map);
+  const SemanticOcTree* shown = &map.map();
+  map.place(poses_of(tiles));
+  finish(map);
+  EXPECT_EQ(&map.map(), shown) << "nothing was built anew";
+  EXPECT_EQ(different(map.map(), at_once->map()), 0U);
+  EXPECT_EQ(different(at_once->map(), map.map()), 0U);
+}
+
 TEST(TeamMap, HowTheWorkWasCutAndOrderedDoesNotMatter) {
   const Tiles tiles = random_tiles(4, 3), older = random_tiles(5, 3);
   const auto at_once = fused(tiles, poses_of(tiles));

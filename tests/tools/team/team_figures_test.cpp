@@ -91,7 +91,10 @@ TEST(CompareTeam, WithoutTruthNothingIsSaidAboutErrors) {
 TEST(CompareTeam, TheWorldIsComparedWithTheLargestTeamsMap) {
   auto robots = team_of(4);
   split_off(robots, 0);
-  for (std::size_t i = 1; i < 4; ++i) robots[i].anchor = "r1";
+  for (std::size_t i = 1; i < 4; ++i) {
+    robots[i].anchor = "r1";
+    robots[i].T_team_odom = ahead(static_cast<double>(i) - 1);
+  }
   EXPECT_EQ(in_largest_team(robots), 1U);
   robots[1].standing = Standing{ahead(0.5), ahead(0.5)};
   robots[0].team_map = random_map(7);
@@ -99,6 +102,13 @@ TEST(CompareTeam, TheWorldIsComparedWithTheLargestTeamsMap) {
   const TeamFigures figures = compare_team(robots, world.get());
   EXPECT_EQ(figures.iou_world, 1.0);
   EXPECT_LT(figures.robots[0].iou_world.value(), 1.0);
+}
+
+TEST(CompareTeam, AnAnchorThatHasDriftedIsWhereTheTeamPutsIt) {
+  auto robots = team_of(2);
+  robots[0].T_team_odom = ahead(0.3);  // odom has drifted by as much since the team's frame was fixed
+  robots[0].standing = Standing{ahead(0.2), ahead(0.5)};
+  EXPECT_EQ(compare_team(robots, random_map(1).get()).iou_world, 1.0);
 }
 
 }  // namespace
