@@ -118,11 +118,11 @@ struct Drifted {
     for (peers::RobotId robot = 1; robot <= robots; ++robot) {
       SE3 at = pose(static_cast<double>(robot), 2, 0.4 * static_cast<double>(robot)), odometry;
       truth[{robot, 0}] = at;
-      for (std::uint16_t k = 1; k < submaps; ++k) {
+      for (std::size_t k = 1; k < submaps; ++k) {
         const SE3 moved = pose(20, 3, 0.3);
         at = at * moved;
         odometry = odometry * moved * noise(sigma, random);
-        truth[{robot, k}] = at;
+        truth[{robot, static_cast<std::uint16_t>(k)}] = at;
         chains[robot].push_back({odometry, drift});
       }
     }
