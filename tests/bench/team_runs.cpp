@@ -35,7 +35,7 @@ using peers::RobotId;
 
 std::map<std::string, double> g_options{{"resolution", 0.1}, {"loss", 0.2}, {"jitter_ms", 300},
                                         {"rate", 16000},     {"after", 30}, {"looks", 0},
-                                        {"submap", 25},      {"drift", 0},  {"drift_deg", 0}};
+                                        {"submap", 100},     {"drift", 0},  {"drift_deg", 0}};
 fs::path g_out;
 constexpr Duration kTick = std::chrono::milliseconds(100);
 

@@ -25,7 +25,7 @@ class OwnSubmapsTest : public testing::Test {
   }
 
   Exchange exchange_{1, "a", Epoch{1} << 32U};
-  OwnSubmaps submaps_{{}, kTileM};
+  OwnSubmaps submaps_{{.length_m = 25}, kTileM};
   double x_ = 0;
 };
 
