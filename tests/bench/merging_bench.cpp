@@ -5,11 +5,12 @@
 #include <sys/mman.h>
 
 #include <algorithm>
-#include <ctime>
+#include <array>
 #include <vector>
 
 #include "fusion/merging/merge.hpp"
 #include "fusion/merging/team_map.hpp"
+#include "hal/clock.hpp"
 #include "tests/support/map_pairs.hpp"
 
 namespace cairn::merging {
@@ -24,12 +25,6 @@ void BM_Merge(benchmark::State& state) {
   for (auto _ : state) nodes = (*merge(team))->size();
   state.counters["nodes"] = static_cast<double>(nodes);
 }
-double thread_cpu_ms() {
-  timespec t{};
-  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
-  return 1e3 * static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_nsec);
-}
-
 using Tiles = std::vector<std::pair<TileKey, TileState>>;
 Tiles tiles_of(const SemanticOcTree& map) {
   Tiles tiles;
@@ -60,10 +55,10 @@ void keep_team_map(const std::array<Tiles, 2>& tiles, const SE3& T_a_b, std::vec
         if (const auto& own = tiles[(robot - 1) % 2]; k < own.size())
           map.put({robot, 0}, own[k].first, own[k].second, Time{});
     if (slice % 200 == 0) map.place(poses_of(T_a_b, static_cast<int>(slice / 200)));
-    const double begin = thread_cpu_ms();
+    const Duration begin = thread_cpu_time();
     Budget budget = Budget::until(clock.now() + std::chrono::microseconds(1500), clock, 100);
     (void)map.fuse(budget);
-    slices_ms.push_back(thread_cpu_ms() - begin);
+    slices_ms.push_back(to_milliseconds(thread_cpu_time() - begin));
   }
 }
 
