@@ -11,7 +11,7 @@ namespace cairn::peers {
 /// Submaps and the errors of odometry along them. They are those of a robot that has nothing but its scans: too large
 /// rather than too small, as what they allow is what comparisons of maps may correct.
 struct OwnSubmapsConfig {
-  double length_m = 100;            ///< of the path through one submap
+  double length_m = 300;            ///< of the path through one submap
   double drift_m_per_m = 0.01;      ///< standard deviation of each axis at its end, per metre of path,
   double drift_rad_per_m = 3.5e-4;  ///< and of each turn: 0.2° in 10 m
 };

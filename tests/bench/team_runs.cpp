@@ -4,7 +4,7 @@
 //   team_runs RECORDINGS… [key=value …]     RECORDINGS: a folder of robot_1, robot_2, …
 //   keys: resolution (0.1 m), loss (0.2), jitter_ms (300), rate (bytes/s, 16000), after (s of silence at the end, 30),
 //   out (a folder for the team's map of each robot), looks (1: every place that was looked at, with what speaks for
-//   it), submap (m of path, 100), drift (of the way, 0) and drift_deg (a metre, 0) that odd robots' odometry is given,
+//   it), submap (m of path, 300), drift (of the way, 0) and drift_deg (a metre, 0) that odd robots' odometry is given,
 //   the others' with the other sign
 #include <xxhash.h>
 
@@ -35,7 +35,7 @@ using peers::RobotId;
 
 std::map<std::string, double> g_options{{"resolution", 0.1}, {"loss", 0.2}, {"jitter_ms", 300},
                                         {"rate", 16000},     {"after", 30}, {"looks", 0},
-                                        {"submap", 100},     {"drift", 0},  {"drift_deg", 0}};
+                                        {"submap", 300},     {"drift", 0},  {"drift_deg", 0}};
 fs::path g_out;
 constexpr Duration kTick = std::chrono::milliseconds(100);
 

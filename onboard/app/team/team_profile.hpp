@@ -30,7 +30,7 @@ struct TeamProfile {
   std::string socket = "/run/cairn/peers.sock";  ///< local, shared with cairn-peers
   int bytes_per_second = 16000;                  ///< that the core hands out, all overhead included
   double match_s = 5;                            ///< one comparison of two maps may take so long
-  double submap_m = 100;                         ///< of the path through one submap
+  double submap_m = 300;                         ///< of the path through one submap
   double drift_percent = 1;                      ///< of the path, that odometry may be off at its end, per axis,
   double drift_deg_per_m = 0.02;                 ///< and turned
   DeploymentProfile deployment;
