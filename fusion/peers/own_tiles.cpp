@@ -15,7 +15,11 @@ double change_between(const TileState& said, const TileState& now) {
     for (unsigned z = 0; z < TileState::kEdge; ++z) voxels += std::popcount(a[z] ^ b[z]);
     return voxels;
   };
-  return differing(said.known, now.known) + differing(said.occupied, now.occupied) +
+  int labels = 0;
+  for (unsigned z = 0; z < TileState::kEdge && !(said.labels.empty() && now.labels.empty()); ++z)
+    for (unsigned y = 0; y < TileState::kEdge; ++y)
+      for (unsigned x = 0; x < TileState::kEdge; ++x) labels += said.label(x, y, z) != now.label(x, y, z) ? 1 : 0;
+  return labels + differing(said.known, now.known) + differing(said.occupied, now.occupied) +
          0.25 * (differing(said.low, now.low) + differing(said.high, now.high));
 }
 

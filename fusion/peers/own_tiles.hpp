@@ -21,7 +21,8 @@ struct OwnTilesConfig {
   Duration quiet = std::chrono::seconds(5);         ///< nothing changes any more: whatever waits is said
 };
 
-/// Voxels that became known or changed sides, and a quarter of those that became surer or less sure.
+/// Voxels that became known, changed sides or have another label, and a quarter of those that became surer or less
+/// sure.
 [[nodiscard]] double change_between(const TileState& said, const TileState& now);
 
 /// What a robot says of its own map, and when: every scan changes a thousand tiles, each by a few voxels, and a radio

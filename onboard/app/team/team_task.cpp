@@ -14,7 +14,8 @@ using scheduler::Tick;
 namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds(100), kTell = std::chrono::seconds(1);
-// A tile takes some tens of microseconds: 2 ms of work, less what the last one may take too long.
+// A tile takes some tens of microseconds, memory for more nodes a few more: 2 ms, less what the last step takes too
+// long.
 constexpr Duration kSlice = std::chrono::microseconds(1500);
 constexpr int kSliceTiles = 100;
 

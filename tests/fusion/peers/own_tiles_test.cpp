@@ -98,6 +98,12 @@ TEST(OwnTiles, AChangeCountsVoxelsThatChangedSidesAndLessThoseThatBecameSurer) {
   EXPECT_EQ(change_between({}, sure), 8);
   EXPECT_EQ(change_between(sure, wall), 8);
   EXPECT_EQ(change_between(weak, sure), 2);
+  TileState labelled = wall;
+  std::vector<VoxelLabel> labels(512);
+  labels[3] = VoxelLabel::of(2, 0);
+  labelled.set_labels(labels);
+  EXPECT_EQ(change_between(wall, labelled), 1);
+  EXPECT_EQ(change_between(labelled, labelled), 0);
 }
 
 }  // namespace

@@ -14,6 +14,19 @@ std::vector<std::byte> encoded(const TileState& state) {
   return bytes;
 }
 
+/// Whether a tile is still one after some of its bits were turned and bytes cut off or added; then there must be no
+/// other way to write it.
+bool decodes_damaged(std::vector<std::byte> bytes, std::mt19937& random) {
+  for (auto changes = 1 + random() % 2; changes > 0; --changes)
+    bytes[random() % bytes.size()] ^= static_cast<std::byte>(1U << random() % 8);
+  if (random() % 4 == 0) bytes.resize(random() % (bytes.size() + 3));
+  const auto decoded = decode_tile(bytes);
+  if (!decoded) return false;
+  EXPECT_TRUE(decoded->valid());
+  EXPECT_EQ(encoded(*decoded), bytes);
+  return true;
+}
+
 TEST(TileCodec, DecodesWhatItEncodes) {
   std::mt19937 random(1);
   for (int i = 0; i < 3000; ++i) {
@@ -50,15 +63,7 @@ TEST(TileCodec, OnlyOneFormOfLabelsIsTaken) {
   for (int i = 0; i < 30000; ++i) {
     const TileState wall = wall_tile_state(random);
     const auto kinds = static_cast<unsigned>(1 + random() % 20);
-    auto bytes = encoded(with_labels(wall, random, kinds));
-    for (auto changes = 1 + random() % 2; changes > 0; --changes)
-      bytes[random() % bytes.size()] ^= static_cast<std::byte>(1U << random() % 8);
-    if (random() % 4 == 0) bytes.resize(random() % (bytes.size() + 3));
-    const auto decoded = decode_tile(bytes);
-    if (!decoded) continue;
-    ++decoded_ones;
-    ASSERT_TRUE(decoded->valid());
-    ASSERT_EQ(encoded(*decoded), bytes);
+    decoded_ones += decodes_damaged(encoded(with_labels(wall, random, kinds)), random) ? 1 : 0;
   }
   EXPECT_GT(decoded_ones, 1000);
 }
@@ -85,17 +90,7 @@ TEST(TileCodec, TheWorstTileFits) {
 TEST(TileCodec, WhateverIsDecodedHasTheseBytesAndNoOthers) {
   std::mt19937 random(3);
   int decoded_ones = 0;
-  for (int i = 0; i < 30000; ++i) {
-    auto bytes = encoded(random_tile_state(random));
-    for (auto changes = 1 + random() % 2; changes > 0; --changes)
-      bytes[random() % bytes.size()] ^= static_cast<std::byte>(1U << random() % 8);
-    if (random() % 4 == 0) bytes.resize(random() % (bytes.size() + 3));
-    const auto decoded = decode_tile(bytes);
-    if (!decoded) continue;
-    ++decoded_ones;
-    ASSERT_TRUE(decoded->valid());
-    ASSERT_EQ(encoded(*decoded), bytes);
-  }
+  for (int i = 0; i < 30000; ++i) decoded_ones += decodes_damaged(encoded(random_tile_state(random)), random) ? 1 : 0;
   EXPECT_GT(decoded_ones, 1000);
 }
 
