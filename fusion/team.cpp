@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <utility>
 
@@ -14,6 +15,7 @@ namespace {
 using peers::RobotId;
 
 constexpr double kLeastVariance = 1e-12;       // m², rad²
+constexpr std::size_t kMostOfAKind = 256;      // claims of one robot: each is weighed against the others
 constexpr std::uint16_t kKnownEdges = 0x8000;  // those before are found by comparing maps, from 0xC000 by deployment
 
 /// Whether a peer's numbers can be those of a covariance: of nothing that is known to a micrometre, either, which would
@@ -108,7 +110,9 @@ std::vector<PairClaim> Team::claims() const {
   for (const auto& [robot, layer] : layers) {
     const auto& items = layer.holding.items();
     const auto end = items.lower_bound(peers::ItemId::deployment());
+    std::array<std::size_t, 4> taken{};  // found, refined, known, deployed: see the indices of edges
     for (auto item = items.lower_bound(peers::ItemId::edge(0)); item != end; ++item) {
+      if (++taken.at(item->first.submap() >> 14U) > kMostOfAKind) continue;
       const auto edge = peers::decode_edge(item->second.payload);
       if (!edge || edge->probability == 0 || !definite(edge->T_own_other.covariance)) continue;  // 0: withdrawn
       const auto other = layers.find(edge->other);

@@ -20,6 +20,25 @@ class TeamStanding : public testing::Test {
   Team a_{team_member(1), peers::Epoch{1} << 32U};
 };
 
+TEST_F(TeamStanding, OfALiarsThousandClaimsOnlySomeAreWeighed) {
+  peers::ExchangeConfig config;
+  config.voxel_um = 200'000;
+  config.bytes_per_second = 1'000'000;
+  peers::Exchange liar(2, "liar", peers::Epoch{1} << 32U, config);
+  const UncertainPose here{SE3(), Matrix6::Identity()};
+  for (std::uint16_t i = 0; i < 1000; ++i)
+    liar.say(peers::ItemId::edge(i), encode(peers::Edge{0, 1, a_.exchange().epoch(), 0, here, 0.9F}));
+  for (int i = 0; i < 100; ++i, now_ += milliseconds(100)) {
+    std::vector<peers::Outgoing> from_a, from_liar;
+    a_.step(now_, from_a);
+    liar.send(now_, from_liar);
+    for (const auto& datagram : from_a) ASSERT_TRUE(liar.receive(datagram.bytes, now_));
+    for (const auto& datagram : from_liar) ASSERT_TRUE(a_.receive(datagram.bytes, now_));
+  }
+  EXPECT_GT(a_.exchange().layers().at(2).holding.items().size(), 900U);
+  EXPECT_EQ(a_.claims().size(), 256U);
+}
+
 TEST_F(TeamStanding, NobodyWasHeardOf) { EXPECT_EQ(a_.standing(2, now_).reason, "never heard of"); }
 
 TEST_F(TeamStanding, GoesFromNoMapToTooLittleToBeingComparedAndToNoLink) {
