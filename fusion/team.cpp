@@ -159,16 +159,16 @@ void Team::focus() {
 
 void Team::be_at(const UncertainPose& T_odom_base) {
   position_odom_ = T_odom_base.mean.translation();
-  const Eigen::Vector3f at = position_odom_.cast<float>();
+  const Eigen::Vector3d& at = position_odom_;
   const Eigen::Vector3d x_axis = T_odom_base.mean.rotation().col(0);
   constexpr double kMost = 1e6;  // others refuse more, and whoever says it
   if (!at.allFinite() || at.cwiseAbs().maxCoeff() > kMost) return;
   own_submaps_.be_at(position_odom_, exchange_);
   const Vector6 sigma = T_odom_base.covariance.diagonal().cwiseMax(0).cwiseSqrt();
   exchange_.set_place({{at.x(), at.y(), at.z()},
-                       static_cast<float>(std::atan2(x_axis.y(), x_axis.x())),
-                       static_cast<float>(std::fmin(kMost, sigma.head<3>().maxCoeff())),
-                       static_cast<float>(std::fmin(kMost, sigma.tail<3>().maxCoeff()))});
+                       std::atan2(x_axis.y(), x_axis.x()),
+                       std::fmin(kMost, sigma.head<3>().maxCoeff()),
+                       std::fmin(kMost, sigma.tail<3>().maxCoeff())});
 }
 
 /// Where the peer is, in a frame that is known to lie in the team's.
@@ -178,8 +178,8 @@ peers::Interest Team::interest_of(RobotId peer, RobotId robot) const {
   const auto of_peer = poses_.T_team_odom.find(peer), of_robot = poses_.T_team_odom.find(robot);
   const bool known = of_peer != poses_.T_team_odom.end() && of_robot != poses_.T_team_odom.end();
   if (!known || link == exchange_.links().end() || !link->second.place) return interest;
-  const Eigen::Vector3f at(link->second.place->position_m.data());
-  interest.position_odom = of_robot->second.inverse() * (of_peer->second * at.cast<double>());
+  const Eigen::Vector3d at(link->second.place->position_m.data());
+  interest.position_odom = of_robot->second.inverse() * (of_peer->second * at);
   return interest;
 }
 

@@ -17,8 +17,8 @@
 namespace cairn::peers {
 namespace {
 
-constexpr int kHistory = 256;  // datagrams that wait to be read, by topic
-constexpr std::array kTopics{"cairn/hello", "cairn/digest", "cairn/items"};
+constexpr int kHistory = 768;  // datagrams that wait to be read
+constexpr const char* kTopic = "cairn/datagrams";
 
 /// A handle of Cyclone DDS; deleting the participant deletes all that belongs to it.
 using Entity = dds_entity_t;
@@ -84,18 +84,13 @@ class Team final : public DdsTeam {
     if (domain_ < 0) return failed("domain", domain_);
     participant_ = dds_create_participant(config.domain, nullptr, nullptr);
     if (participant_ < 0) return failed("participant", participant_);
-    for (std::size_t i = 0; i < kTopics.size(); ++i) {
-      topics_[i] = dds_create_topic(participant_, &cairn_Datagram_desc, kTopics[i], nullptr, nullptr);
-      if (topics_[i] < 0) return failed(kTopics[i], topics_[i]);
-    }
-    return begin_reading();
+    topic_ = dds_create_topic(participant_, &cairn_Datagram_desc, kTopic, nullptr, nullptr);
+    return topic_ < 0 ? failed(kTopic, topic_) : begin_reading();
   }
 
   Result<void> send(std::uint64_t to, std::span<const std::byte> datagram) override {
-    const std::size_t topic = topic_of(datagram);
-    if (datagram.size() > LinkFrame::kMaxBytes || topic == kTopics.size())
-      return Error{Errc::kMalformed, "not a datagram for a team"};
-    const auto writer = writer_to(to, topic);
+    if (datagram.size() > LinkFrame::kMaxBytes) return Error{Errc::kMalformed, "not a datagram for a team"};
+    const auto writer = writer_to(to);
     if (!writer) return writer.error();
     cairn_Datagram sample{};
     sample.sender = self_;
@@ -109,7 +104,7 @@ class Team final : public DdsTeam {
   void receive(std::vector<Received>& out) override {
     eventfd_t count = 0;
     (void)eventfd_read(wake_fd_, &count);
-    for (const Entity reader : readers_) take_all(reader, out);
+    take_all(reader_, out);
   }
 
   [[nodiscard]] int readable_fd() const override { return wake_fd_; }
@@ -123,31 +118,21 @@ class Team final : public DdsTeam {
     if (subscriber < 0) return failed("subscriber", subscriber);
     dds_listener_t* listener = dds_create_listener(&wake_fd_);
     dds_lset_data_available(listener, wake);
-    for (std::size_t i = 0; i < kTopics.size(); ++i)
-      readers_[i] = dds_create_reader(subscriber, topics_[i], qos.qos, listener);
+    reader_ = dds_create_reader(subscriber, topic_, qos.qos, listener);
     dds_delete_listener(listener);
-    for (std::size_t i = 0; i < kTopics.size(); ++i)
-      if (readers_[i] < 0) return failed(kTopics[i], readers_[i]);
-    return {};
+    return reader_ < 0 ? failed(kTopic, reader_) : Result<void>{};
   }
 
-  /// By its kind, the second byte.
-  static std::size_t topic_of(std::span<const std::byte> datagram) {
-    const auto kind = datagram.size() < 2 ? 0U : std::to_integer<unsigned>(datagram[1]);
-    return kind >= 1 && kind <= kTopics.size() ? kind - 1 : kTopics.size();
-  }
-
-  Result<Entity> writer_to(std::uint64_t to, std::size_t topic) {
-    auto& writers = writers_.try_emplace(to).first->second;
-    if (writers[topic] > 0) return writers[topic];
+  Result<Entity> writer_to(std::uint64_t to) {
+    if (const auto known = writers_.find(to); known != writers_.end()) return known->second;
     Qos qos;
     const std::string name = partition_of(to);
     qos.partitions({name.c_str()});
     const Entity publisher = dds_create_publisher(participant_, qos.qos, nullptr);
     if (publisher < 0) return failed("publisher", publisher);
-    const Entity writer = dds_create_writer(publisher, topics_[topic], qos.qos, nullptr);
+    const Entity writer = dds_create_writer(publisher, topic_, qos.qos, nullptr);
     if (writer < 0) return failed("writer", writer);
-    writers[topic] = writer;
+    writers_[to] = writer;
     return writer;
   }
 
@@ -169,9 +154,8 @@ class Team final : public DdsTeam {
 
   std::uint64_t self_;
   int wake_fd_;
-  Entity domain_ = 0, participant_ = 0;
-  std::array<Entity, kTopics.size()> topics_{}, readers_{};
-  std::map<std::uint64_t, std::array<Entity, kTopics.size()>> writers_;
+  Entity domain_ = 0, participant_ = 0, topic_ = 0, reader_ = 0;
+  std::map<std::uint64_t, Entity> writers_;
 };
 
 }  // namespace

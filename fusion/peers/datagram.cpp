@@ -7,68 +7,78 @@
 #include <utility>
 
 #include "fusion/peers/claim.hpp"
-#include "fusion/peers/datagram_kind.hpp"
+#include "fusion/peers/datagram_part.hpp"
 #include "fusion/peers/tile_codec.hpp"
 #include "fusion/peers/wire.hpp"
 
 namespace cairn::peers {
 namespace {
 
-/// Whether differences of such times are safe.
-bool possible(std::int64_t nanoseconds) {
-  constexpr std::int64_t kLongest = std::int64_t{1} << 60;
-  return nanoseconds > -kLongest && nanoseconds < kLongest;
-}
+constexpr std::int64_t kLongestNs = std::int64_t{1} << 60;  // differences of such times are safe
+
+bool possible(std::int64_t nanoseconds) { return nanoseconds > -kLongestNs && nanoseconds < kLongestNs; }
 
 Error too_short() { return {Errc::kTruncated, "the datagram ends early"}; }
 
-/// A byte that says whether there is one, then six floats. False: no such place.
+/// A byte that says whether there is one. False: no such byte.
+bool read_presence(ByteReader& in, bool& present) {
+  const auto byte = in.read<std::uint8_t>();
+  present = byte == 1;
+  return byte && *byte <= 1;
+}
+
+/// False: no such place.
 bool read_place(ByteReader& in, std::optional<Hello::Place>& place) {
-  constexpr float kMost = 1e6F, kHalfTurn = 3.1416F;
-  const auto known = in.read<std::uint8_t>();
-  if (!known || *known > 1) return false;
-  if (*known == 0) return true;
-  std::array<float, 6> values{};
-  for (float& value : values) value = in.read<float>().value_or(NAN);
-  const auto within = [](float value, float least, float most) { return value >= least && value <= most; };
-  for (const std::size_t i : {0U, 1U, 2U})
-    if (!within(values[i], -kMost, kMost)) return false;
-  if (!within(values[3], -kHalfTurn, kHalfTurn)) return false;
-  if (!within(values[4], 0, kMost) || !within(values[5], 0, kMost)) return false;
+  constexpr std::int64_t kMostCm = 100'000'000, kHalfTurnMrad = 3142, kMostMrad = 1'000'000'000;
+  constexpr std::array kMost{kMostCm, kMostCm, kMostCm, kHalfTurnMrad, kMostCm, kMostMrad};
+  std::array<double, 6> values{};
+  bool known = false;
+  if (!read_presence(in, known)) return false;
+  if (!known) return true;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const auto read = read_varint(in);
+    const std::int64_t least = i < 4 ? -kMost.at(i) : 0, value = read ? unzigzag(*read) : least - 1;
+    if (value < least || value > kMost.at(i)) return false;
+    values.at(i) = static_cast<double>(value) / (kMost.at(i) == kMostCm ? 100 : 1000);
+  }
   place = Hello::Place{{values[0], values[1], values[2]}, values[3], values[4], values[5]};
   return true;
 }
 
+/// False: no such echo.
+bool read_echo(ByteReader& in, std::optional<Hello::Echo>& echo) {
+  bool known = false;
+  if (!read_presence(in, known)) return false;
+  if (!known) return true;
+  const auto robot = read_varint(in);
+  const auto stamp = robot ? in.read<std::int64_t>() : std::nullopt;
+  const auto age = stamp ? read_varint(in) : std::nullopt;
+  if (!age || !possible(*stamp) || *age > static_cast<std::uint64_t>(kLongestNs)) return false;
+  echo = Hello::Echo{*robot, Time{Duration{*stamp}}, Duration{static_cast<std::int64_t>(*age)}};
+  return true;
+}
+
+bool read_name(ByteReader& in, std::string& name) {
+  const auto length = in.read<std::uint8_t>();
+  const auto bytes = length && *length <= Hello::kMaxName ? in.read_bytes(*length) : std::nullopt;
+  if (!bytes) return false;
+  for (const std::byte c : *bytes) name += static_cast<char>(c);
+  return std::ranges::all_of(name, is_printable);
+}
+
 Result<Hello> read_hello(ByteReader& in) {
   Hello hello;
-  const auto epoch = in.read<Epoch>();
-  const auto newest = in.read<Version>();
-  const auto stamp = in.read<std::int64_t>();
-  const auto voxel_um = stamp ? in.read<std::uint32_t>() : std::nullopt;
-  const auto length = voxel_um ? in.read<std::uint8_t>() : std::nullopt;
-  if (!length) return too_short();
+  const auto epoch = read_varint(in);
+  const auto newest = epoch ? read_varint(in) : std::nullopt;
+  const auto stamp = newest ? in.read<std::int64_t>() : std::nullopt;
+  const auto voxel_um = stamp ? read_varint(in) : std::nullopt;
+  if (!voxel_um || *voxel_um > ~std::uint32_t{0}) return Error{Errc::kMalformed, "not a hello", {}, in.offset()};
   if (*epoch > kLastEpoch) return Error{Errc::kMalformed, "an epoch that cannot be"};
   if (!possible(*stamp)) return Error{Errc::kMalformed, "a clock beyond 36 years"};
-  if (*length > Hello::kMaxName) return Error{Errc::kMalformed, "a robot's name of more than 24 bytes"};
-  const auto name = in.read_bytes(*length);
-  std::optional<Hello::Place> place;
-  if (!name) return too_short();
-  if (!read_place(in, place)) return Error{Errc::kMalformed, "a place that cannot be"};
-  const auto echoes = in.read<std::uint8_t>();
-  if (!echoes) return too_short();
-  if (*echoes > Hello::kMaxEchoes) return Error{Errc::kMalformed, "more than 32 echoes"};
-  hello = {*epoch, *newest, Time{Duration{*stamp}}, {}, {}, *voxel_um, place};
-  for (const std::byte c : *name) hello.name += static_cast<char>(c);
-  if (!std::ranges::all_of(hello.name, is_printable))
-    return Error{Errc::kMalformed, "a robot's name that cannot be printed"};
-  for (unsigned i = 0; i < *echoes; ++i) {
-    const auto robot = in.read<RobotId>();
-    const auto heard = in.read<std::int64_t>();
-    const auto age = in.read<std::int64_t>();
-    if (!age) return too_short();
-    if (*age < 0 || !possible(*age) || !possible(*heard)) return Error{Errc::kMalformed, "an echo that cannot be"};
-    hello.echoes.push_back({*robot, Time{Duration{*heard}}, Duration{*age}});
-  }
+  hello = {*epoch, *newest, Time{Duration{*stamp}}, {}, {}, static_cast<std::uint32_t>(*voxel_um), {}};
+  if (!read_name(in, hello.name)) return Error{Errc::kMalformed, "a name that cannot be, of 24 printable characters"};
+  if (!read_place(in, hello.place)) return Error{Errc::kMalformed, "a place that cannot be"};
+  if (!read_echo(in, hello.echo)) return Error{Errc::kMalformed, "an echo that cannot be"};
   return hello;
 }
 
@@ -94,6 +104,7 @@ Result<Digest> read_digest(ByteReader& in) {
   Digest digest;
   const auto count = in.read<std::uint8_t>();
   if (!count) return too_short();
+  if (*count == 0) return Error{Errc::kMalformed, "a digest of no robot", {}, in.offset()};
   if (*count > Digest::kMaxLayers) return Error{Errc::kMalformed, "a digest of more than 32 robots"};
   for (unsigned i = 0; i < *count; ++i) {
     const auto robot = read_varint(in);
@@ -148,7 +159,7 @@ Result<Items> read_items(ByteReader& in) {
   items.robot = *robot;
   items.epoch = *epoch;
   const std::size_t ranges_at = in.offset();
-  if (!read_ranges(in, items.superseded) || in.offset() - ranges_at > kMaxSuperseded)
+  if (!read_ranges(in, items.superseded) || in.offset() - ranges_at > kMaxRangeBytes)
     return Error{Errc::kMalformed, "not a set of versions", {}, in.offset()};
   items.updates.reserve(in.remaining() / 5);
   bool lowest_met = in.remaining() == 0 && *lowest == 0;
@@ -163,11 +174,29 @@ Result<Items> read_items(ByteReader& in) {
   return items;
 }
 
-template <class T>
-Result<Datagram> sealed(RobotId sender, const ByteReader& in, Result<T> content) {
-  if (!content) return content.error();
+/// Reads the parts that there are.
+Result<Datagram> read_parts(ByteReader& in, std::uint8_t parts, RobotId sender) {
+  Datagram datagram{sender, {}, {}, {}};
+  if (parts & kHelloPart) {
+    auto hello = read_hello(in);
+    if (!hello) return hello.error();
+    datagram.hello = std::move(*hello);
+  }
+  if (parts & kDigestPart) {
+    const std::size_t begin = in.offset();
+    auto digest = read_digest(in);
+    if (!digest) return digest.error();
+    if ((parts & kItemsPart) && in.offset() - begin > kMaxRangeBytes)
+      return Error{Errc::kMalformed, "a digest that leaves no room for items", {}, begin};
+    datagram.digest = std::move(*digest);
+  }
+  if (parts & kItemsPart) {
+    auto items = read_items(in);
+    if (!items) return items.error();
+    datagram.items = std::move(*items);
+  }
   if (in.remaining() != 0) return Error{Errc::kMalformed, "bytes after the end of the datagram", {}, in.offset()};
-  return Datagram{sender, std::move(*content)};
+  return datagram;
 }
 
 }  // namespace
@@ -180,21 +209,14 @@ Result<Datagram> decode_datagram(std::span<const std::byte> bytes) {
   if (bytes.size() > kMaxDatagram) return Error{Errc::kLimit, "a datagram of more than 1200 bytes"};
   ByteReader in(bytes);
   const auto format = in.read<std::uint8_t>();
-  const auto kind = in.read<std::uint8_t>();
+  const auto parts = in.read<std::uint8_t>();
   const auto sender = in.read<RobotId>();
   if (!sender) return too_short();
   if (*format != kFormat)
     return Error{Errc::kUnsupported, "another version of the format", {}, 0, std::to_string(*format)};
   if (*sender == 0) return Error{Errc::kMalformed, "a datagram of no robot"};
-  switch (static_cast<DatagramKind>(*kind)) {
-    case DatagramKind::kHello:
-      return sealed(*sender, in, read_hello(in));
-    case DatagramKind::kDigest:
-      return sealed(*sender, in, read_digest(in));
-    case DatagramKind::kItems:
-      return sealed(*sender, in, read_items(in));
-  }
-  return Error{Errc::kMalformed, "no such kind of datagram", {}, 1};
+  if (*parts == 0 || *parts > kAllParts) return Error{Errc::kMalformed, "no such parts of a datagram", {}, 1};
+  return read_parts(in, *parts, *sender);
 }
 
 }  // namespace cairn::peers

@@ -1,24 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
 #include "fusion/peers/datagram.hpp"
-#include "fusion/peers/datagram_kind.hpp"
+#include "fusion/peers/datagram_part.hpp"
 #include "fusion/peers/wire.hpp"
 
 namespace cairn::peers {
 namespace {
 
-constexpr std::size_t kItemsHeaderBytes = kHeaderBytes + 24;
-
-std::vector<std::byte> begin(RobotId sender, DatagramKind kind) {
-  std::vector<std::byte> out;
-  out.reserve(kMaxDatagram);
-  append_le(out, kFormat);
-  append_le(out, static_cast<std::uint8_t>(kind));
-  append_le(out, sender);
-  return out;
-}
+constexpr std::size_t kItemsHeaderBytes = 24;  // robot, epoch, lowest version
 
 std::int64_t ns(Time time) { return time.time_since_epoch().count(); }
 
@@ -79,42 +71,46 @@ Packed pack_most(std::span<const ItemUpdate> updates, std::size_t before) {
   return best;
 }
 
-}  // namespace
+/// In hundredths or thousandths; what is beyond all bounds, or no number, as what is refused.
+std::uint64_t whole(double value, double parts) {
+  constexpr double kMost = 1e15;
+  return std::abs(value) <= kMost ? zigzag(std::llround(value * parts)) : ~std::uint64_t{0};
+}
 
-std::vector<std::byte> encode(RobotId sender, const Hello& hello) {
-  std::vector<std::byte> out = begin(sender, DatagramKind::kHello);
-  append_le(out, hello.epoch);
-  append_le(out, hello.newest);
+void append_place(std::vector<std::byte>& out, const std::optional<Hello::Place>& place) {
+  append_le(out, static_cast<std::uint8_t>(place ? 1 : 0));
+  if (!place) return;
+  for (const double coordinate : place->position_m) append_varint(out, whole(coordinate, 100));
+  append_varint(out, whole(place->yaw_rad, 1000));
+  append_varint(out, whole(place->sigma_m, 100));
+  append_varint(out, whole(place->sigma_rad, 1000));
+}
+
+void append_hello(std::vector<std::byte>& out, const Hello& hello) {
+  append_varint(out, hello.epoch);
+  append_varint(out, hello.newest);
   append_le(out, ns(hello.stamp));
-  append_le(out, hello.voxel_um);
+  append_varint(out, hello.voxel_um);
   const std::size_t length = std::min(hello.name.size(), Hello::kMaxName);
   append_le(out, static_cast<std::uint8_t>(length));
   for (std::size_t i = 0; i < length; ++i) append_le(out, is_printable(hello.name[i]) ? hello.name[i] : '?');
-  append_le(out, static_cast<std::uint8_t>(hello.place ? 1 : 0));
-  if (hello.place) {
-    for (const float coordinate : hello.place->position_m) append_le(out, coordinate);
-    for (const float value : {hello.place->yaw_rad, hello.place->sigma_m, hello.place->sigma_rad})
-      append_le(out, value);
-  }
-  const std::size_t echoes = std::min(hello.echoes.size(), Hello::kMaxEchoes);
-  append_le(out, static_cast<std::uint8_t>(echoes));
-  for (std::size_t i = 0; i < echoes; ++i) {
-    append_le(out, hello.echoes[i].robot);
-    append_le(out, ns(hello.echoes[i].stamp));
-    append_le(out, hello.echoes[i].age.count());
-  }
-  return out;
+  append_place(out, hello.place);
+  append_le(out, static_cast<std::uint8_t>(hello.echo ? 1 : 0));
+  if (!hello.echo) return;
+  append_varint(out, hello.echo->robot);
+  append_le(out, ns(hello.echo->stamp));
+  append_varint(out, static_cast<std::uint64_t>(hello.echo->age.count()));
 }
 
-std::vector<std::byte> encode(RobotId sender, const Digest& digest) {
-  constexpr std::size_t kLayerHeader = 10 + 10 + 1;
-  std::vector<std::byte> out = begin(sender, DatagramKind::kDigest);
+/// Up to `most` bytes of the datagram.
+void append_digest(std::vector<std::byte>& out, const Digest& digest, std::size_t most) {
   const std::size_t count_at = out.size();
   append_le(out, std::uint8_t{0});
   std::uint8_t count = 0;
   for (const Digest::Layer& layer : digest.layers) {
-    if (count == Digest::kMaxLayers || out.size() + kLayerHeader + 1 > kMaxDatagram) break;
-    const auto ranges = encoded_ranges(layer.known, kMaxDatagram - out.size() - kLayerHeader);
+    const std::size_t header = varint_bytes(layer.robot) + varint_bytes(layer.epoch) + 1;
+    if (count == Digest::kMaxLayers || out.size() + header + 1 > most) break;
+    const auto ranges = encoded_ranges(layer.known, most - out.size() - header);
     append_varint(out, layer.robot);
     append_varint(out, layer.epoch);
     append_le(out, static_cast<std::uint8_t>(layer.direct ? 1 : 0));
@@ -122,14 +118,12 @@ std::vector<std::byte> encode(RobotId sender, const Digest& digest) {
     ++count;
   }
   out[count_at] = std::byte{count};
-  return out;
 }
 
-std::vector<std::byte> encode(RobotId sender, const Items& items, std::size_t& count) {
-  const auto superseded = encoded_ranges(items.superseded, kMaxSuperseded);
-  const Packed packed = pack_most(items.updates, kItemsHeaderBytes + superseded.size());
-  count = packed.updates.size();
-  std::vector<std::byte> out = begin(sender, DatagramKind::kItems);
+/// How many of the updates there are.
+std::size_t append_items(std::vector<std::byte>& out, const Items& items) {
+  const auto superseded = encoded_ranges(items.superseded, kMaxRangeBytes);
+  const Packed packed = pack_most(items.updates, out.size() + kItemsHeaderBytes + superseded.size());
   append_le(out, items.robot);
   append_le(out, items.epoch);
   append_le(out, packed.lowest);
@@ -143,7 +137,25 @@ std::vector<std::byte> encode(RobotId sender, const Items& items, std::size_t& c
     out.insert(out.end(), update.payload.begin(), update.payload.end());
     above = update.id.code + 1;
   }
-  return out;
+  return packed.updates.size();
+}
+
+}  // namespace
+
+EncodedDatagram encode(const Datagram& datagram) {
+  EncodedDatagram encoded;
+  std::vector<std::byte>& out = encoded.bytes;
+  out.reserve(kMaxDatagram);
+  append_le(out, kFormat);
+  append_le(out, static_cast<std::uint8_t>((datagram.hello ? kHelloPart : 0) |
+                                           (datagram.digest.layers.empty() ? 0 : kDigestPart) |
+                                           (datagram.items ? kItemsPart : 0)));
+  append_le(out, datagram.sender);
+  if (datagram.hello) append_hello(out, *datagram.hello);
+  if (!datagram.digest.layers.empty())
+    append_digest(out, datagram.digest, datagram.items ? out.size() + kMaxRangeBytes : kMaxDatagram);
+  if (datagram.items) encoded.updates = append_items(out, *datagram.items);
+  return encoded;
 }
 
 }  // namespace cairn::peers

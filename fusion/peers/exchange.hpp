@@ -22,12 +22,14 @@ namespace cairn::peers {
 struct ExchangeConfig {
   std::size_t bytes_per_second = 8000;  ///< of all that is sent, overhead included; a second's may gather
   Duration hello_period = std::chrono::seconds(1);
-  Duration digest_period = std::chrono::seconds(1);  ///< of robots of whom more is known than before
-  Duration digest_repeat = std::chrono::seconds(3);  ///< of all
-  Duration lease = std::chrono::seconds(3);          ///< a peer that was not heard for so long is lost
-  Duration longest_way = std::chrono::seconds(2);    ///< there and back: what takes longer is taken for lost
-  Duration gather = std::chrono::milliseconds(300);  ///< items wait so long for others to share a datagram with
-  std::size_t overhead_bytes = 100;                  ///< of RTPS, UDP and IP with each datagram
+  Duration announcement_period = std::chrono::seconds(10);  ///< to robots never heard of, where others were
+  Duration digest_period = std::chrono::seconds(1);         ///< of robots of whom more is known than before
+  Duration digest_repeat = std::chrono::seconds(3);         ///< of all
+  Duration lease = std::chrono::seconds(3);                 ///< a peer that was not heard for so long is lost
+  Duration longest_way = std::chrono::seconds(2);           ///< there and back: what takes longer is taken for lost
+  Duration answer = std::chrono::milliseconds(200);         ///< robots take so long to
+  Duration gather = std::chrono::milliseconds(300);         ///< items wait so long for others to share a datagram with
+  std::size_t overhead_bytes = 100;                         ///< of RTPS, UDP and IP with each datagram
   std::size_t max_bytes_per_robot = Holding::kMaxBytes;
   std::size_t max_robots = 16;  ///< more are not listened to
   std::uint32_t voxel_um = 0;   ///< of what this robot says; where it is not 0, only robots with the same are believed
@@ -71,7 +73,7 @@ class Exchange {
   /// Takes in a datagram. An error: nothing was taken from it, and its sender has lost some trust where it could be
   /// told; a peer that sends too many is not listened to for a while (kLinkDown).
   Result<void> receive(std::span<const std::byte> datagram, Time now);
-  /// Appends what is to be sent now: what is due of hellos and digests, then missing items while the bytes last.
+  /// Appends what is to be sent now: what is due of hellos and digests in one, then missing items while the bytes last.
   void send(Time now, std::vector<Outgoing>& out);
 
   /// Without it, or for whoever it knows nothing of, the oldest is sent first.
@@ -102,16 +104,20 @@ class Exchange {
     const Layer& layer;
   };
 
-  Result<void> take(RobotId sender, Link& link, const Hello& hello, Time now);
-  Result<void> take(RobotId sender, Link& link, const Digest& digest, Time now);
-  Result<void> take(RobotId sender, Link& link, const Items& items, Time now);
+  bool take(RobotId sender, Link& link, const Hello& hello, Time now);
+  void take(Link& link, const Digest& digest, Time now);
+  Result<void> take(Link& link, const Items& items);
   void outdo(Epoch epoch);
   void hear_of(RobotId robot, Epoch epoch);
   Link* link_of(RobotId robot);
   Layer* layer_of(RobotId robot, Epoch epoch);
-  void send_hello(Time now, std::vector<Outgoing>& out);
-  void send_digest(Time now, std::vector<Outgoing>& out);
-  std::size_t send_to_all(std::vector<std::byte> bytes, std::vector<Outgoing>& out);
+  void announce(Time now, std::vector<Outgoing>& out);
+  void send_status(Time now, RobotId peer, Link& link, std::vector<Outgoing>& out);
+  [[nodiscard]] Datagram status(Time now, RobotId peer, const Link& link) const;
+  [[nodiscard]] Datagram companion(Time now, RobotId peer, const Link& link) const;
+  void note_told(Link& link, Time now, const Datagram& datagram, std::size_t bytes) const;
+  [[nodiscard]] Hello hello(Time now, RobotId peer) const;
+  [[nodiscard]] Digest digest(Time now, const std::optional<std::set<RobotId>>& robots) const;
   void send_items(Time now, RobotId peer, Link& link, std::vector<Outgoing>& out);
   void send_layer(Time now, const Address& address, Link& link, std::vector<Outgoing>& out);
   [[nodiscard]] Missing missing_at(const Link& link, const Address& address) const;
@@ -127,9 +133,8 @@ class Exchange {
   std::map<RobotId, Link> links_;
   Changes changes_;
   double bytes_ = 0;  // that may be sent
-  Time last_send_ = Time::min(), next_hello_ = Time::min(), next_digest_ = Time::min(), last_full_digest_ = Time::min();
-  std::set<RobotId> to_digest_;            // of whom more is known than the last digest said, or was asked
-  RobotId next_peer_ = 0, next_echo_ = 0;  // whose turn it is
+  Time last_send_ = Time::min(), next_announcement_ = Time::min();
+  RobotId next_peer_ = 0;  // whose turn it is
 };
 
 }  // namespace cairn::peers

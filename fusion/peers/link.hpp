@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 
@@ -34,8 +35,10 @@ struct Link {
   bool told = false;                                      ///< a digest has come
   std::map<RobotId, Known> known;                         ///< not of more robots than a digest has
   std::map<std::pair<RobotId, Version>, Time> in_flight;  ///< items sent lately, of which no digest has told yet
-  Time last_items = Time::min();                          ///< sent to it
-  double loss = 0;                                        ///< share of the items sent lately that did not arrive
+  std::set<RobotId> owed;                                 ///< of whom more is known than it was told
+  Time next_status = Time::min(), next_digest = Time::min(), next_full = Time::min();  ///< when these are due
+  Time last_items = Time::min();                                                       ///< sent to it
+  double loss = 0;  ///< share of the items sent lately that did not arrive
   void note_fate(bool arrived) { loss += 0.02 * ((arrived ? 0 : 1) - loss); }
   std::uint64_t received_bytes = 0, sent_bytes = 0, received_items = 0, sent_items = 0;
   std::uint64_t repeated_items = 0;   ///< received, and known already

@@ -19,6 +19,14 @@ inline void append_varint(std::vector<std::byte>& out, std::uint64_t value) {
   return (static_cast<std::size_t>(std::bit_width(value | 1)) + 6) / 7;
 }
 
+/// Small numbers of either sign as small ones: 0, −1, 1, −2 … as 0, 1, 2, 3 …
+[[nodiscard]] constexpr std::uint64_t zigzag(std::int64_t value) {
+  return static_cast<std::uint64_t>(value) << 1U ^ static_cast<std::uint64_t>(value >> 63);
+}
+[[nodiscard]] constexpr std::int64_t unzigzag(std::uint64_t value) {
+  return static_cast<std::int64_t>(value >> 1U) ^ -static_cast<std::int64_t>(value & 1U);
+}
+
 /// Nothing where the bytes end, exceed 64 bits or are more than needed.
 [[nodiscard]] inline std::optional<std::uint64_t> read_varint(ByteReader& in) {
   const auto first = in.read<std::uint8_t>();

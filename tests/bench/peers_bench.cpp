@@ -83,14 +83,15 @@ std::vector<std::vector<std::byte>> datagrams(int kind) {
     payloads.emplace_back();
     peers::encode_tile(tile, payloads.back());
   }
-  peers::Items items{2, 1, {}, {}};
+  peers::Datagram next{2, {}, {}, peers::Items{2, 1, {}, {}}};
+  auto& updates = next.items->updates;
   for (unsigned i = 0; i < payloads.size(); ++i)
-    items.updates.push_back({peers::ItemId::tile(0, {i}), 1 + i, 0, payloads[i]});
+    updates.push_back({peers::ItemId::tile(0, {i}), 1 + i, 0, payloads[i]});
   std::vector<std::vector<std::byte>> all;
-  while (!items.updates.empty()) {
-    std::size_t count = 0;
-    all.push_back(encode(2, items, count));
-    items.updates.erase(items.updates.begin(), items.updates.begin() + static_cast<std::ptrdiff_t>(count));
+  while (!updates.empty()) {
+    auto [bytes, count] = encode(next);
+    all.push_back(std::move(bytes));
+    updates.erase(updates.begin(), updates.begin() + static_cast<std::ptrdiff_t>(count));
   }
   return all;
 }

@@ -53,6 +53,17 @@ std::uint64_t hash_of(const SemanticOcTree& map) {
   return XXH3_64bits(out.str().data(), out.str().size());
 }
 
+void print_items(const Team& team) {
+  std::uint64_t sent = 0, received = 0, known = 0;
+  for (const auto& [id, link] : team.exchange().links()) {
+    sent += link.sent_items;
+    received += link.received_items;
+    known += link.repeated_items;
+  }
+  std::printf("  items: sent %llu, received %llu, of these known before %llu\n", static_cast<unsigned long long>(sent),
+              static_cast<unsigned long long>(received), static_cast<unsigned long long>(known));
+}
+
 class TeamRun {
  public:
   TeamRun(std::vector<std::unique_ptr<RecordedRobot>> robots, fs::path folder)
@@ -96,6 +107,7 @@ class TeamRun {
           static_cast<double>(robot.raw_bytes()) / static_cast<double>(sent_[i + 1].all()),
           to_milliseconds(longest_slice_));
       sent_[i + 1].print();
+      print_items(robot.team);
       if (!world) continue;
       const RobotId anchor = robot.team.poses().anchor;
       const SE3 T_world_team =

@@ -127,7 +127,7 @@ Measured malformed() {
   Team team(config, peers::Epoch{1} << 32U);
   Time now{1000s};
   const auto hello = [&] {
-    return peers::encode(2, peers::Hello{peers::Epoch{1} << 32U, 0, now, "second", {}, 200'000});
+    return peers::encode({2, peers::Hello{peers::Epoch{1} << 32U, 0, now, "second", {}, 200'000}, {}, {}}).bytes;
   };
   const auto refused = [&] {
     const auto taken = team.receive(hello(), now);

@@ -4,8 +4,6 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "fusion/peers/datagram_kind.hpp"
-
 namespace cairn::bench {
 
 using peers::RobotId;
@@ -24,11 +22,16 @@ std::uint64_t SentBytes::all() const {
 }
 
 void SentBytes::print() const {
-  constexpr std::array kNames{"", "hellos", "digests", "items"};
+  const auto named = [](std::size_t parts) {
+    std::string name = (parts & peers::kHelloPart) != 0 ? " hello" : "";
+    name += (parts & peers::kDigestPart) != 0 ? " digest" : "";
+    return name + ((parts & peers::kItemsPart) != 0 ? " items" : "");
+  };
   std::printf("  sent");
-  for (std::size_t i = 1; i < kinds_.size(); ++i)
-    std::printf("%s %s %.1f kB in %llu", i == 1 ? "" : ",", kNames.at(i), static_cast<double>(kinds_.at(i).bytes) / 1e3,
-                static_cast<unsigned long long>(kinds_.at(i).datagrams));
+  for (std::size_t parts = 1; parts < kinds_.size(); ++parts)
+    if (const Kind& kind = kinds_.at(parts); kind.datagrams > 0)
+      std::printf(" [%s ] %.1f kB in %llu", named(parts).c_str(), static_cast<double>(kind.bytes) / 1e3,
+                  static_cast<unsigned long long>(kind.datagrams));
   std::puts("");
 }
 

@@ -9,6 +9,7 @@
 #include <utility>
 #include <vector>
 
+#include "fusion/peers/datagram_part.hpp"
 #include "fusion/team.hpp"
 #include "hal/time.hpp"
 
@@ -27,7 +28,7 @@ class SentBytes {
   struct Kind {
     std::uint64_t datagrams = 0, bytes = 0;
   };
-  std::array<Kind, 4> kinds_{};  // by the number of the kind
+  std::array<Kind, peers::kAllParts + 1> kinds_{};  // by the parts that a datagram has
 };
 
 /// How long it takes from when a robot says something until it is in a teammate's map of the team, or until something

@@ -13,12 +13,17 @@
 namespace cairn::peers {
 namespace {
 
-template <class T>
-T content_of(const std::vector<std::byte>& bytes) {
-  const auto decoded = decode_datagram(bytes);
-  EXPECT_TRUE(decoded.has_value()) << (decoded ? "" : to_string(decoded.error()));
-  return decoded ? std::get<T>(decoded->content) : T{};
+Datagram decoded(const std::vector<std::byte>& bytes) {
+  const auto datagram = decode_datagram(bytes);
+  EXPECT_TRUE(datagram.has_value()) << (datagram ? "" : to_string(datagram.error()));
+  return datagram ? *datagram : Datagram{};
 }
+
+std::vector<std::byte> bytes_of(RobotId sender, const Hello& hello) { return encode({sender, hello, {}, {}}).bytes; }
+std::vector<std::byte> bytes_of(RobotId sender, const Digest& digest) { return encode({sender, {}, digest, {}}).bytes; }
+std::vector<std::byte> bytes_of(RobotId sender, const Items& items) { return encode({sender, {}, {}, items}).bytes; }
+
+Hello hello_of(const std::vector<std::byte>& bytes) { return decoded(bytes).hello.value_or(Hello{}); }
 
 /// Items with their payloads.
 struct Said {
@@ -51,37 +56,37 @@ VersionSet superseded(std::mt19937& random) {
 }
 
 TEST(Datagram, HellosComeBack) {
-  Hello hello{7, 123, Time{Duration{-5}}, "robot_1", {{2, Time{Duration{99}}, Duration{7}}, {3, Time{}, Duration{}}}};
-  const Hello back = content_of<Hello>(encode(1, hello));
+  Hello hello{7, 123, Time{Duration{-5}}, "robot_1", Hello::Echo{2, Time{Duration{99}}, Duration{7}}};
+  const Hello back = hello_of(bytes_of(1, hello));
   EXPECT_EQ(back.epoch, hello.epoch);
   EXPECT_EQ(back.newest, hello.newest);
   EXPECT_EQ(back.stamp, hello.stamp);
   EXPECT_EQ(back.name, hello.name);
-  ASSERT_EQ(back.echoes.size(), 2U);
-  EXPECT_EQ(back.echoes[0].robot, 2U);
-  EXPECT_EQ(back.echoes[0].stamp, hello.echoes[0].stamp);
-  EXPECT_EQ(back.echoes[0].age, hello.echoes[0].age);
+  ASSERT_TRUE(back.echo.has_value());
+  EXPECT_EQ(back.echo->robot, 2U);
+  EXPECT_EQ(back.echo->stamp, hello.echo->stamp);
+  EXPECT_EQ(back.echo->age, hello.echo->age);
 }
 
 TEST(Datagram, AHelloSaysWhereTheSenderIs) {
-  Hello hello{7, 123, Time{}, "robot_1", {}, 0, Hello::Place{{1, -2.5F, 0.25F}, -3, 0.1F, 0.02F}};
-  const auto bytes = encode(1, hello);
-  const Hello back = content_of<Hello>(bytes);
+  Hello hello{7, 123, Time{}, "robot_1", {}, 0, Hello::Place{{1, -2.5, 0.25}, -3, 0.1, 0.02}};
+  const auto bytes = bytes_of(1, hello);
+  const Hello back = hello_of(bytes);
   EXPECT_EQ(back.place, hello.place);
-  EXPECT_EQ(encode(1, back), bytes);
+  EXPECT_EQ(bytes_of(1, back), bytes);
   for (std::size_t n = 0; n < bytes.size(); ++n) EXPECT_FALSE(decode_datagram(std::span(bytes).first(n)).has_value());
-  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
   for (const Hello::Place& wrong :
-       {Hello::Place{{nan, 0, 0}, 0, 0, 0}, {{2e6F, 0, 0}, 0, 0, 0}, {{}, 4, 0, 0}, {{}, 0, -1, 0}, {{}, 0, 0, nan}}) {
+       {Hello::Place{{nan, 0, 0}, 0, 0, 0}, {{2e6, 0, 0}, 0, 0, 0}, {{}, 4, 0, 0}, {{}, 0, -1, 0}, {{}, 0, 0, nan}}) {
     hello.place = wrong;
-    EXPECT_FALSE(decode_datagram(encode(1, hello)).has_value());
+    EXPECT_FALSE(decode_datagram(bytes_of(1, hello)).has_value());
   }
 }
 
 TEST(Datagram, AnyNameThatAProfileHasCanBeRead) {
-  EXPECT_EQ(content_of<Hello>(encode(1, Hello{1, 1, Time{}, "robot 1", {}})).name, "robot 1");
-  EXPECT_EQ(content_of<Hello>(encode(1, Hello{1, 1, Time{}, "two\nlines", {}})).name, "two?lines");
-  EXPECT_EQ(content_of<Hello>(encode(1, Hello{1, 1, Time{}, std::string(99, 'x'), {}})).name, std::string(24, 'x'));
+  EXPECT_EQ(hello_of(bytes_of(1, Hello{1, 1, Time{}, "robot 1", {}})).name, "robot 1");
+  EXPECT_EQ(hello_of(bytes_of(1, Hello{1, 1, Time{}, "two\nlines", {}})).name, "two?lines");
+  EXPECT_EQ(hello_of(bytes_of(1, Hello{1, 1, Time{}, std::string(99, 'x'), {}})).name, std::string(24, 'x'));
 }
 
 TEST(Datagram, DigestsComeBack) {
@@ -89,11 +94,45 @@ TEST(Datagram, DigestsComeBack) {
   digest.layers.push_back({1, 5, true, {}});
   digest.layers.push_back({9, 6, false, {}});
   for (const VersionRange range : {VersionRange{1, 4}, {6, 6}, {100000, 200000}}) digest.layers[1].known.add(range);
-  const Digest back = content_of<Digest>(encode(3, digest));
+  const Digest back = decoded(bytes_of(3, digest)).digest;
   ASSERT_EQ(back.layers.size(), 2U);
   EXPECT_TRUE(back.layers[0].direct);
   EXPECT_EQ(back.layers[1].robot, 9U);
   EXPECT_EQ(back.layers[1].known, digest.layers[1].known);
+}
+
+TEST(Datagram, PartsTravelTogether) {
+  std::mt19937 random(5);
+  const Said said = random_items(random, 40);
+  Digest digest;
+  digest.layers.push_back({9, 6, false, superseded(random)});
+  for (unsigned parts = 1; parts < 8; ++parts) {
+    Datagram all{4, {}, {}, {}};
+    if (parts & 1) all.hello = Hello{7, 123, Time{}, "robot_1", Hello::Echo{2, Time{}, Duration{7}}};
+    if (parts & 2) all.digest = digest;
+    if (parts & 4) all.items = Items{2, 11, superseded(random), said.updates};
+    const auto [bytes, count] = encode(all);
+    ASSERT_LE(bytes.size(), kMaxDatagram);
+    const Datagram back = decoded(bytes);
+    EXPECT_EQ(back.hello.has_value(), all.hello.has_value());
+    EXPECT_EQ(back.digest.layers.size(), all.digest.layers.size());
+    EXPECT_EQ(back.items ? back.items->updates.size() : 0, count);
+    EXPECT_EQ(encode(back).bytes, bytes);
+    for (std::size_t n = 0; all.items == std::nullopt && n < bytes.size(); ++n)
+      EXPECT_FALSE(decode_datagram(std::span(bytes).first(n)).has_value());
+  }
+  EXPECT_FALSE(decode_datagram(encode(Datagram{4, {}, {}, {}}).bytes).has_value()) << "a datagram of nothing";
+}
+
+TEST(Datagram, ADigestLeavesRoomForItems) {
+  std::mt19937 random(5);
+  const Said said = random_items(random, 40);
+  Digest digest;
+  digest.layers.push_back({9, 6, false, {}});
+  for (Version v = 1; v < 250; ++v) digest.layers[0].known.add({v * 1000, v * 1000});
+  const auto bytes = encode({4, {}, digest, Items{2, 11, {}, said.updates}}).bytes;
+  EXPECT_GT(decoded(bytes).items->updates.size(), 1U);
+  EXPECT_EQ(encode(decoded(bytes)).bytes, bytes);
 }
 
 TEST(Datagram, ADigestThatIsTooLongClaimsLess) {
@@ -102,9 +141,9 @@ TEST(Datagram, ADigestThatIsTooLongClaimsLess) {
     digest.layers.push_back({robot, 1, false, {}});
     for (Version v = 1; v < 60; ++v) digest.layers.back().known.add({v * 1000, v * 1000});
   }
-  const auto bytes = encode(3, digest);
+  const auto bytes = bytes_of(3, digest);
   EXPECT_LE(bytes.size(), kMaxDatagram);
-  for (const Digest::Layer& layer : content_of<Digest>(bytes).layers)
+  for (const Digest::Layer& layer : decoded(bytes).digest.layers)
     for (const VersionRange& range : layer.known.ranges()) EXPECT_EQ(range.first % 1000, 0U);
 }
 
@@ -112,15 +151,14 @@ TEST(Datagram, ItemsComeBackAndFillTheDatagram) {
   std::mt19937 random(1);
   for (int i = 0; i < 100; ++i) {
     const Said said = random_items(random, 1 + random() % 100);
-    std::size_t count = 0;
-    const auto bytes = encode(4, Items{2, 11, superseded(random), said.updates}, count);
+    const auto [bytes, count] = encode({4, {}, {}, Items{2, 11, superseded(random), said.updates}});
     ASSERT_LE(bytes.size(), kMaxDatagram);
     ASSERT_GE(count, 1U);
     EXPECT_TRUE(count == said.updates.size() || bytes.size() > kMaxDatagram - kMaxTileBytes - 30);
-    const auto decoded = decode_datagram(bytes);
-    ASSERT_TRUE(decoded.has_value()) << to_string(decoded.error());
-    EXPECT_EQ(decoded->sender, 4U);
-    const Items& items = std::get<Items>(decoded->content);
+    const auto datagram = decode_datagram(bytes);
+    ASSERT_TRUE(datagram.has_value()) << to_string(datagram.error());
+    EXPECT_EQ(datagram->sender, 4U);
+    const Items& items = datagram->items.value();
     EXPECT_EQ(items.robot, 2U);
     EXPECT_EQ(items.epoch, 11U);
     ASSERT_EQ(items.updates.size(), count);
@@ -165,23 +203,22 @@ TEST(Datagram, DeploymentsComeBackAndThoseThatCannotBeDoNot) {
   EXPECT_FALSE(decode_deployment(encode(deployment))) << "no covariance is like that";
 
   const ItemUpdate update{ItemId::deployment(), 1, 0, bytes};
-  std::size_t count = 0;
-  EXPECT_TRUE(decode_datagram(encode(4, Items{4, 11, {}, {update}}, count)).has_value());
+  EXPECT_TRUE(decode_datagram(bytes_of(4, Items{4, 11, {}, {update}})).has_value());
   const ItemUpdate second{{ItemId::deployment().code + (std::uint64_t{1} << ItemId::kKeyBits)}, 1, 0, bytes};
-  EXPECT_FALSE(decode_datagram(encode(4, Items{4, 11, {}, {second}}, count)).has_value()) << "a robot has one";
+  EXPECT_FALSE(decode_datagram(bytes_of(4, Items{4, 11, {}, {second}})).has_value()) << "a robot has one";
 }
 
 TEST(Datagram, SaysWhatIsWrong) {
-  auto bytes = encode(1, Hello{1, 1, Time{}, "a", {}});
+  auto bytes = bytes_of(1, Hello{1, 1, Time{}, "a", {}});
   bytes[0] = std::byte{9};
   EXPECT_EQ(decode_datagram(bytes).error().code, Errc::kUnsupported);
   EXPECT_EQ(decode_datagram(std::vector<std::byte>(2000)).error().code, Errc::kLimit);
   EXPECT_EQ(decode_datagram({}).error().code, Errc::kTruncated);
-  EXPECT_FALSE(decode_datagram(encode(0, Hello{})).has_value());
-  auto named = encode(1, Hello{1, 1, Time{}, "a", {}});
+  EXPECT_FALSE(decode_datagram(bytes_of(0, Hello{})).has_value());
+  auto named = bytes_of(1, Hello{1, 1, Time{}, "a", {}});
   *std::ranges::find(named, std::byte{'a'}) = std::byte{'\n'};
   EXPECT_FALSE(decode_datagram(named).has_value());
-  EXPECT_FALSE(decode_datagram(encode(1, Hello{1, 1, Time::max(), "a", {}})).has_value());
+  EXPECT_FALSE(decode_datagram(bytes_of(1, Hello{1, 1, Time::max(), "a", {}})).has_value());
 }
 
 TEST(Datagram, EveryPrefixIsRefused) {
@@ -190,9 +227,8 @@ TEST(Datagram, EveryPrefixIsRefused) {
   digest.layers.push_back({9, 6, false, superseded(random)});
   digest.layers.push_back({10, 600, true, {}});
   const Said said = random_items(random, 1);
-  std::size_t count = 0;
-  for (const auto& bytes : {encode(1, Hello{7, 123, Time{}, "robot_1", {{2, Time{}, Duration{7}}}}), encode(2, digest),
-                            encode(4, Items{2, 11, superseded(random), said.updates}, count)}) {
+  for (const auto& bytes : {bytes_of(1, Hello{7, 123, Time{}, "robot_1", Hello::Echo{2, Time{}, Duration{7}}}),
+                            bytes_of(2, digest), bytes_of(4, Items{2, 11, superseded(random), said.updates})}) {
     ASSERT_TRUE(decode_datagram(bytes).has_value());
     for (std::size_t n = 0; n < bytes.size(); ++n) EXPECT_FALSE(decode_datagram(std::span(bytes).first(n)).has_value());
   }
@@ -202,15 +238,13 @@ TEST(Datagram, DamageAndCutsAreRefusedOrGiveWhatCanBe) {
   std::mt19937 random(2);
   for (int i = 0; i < 3000; ++i) {
     const Said said = random_items(random, 1 + random() % 20);
-    std::size_t count = 0;
-    auto bytes = encode(4, Items{2, 11, superseded(random), said.updates}, count);
+    auto bytes = bytes_of(4, Items{2, 11, superseded(random), said.updates});
     for (auto changes = 1 + random() % 3; changes > 0; --changes)
       bytes[10 + random() % (bytes.size() - 10)] ^= static_cast<std::byte>(1U << random() % 8);
     if (random() % 4 == 0) bytes.resize(random() % bytes.size());
-    const auto decoded = decode_datagram(bytes);
-    if (!decoded) continue;
-    const Items& items = std::get<Items>(decoded->content);
-    ASSERT_EQ(encode(decoded->sender, items, count), bytes);
+    const auto datagram = decode_datagram(bytes);
+    if (!datagram) continue;
+    ASSERT_EQ(encode(*datagram).bytes, bytes);
   }
 }
 

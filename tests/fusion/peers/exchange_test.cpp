@@ -98,13 +98,13 @@ std::pair<double, double> join(bool with_interest) {
   config.bytes_per_second = 8000;
   Exchange a(1, "one", 5, config), b(2, "two", 6, config);
   constexpr unsigned kTiles = 4000, kAtX = 70, kAtY = 30;
-  const auto at = [](unsigned tiles) { return 1.6F * (static_cast<float>(tiles) + 0.5F); };
-  b.set_place({{at(kAtX), at(kAtY), 0.5F}, 0, 0.1F, 0.01F});
+  const auto at = [](unsigned tiles) { return 1.6 * (tiles + 0.5); };
+  b.set_place({{at(kAtX), at(kAtY), 0.5}, 0, 0.1, 0.01});
   if (with_interest)
     a.set_interest([&](RobotId peer, RobotId) {
       Interest interest;
       if (const auto& place = a.links().at(peer).place)
-        interest.position_odom = Eigen::Map<const Eigen::Vector3f>(place->position_m.data()).cast<double>();
+        interest.position_odom = Eigen::Map<const Eigen::Vector3d>(place->position_m.data());
       return interest;
     });
   for (unsigned i = 0; i < kTiles; ++i) a.say(ItemId::tile(0, tile_in_row(i)), tile(i));
@@ -139,10 +139,10 @@ TEST(Exchange, WhoJoinsGetsWhatIsAroundItFirst) {
 TEST(Exchange, WhoSendsTooMuchThatCannotBeIsNotListenedTo) {
   Exchange b(2, "two", 6);
   Time now{};
-  auto bad = encode(1, Hello{5, 0, Time{}, "one", {}});
+  auto bad = encode({1, Hello{5, 0, Time{}, "one", {}}, {}, {}}).bytes;
   bad.back() = std::byte{200};
   for (int i = 0; i < 10; ++i) EXPECT_EQ(b.receive(bad, now += seconds(1)).error().code, Errc::kMalformed);
-  const auto good = encode(1, Hello{5, 0, now.time_since_epoch() + Time{}, "one", {}});
+  const auto good = encode({1, Hello{5, 0, now.time_since_epoch() + Time{}, "one", {}}, {}, {}}).bytes;
   EXPECT_EQ(b.receive(good, now + seconds(1)).error().code, Errc::kLinkDown);
   EXPECT_TRUE(b.receive(good, now + seconds(62)).has_value());
 }
@@ -152,9 +152,9 @@ TEST(Exchange, ListensToSoManyRobotsAndNoMore) {
   config.max_robots = 3;
   Exchange b(100, "hundred", 6, config);
   for (RobotId id = 1; id <= 3; ++id)
-    EXPECT_TRUE(b.receive(encode(id, Hello{5, 0, Time{}, "x", {}}), Time{}).has_value());
-  EXPECT_EQ(b.receive(encode(4, Hello{5, 0, Time{}, "x", {}}), Time{}).error().code, Errc::kLimit);
-  EXPECT_EQ(b.receive(encode(100, Hello{5, 0, Time{}, "x", {}}), Time{}).error().cause,
+    EXPECT_TRUE(b.receive(encode({id, Hello{5, 0, Time{}, "x", {}}, {}, {}}).bytes, Time{}).has_value());
+  EXPECT_EQ(b.receive(encode({4, Hello{5, 0, Time{}, "x", {}}, {}, {}}).bytes, Time{}).error().code, Errc::kLimit);
+  EXPECT_EQ(b.receive(encode({100, Hello{5, 0, Time{}, "x", {}}, {}, {}}).bytes, Time{}).error().cause,
             "another robot has this robot's id");
 }
 

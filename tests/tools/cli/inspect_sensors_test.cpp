@@ -120,7 +120,7 @@ TEST(InspectSensors, WhatPeersSaidIsCountedByWhoSaidIt) {
   peers::encode(peers::Beginning{1, 5}, packet);
   ASSERT_TRUE(writer.write(packet));
   packet.channel = 0;
-  packet.bytes = peers::encode(3, peers::Hello{7, 0, Time{}, "third", {}});
+  packet.bytes = peers::encode({3, peers::Hello{7, 0, Time{}, "third", {}}, {}, {}}).bytes;
   ASSERT_TRUE(writer.write(packet));
   packet.bytes.assign(30, std::byte{9});
   ASSERT_TRUE(writer.write(packet));

@@ -23,14 +23,10 @@ Result<const Scan*> PeerFigures::take(const Packet& packet) {
   if (peers_.size() == kMaxPeers && !peers_.contains(datagram->sender)) return ++others_, nullptr;
   PerPeer& peer = peers_[datagram->sender];
   peer.bytes += packet.bytes.size();
-  if (const auto* hello = std::get_if<peers::Hello>(&datagram->content)) {
-    peer.name = hello->name;
-    ++peer.hellos;
-  } else if (const auto* items = std::get_if<peers::Items>(&datagram->content)) {
-    peer.items += items->updates.size();
-  } else {
-    ++peer.digests;
-  }
+  if (datagram->hello) peer.name = datagram->hello->name;
+  peer.hellos += datagram->hello ? 1 : 0;
+  peer.digests += datagram->digest.layers.empty() ? 0 : 1;
+  peer.items += datagram->items ? datagram->items->updates.size() : 0;
   return nullptr;
 }
 

@@ -6,9 +6,9 @@
 
 namespace cairn::peers {
 
-/// Second byte of a datagram.
-enum class DatagramKind : std::uint8_t { kHello = 1, kDigest = 2, kItems = 3 };
-inline constexpr std::size_t kHeaderBytes = 10;  ///< format, kind, sender
+/// Bits of a datagram's second byte.
+enum DatagramPart : std::uint8_t { kHelloPart = 1, kDigestPart = 2, kItemsPart = 4, kAllParts = 7 };
+inline constexpr std::size_t kHeaderBytes = 10;  ///< format, parts, sender
 
 /// Of a robot's name: names are shown to people, and must not be able to write on their terminals.
 [[nodiscard]] constexpr bool is_printable(char c) { return c >= ' ' && c <= '~'; }
