@@ -13,7 +13,8 @@ namespace cairn::merging {
 namespace {
 
 constexpr unsigned kRegionBits = 9;                     // 8³ tiles
-constexpr unsigned kTurns = 4;                          // of so many steps one is for what is shown
+constexpr unsigned kTurns = 2;                          // of so many steps one is for what is shown
+constexpr int kCatchUps = 4;                            // of a new map with what changed meanwhile, ever less
 constexpr std::size_t kMarkedAtOnce = 16;               // tiles in a step
 constexpr std::size_t kChunk = std::size_t{128} << 10;  // of memory: a step that needs one takes 30 µs longer
 constexpr int kTeamTiles = 1 << 13;
@@ -196,6 +197,14 @@ void TeamMap::step(View& view) {
     fuse_tile(view, take_nearest(view));
 }
 
+/// What is shown must not be older than what was; but tiles may change faster than they are caught up with.
+void TeamMap::catch_up_or_show() {
+  if (!next_->later.empty() && next_->catch_ups++ < kCatchUps)
+    next_->dirty = std::exchange(next_->later, {});
+  else
+    show_next();
+}
+
 void TeamMap::show_next() {
   spare_ = std::move(shown_.fused);
   shown_ = std::move(*next_);
@@ -212,7 +221,7 @@ bool TeamMap::fuse(Budget& budget) {
       step(shown_);
     else if (!complete(*next_))
       step(*next_);
-    if (next_ && complete(*next_)) show_next();
+    if (next_ && complete(*next_)) catch_up_or_show();
   }
   return up_to_date();
 }

@@ -53,6 +53,8 @@ class TeamMap {
   /// Goes on while the budget lasts. True: the map is that of the newest tiles and poses.
   bool fuse(Budget& budget);
   [[nodiscard]] bool up_to_date() const;
+  /// map() has the newest tiles, if not yet the newest poses.
+  [[nodiscard]] bool shows_newest_tiles() const { return complete(shown_); }
   /// Tiles that wait for their turn; those of the map that is to come are not counted before it is known which.
   [[nodiscard]] std::size_t backlog() const;
 
@@ -76,6 +78,7 @@ class TeamMap {
     std::map<SubmapKey, Placement> placements;
     std::unique_ptr<SemanticOcTree> fused;
     Dirty dirty, later;                   // later: changed while the view was being built
+    int catch_ups = 0;                    // with these
     std::optional<std::uint64_t> region;  // being worked on
     // Of a new view: whose tiles are marking what they touch, and the last that has; none: all have.
     std::optional<SubmapKey> marking;
@@ -92,6 +95,7 @@ class TeamMap {
   [[nodiscard]] VoxelLabel fused_label(std::size_t known, std::size_t voxel);
   void begin_wanted();
   [[nodiscard]] bool add_to_shown(const View& wanted);
+  void catch_up_or_show();
   void show_next();
 
   double resolution_m_;

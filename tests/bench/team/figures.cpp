@@ -41,7 +41,7 @@ void Ages::said(const Team& team, Time now) {
       std::max<std::size_t>(times.size(), team.exchange().layers().at(team.exchange().self()).holding.newest()), now);
 }
 
-void Ages::fused(const Team& team, bool up_to_date, Time now) {
+void Ages::fused(const Team& team, Time now) {
   const RobotId self = team.exchange().self();
   for (const auto& entry : said_) {
     const RobotId robot = entry.first;
@@ -50,24 +50,25 @@ void Ages::fused(const Team& team, bool up_to_date, Time now) {
     const Way way{robot, self};
     Version& looked_at = looked_at_[way];
     auto& waits = waits_[way];
-    const bool merged = team.poses().T_team_odom.contains(robot);
+    const bool merged = std::ranges::any_of(team.map().poses(), [&](const auto& pose) { return pose.first.robot == robot; });
     for (; looked_at < times.size(); ++looked_at)
       if (merged) waits.push_back(looked_at + 1);
     const auto layer = team.exchange().layers().find(robot);
-    if (!up_to_date || layer == team.exchange().layers().end()) continue;
+    if (!team.map().shows_newest_tiles() || layer == team.exchange().layers().end()) continue;
     std::erase_if(waits, [&](Version version) {
       if (!layer->second.holding.known().contains(version)) return false;
-      ages_.push_back(to_seconds(now - times[version - 1]));
+      ages_.push_back({times[version - 1], to_seconds(now - times[version - 1])});
       return true;
     });
   }
 }
 
-double Ages::quantile(double q) const {
-  if (ages_.empty()) return 0;
-  auto sorted = ages_;
+double Ages::quantile(double q, Time until) const {
+  std::vector<double> sorted;
+  for (const auto& [said, age] : ages_)
+    if (said <= until) sorted.push_back(age);
   std::ranges::sort(sorted);
-  return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
+  return sorted.empty() ? 0 : sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
 }
 
 }  // namespace cairn::bench

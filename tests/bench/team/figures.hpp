@@ -31,16 +31,16 @@ class SentBytes {
   std::array<Kind, peers::kAllParts + 1> kinds_{};  // by the parts that a datagram has
 };
 
-/// How long it takes from when a robot says something until it is in a teammate's map of the team, or until something
-/// newer of the same tile is. What was said before the two were one team does not count.
+/// How long it takes from when a robot says something until it is in the map that a teammate shows, or until something
+/// newer of the same tile is. What was said before the map showed anything of the robot does not count.
 class Ages {
  public:
   /// Of one's own, after each step.
   void said(const Team& team, Time now);
   /// Of another's, after each fuse().
-  void fused(const Team& team, bool up_to_date, Time now);
-  /// In seconds, `q` of 0…1; 0 where there are none.
-  [[nodiscard]] double quantile(double q) const;
+  void fused(const Team& team, Time now);
+  /// In seconds, `q` of 0…1, of what was said no later than `until`; 0 where there is nothing.
+  [[nodiscard]] double quantile(double q, Time until = Time::max()) const;
   [[nodiscard]] std::size_t count() const { return ages_.size(); }
 
  private:
@@ -48,7 +48,7 @@ class Ages {
   std::map<peers::RobotId, std::vector<Time>> said_;      // of each version, from the first
   std::map<Way, std::vector<peers::Version>> waits_;
   std::map<Way, peers::Version> looked_at_;
-  std::vector<double> ages_;
+  std::vector<std::pair<Time, double>> ages_;  // when it was said, s
 };
 
 }  // namespace cairn::bench
