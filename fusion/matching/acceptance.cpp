@@ -12,9 +12,8 @@ constexpr double kMinWeakest = 0.02;
 constexpr double kMinProbability = 0.95;
 
 double probability(const Evidence& e) {
-  const double z = -11.415 - 22.686 * std::sqrt(e.conflict + e.reverse_conflict) +
-                   1.455 * std::log(1.0 + e.structure_pairs) + 6.334 * std::sqrt(e.weakest_translation) +
-                   4.320 * std::sqrt(e.uniqueness);
+  const double z = -8.245 - 26.228 * std::sqrt(e.conflict + e.reverse_conflict) +
+                   1.700 * std::log(1.0 + e.structure_pairs) + 4.161 * std::sqrt(e.uniqueness);
   return 1 / (1 + std::exp(-z));
 }
 

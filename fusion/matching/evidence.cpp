@@ -51,7 +51,10 @@ void count_pairs(const Party& target, const NearestGrid& nearest, const Party& s
 
 /// What the source's structure meets in the target.
 struct Meetings {
+  [[nodiscard]] int all() const { return agree + differ + in_free; }
+
   int agree = 0, differ = 0, in_free = 0;
+  int beside = 0;                                     // in free space too, but near a surface that may be its own
   Eigen::Matrix2d normals = Eigen::Matrix2d::Zero();  // Σ n nᵀ, horizontal part, of those that agree
 };
 
@@ -68,7 +71,9 @@ Meetings meet(const Party& target, const NearestGrid& nearest, const Party& sour
       continue;
     }
     const Surfel& r = target.surfels[static_cast<std::size_t>(i)];
-    if ((q - r.point).squaredNorm() < cell * cell && same_side(r, s, move.R * s.normal)) {
+    const bool near = (q - r.point).squaredNorm() < cell * cell;
+    m.beside += !near && target.free.contains(q) ? 1 : 0;
+    if (near && same_side(r, s, move.R * s.normal)) {
       ++m.agree;
       const Eigen::Vector2d n = r.normal.head<2>().cast<double>();
       m.normals += n * n.transpose();
@@ -94,7 +99,7 @@ double score_of(const Party& target, const NearestGrid& nearest, const Party& so
   const double sum =
       share(m.agree - kMismatchWeight * m.differ - kConflictWeight * m.in_free, n) - kConflictWeight * reverse * sizes;
   // A wrong pose of the same building agrees nearly as well as the right one; what gives it away is contradiction.
-  const double contradiction = share(m.in_free, m.agree + m.differ + m.in_free) + reverse;
+  const double contradiction = share(m.in_free, m.all()) + reverse;
   return sum > 0 ? sum * std::max(kLeastCredit, 1 - kDiscredit * contradiction) : sum;
 }
 
@@ -131,17 +136,18 @@ double first_impression(const Party& target, const NearestGrid& nearest, const P
   return score_of(target, nearest, source, target.few, source.few, T);
 }
 
-Evidence weigh(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T) {
+Evidence weigh(const Indexed& target, const Indexed& source, const SE3& T) {
+  const Party &a = target.party, &b = source.party;
   Evidence out;
-  count_pairs(target, nearest, source, T, out);
-  const Meetings m = meet(target, nearest, source, source.structure, T);
-  out.score = score(target, nearest, source, T);
+  count_pairs(a, target.nearest, b, T, out);
+  const Meetings m = meet(a, target.nearest, b, b.structure, T);
+  const Meetings reverse = meet(b, source.nearest, a, a.structure, T.inverse());
+  out.score = score(a, target.nearest, b, T);
   out.structure_pairs = m.agree;
-  out.agreeing_m2 = source.structure_m2 * share(m.agree, static_cast<double>(source.structure.size()));
+  out.agreeing_m2 = b.structure_m2 * share(m.agree, static_cast<double>(b.structure.size()));
   out.structure_inliers = share(m.agree, m.agree + m.differ);
-  out.conflict = share(m.in_free, m.agree + m.differ + m.in_free);
-  out.reverse_conflict =
-      share(in_free_space(source.free, target.structure, T.inverse()), static_cast<double>(target.structure.size()));
+  out.conflict = share(m.in_free, m.all());
+  out.reverse_conflict = share(reverse.in_free + reverse.beside, reverse.all());
   if (m.agree > 0)
     out.weakest_translation =
         std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(m.normals / m.agree).eigenvalues()[0]);

@@ -30,7 +30,7 @@ struct Evidence {
   int structure_pairs = 0;         ///< that agree
   double agreeing_m2 = 0;          ///< surface of all the source's structure that agrees, from the sample's share
   double conflict = 0;             ///< source structure in space the target saw free, over that plus what has a partner
-  double reverse_conflict = 0;     ///< target structure in space the source saw free, over the target's structure
+  double reverse_conflict = 0;     ///< the same of target structure, and of what is beside its partner by over a cell
   double weakest_translation = 0;  ///< smallest eigenvalue of the mean n nᵀ (x, y) over agreeing structure, 0…½
   double score = 0;                ///< see score()
   double uniqueness = 1;           ///< 1 − score of the best other mode over this one's, 0…1
@@ -52,9 +52,14 @@ struct Evidence {
 [[nodiscard]] std::vector<Surfel> facing_free_space(std::span<const Surfel> surfels, const FreeSpace& free,
                                                     float cell_m);
 
+/// A party, and what is nearest to any place in it.
+struct Indexed {
+  const Party& party;
+  const NearestGrid& nearest;
+};
+
 /// Leaves `uniqueness` alone.
-[[nodiscard]] Evidence weigh(const Party& target, const NearestGrid& nearest, const Party& source,
-                             const SE3& T_target_source);
+[[nodiscard]] Evidence weigh(const Indexed& target, const Indexed& source, const SE3& T_target_source);
 
 /// Whether two surfels may be of one surface seen from one side; `n`: the source's normal in the target's frame.
 [[nodiscard]] bool same_side(const Surfel& target, const Surfel& source, const Eigen::Vector3f& n);

@@ -47,7 +47,8 @@ Judge::Judge(const MapFeatures& a, const MapFeatures& b)
     : a_(party_of(a)),
       b_(party_of(b)),
       cell_m_(std::max(a.fine_m(), b.fine_m())),
-      near_a_(a.fine(), cell_m_, kNearCells * cell_m_) {}
+      near_a_(a.fine(), cell_m_, kNearCells * cell_m_),
+      near_b_(b.fine(), cell_m_, kNearCells * cell_m_) {}
 
 Party party_of(const MapFeatures& map) {
   Party party{{}, {}, {}, {}, FreeSpace(map.map()), static_cast<double>(map.fine_m()), 0};
@@ -85,7 +86,7 @@ std::optional<Result<MatchResult>> Judge::without_search(const std::optional<Unc
 }
 
 Look Judge::look(const SE3& T_a_b, const Matrix6& prior_covariance) const {
-  return {{T_a_b, covariance(a_, near_a_, b_, T_a_b, prior_covariance)}, weigh(a_, near_a_, b_, T_a_b)};
+  return {{T_a_b, covariance(a_, near_a_, b_, T_a_b, prior_covariance)}, weigh({a_, near_a_}, {b_, near_b_}, T_a_b)};
 }
 
 MatchResult Judge::conclude(const SE3& T_a_b, const Matrix6& prior_covariance, double uniqueness,

@@ -47,7 +47,7 @@ class Judge {
  private:
   Party a_, b_;
   float cell_m_;
-  NearestGrid near_a_;
+  NearestGrid near_a_, near_b_;
 };
 
 /// A map's surfels facing free space, and samples of them.

@@ -22,11 +22,15 @@ struct Pair {
         features_b(*MapFeatures::build(*maps.b)),
         a(party_of(features_a)),
         b(party_of(features_b)),
-        nearest(features_a.fine(), 0.2F, 0.8F) {}
+        nearest(features_a.fine(), 0.2F, 0.8F),
+        nearest_b(features_b.fine(), 0.2F, 0.8F) {}
+  [[nodiscard]] Evidence weigh(const SE3& T_a_b) const {
+    return matching::weigh({a, nearest}, {b, nearest_b}, T_a_b);
+  }
   support::MapPair maps;
   MapFeatures features_a, features_b;
   Party a, b;
-  NearestGrid nearest;
+  NearestGrid nearest, nearest_b;
 };
 
 SE3 moved(const SE3& T, double x, double y, double yaw) {
@@ -35,7 +39,7 @@ SE3 moved(const SE3& T, double x, double y, double yaw) {
 
 TEST(Evidence, TheTruthAgreesAndOtherPosesContradict) {
   const Pair p(support::lobby(), {0, 2.5, 12}, {1.2, 3.6, 12});
-  const Evidence truth = weigh(p.a, p.nearest, p.b, p.maps.T_a_b);
+  const Evidence truth = p.weigh(p.maps.T_a_b);
   EXPECT_GT(truth.structure_inliers, 0.8);
   EXPECT_LT(truth.conflict + truth.reverse_conflict, 0.05);
   EXPECT_GT(truth.overlap, 0.3);
@@ -44,15 +48,24 @@ TEST(Evidence, TheTruthAgreesAndOtherPosesContradict) {
   for (const auto& [x, y, yaw] : {std::array{3.0, 0.0, 0.0}, {0.0, 2.0, 0.0}, {0.0, 0.0, 0.3}, {-5.0, 4.0, 1.5}}) {
     const SE3 wrong = moved(p.maps.T_a_b, x, y, yaw);
     EXPECT_LT(score(p.a, p.nearest, p.b, wrong), best - 0.2);
-    const Evidence e = weigh(p.a, p.nearest, p.b, wrong);
+    const Evidence e = p.weigh(wrong);
     EXPECT_GT(e.conflict + e.reverse_conflict, truth.conflict + truth.reverse_conflict);
     EXPECT_FALSE(decide(e).accepted);
   }
 }
 
+TEST(Evidence, ConflictIsSeenFromBothMaps) {
+  const Pair p(support::lobby(), {0, 2.5, 12}, {1.2, 3.6, 12});
+  const SE3 wrong = moved(p.maps.T_a_b, 0.4, 0.3, 0);
+  const Evidence a = p.weigh(wrong), b = matching::weigh({p.b, p.nearest_b}, {p.a, p.nearest}, wrong.inverse());
+  EXPECT_GT(a.reverse_conflict, a.conflict) << "what is beside its partner counts on that side";
+  EXPECT_GE(a.reverse_conflict, b.conflict);
+  EXPECT_GE(b.reverse_conflict, a.conflict);
+}
+
 TEST(Evidence, NothingInCommonIsNoEvidence) {
   const Pair p(support::corridor(), {0, 1, 4}, {0, 1, 4});
-  const Evidence e = weigh(p.a, p.nearest, p.b, moved(p.maps.T_a_b, 500, 0, 0));
+  const Evidence e = p.weigh(moved(p.maps.T_a_b, 500, 0, 0));
   EXPECT_EQ(e.overlap, 0);
   EXPECT_EQ(e.inlier_ratio, 0);
   EXPECT_EQ(e.structure_pairs, 0);
@@ -70,8 +83,8 @@ TEST(Covariance, IsLargeWhereNothingHolds) {
   const Eigen::Matrix3d position = C.topLeftCorner<3, 3>();
   EXPECT_GT(std::sqrt(along.dot(position * along)), 0.2);
   EXPECT_LT(std::sqrt(across.dot(position * across)), 0.03);
-  EXPECT_LT(weigh(p.a, p.nearest, p.b, p.maps.T_a_b).weakest_translation, 0.02);
-  EXPECT_FALSE(decide(weigh(p.a, p.nearest, p.b, p.maps.T_a_b)).accepted);
+  EXPECT_LT(p.weigh(p.maps.T_a_b).weakest_translation, 0.02);
+  EXPECT_FALSE(decide(p.weigh(p.maps.T_a_b)).accepted);
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6>(C).eigenvalues()[0], 0);
   EXPECT_GE(Eigen::SelfAdjointEigenSolver<Matrix6>(prior - C).eigenvalues()[0], -1e-9);  // never above the prior
 }

@@ -84,7 +84,7 @@ TEST(Pending, AGuessDoesNotDecideBetweenPlacesThatAreEquallyGood) {
 
 TEST(Pending, AGuessRulesOutALesserRival) {
   Look rival = agreeing(at(7), 100);
-  rival.evidence.structure_inliers = 0.62;
+  rival.evidence.conflict = 0.01;
   rival.evidence.score = 0.45;
   for (const bool guessed : {false, true}) {
     PendingHypotheses pending;
