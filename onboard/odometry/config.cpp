@@ -24,9 +24,10 @@ void declare(config::Section& s, OdometryConfig& c) {
   s.number("correlation_factor", c.correlation_factor, {1.0, 1000.0}, "",
            "points per independent piece of information: errors of neighbouring points are alike");
   s.number("linear_acceleration", c.linear_acceleration, {0.01, 100.0}, "m/s2",
-           "standard deviation of the robot's acceleration");
+           "standard deviation of the robot's acceleration; three times as much while a map begins. Less is steadier: "
+           "the motion within a scan and the map that was made with it must not lead each other astray");
   s.number("angular_acceleration", c.angular_acceleration, {0.01, 100.0}, "rad/s2",
-           "standard deviation of the robot's angular acceleration");
+           "standard deviation of the robot's angular acceleration, likewise");
   s.number("initial_speed", c.initial_speed, {0.0, 50.0}, "m/s",
            "standard deviation of the speed before the second scan");
   s.number("initial_angular_speed", c.initial_angular_speed, {0.0, 10.0}, "rad/s",

@@ -23,8 +23,8 @@ struct OdometryConfig {
   double max_thickness_m = 0.06;
   double correlation_factor = 40.0;
 
-  double linear_acceleration = 3.0;
-  double angular_acceleration = 3.0;
+  double linear_acceleration = 1.0;
+  double angular_acceleration = 1.0;
   double initial_speed = 10.0;
   double initial_angular_speed = 1.0;
   double max_speed = 50.0;

@@ -13,6 +13,9 @@ namespace {
 constexpr double kMaxAge = 0.25;
 // Wide enough that the first registrations, with the widest gate, are not led by the nearest surfaces alone; it adapts.
 constexpr float kFirstKeypointSpacing = 0.4F;
+// The first scan of a map was taken in an unknown motion. Until others outweigh it, the motion is not to follow it.
+constexpr int kFirstScans = 20;
+constexpr double kFreely = 3;
 // Standard deviation [m/s] above which the prediction is as good as none, and speeds are tried one by one.
 constexpr double kSpeedUnknown = 2.0;
 constexpr double kGuessGate = 0.5;
@@ -58,7 +61,8 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget) {
   revolution_s_ = std::max(duration_s_, 0.9 * revolution_s_);
   last_stamp_ = scan.valid.end;
   T_odom_previous_ = filter_.state().T_odom_base;
-  filter_.predict(dt, {config_.linear_acceleration, config_.angular_acceleration});
+  const double freely = scans_in_map_ < kFirstScans ? kFreely : 1.0;
+  filter_.predict(dt, {freely * config_.linear_acceleration, freely * config_.angular_acceleration});
   const Fit found = fit(first_guess(dt), budget);
   if (resumed_ && keypoints_.size() > kTelling * static_cast<std::size_t>(config_.min_matches)) {
     if (!found_again(found)) return start(scan.valid.end);
@@ -238,6 +242,7 @@ void LidarOdometry::lose_track(OdometryUpdate& update) {
 
 void LidarOdometry::begin_map() {
   guesses_left_ = kGuesses;
+  scans_in_map_ = 0;
   map_.clear();
   drift_.reset(filter_.state().T_odom_base, odom_covariance());
   T_odom_pruned_ = filter_.state().T_odom_base;
@@ -259,6 +264,7 @@ void LidarOdometry::deskew_all(const Vector6& twist) {
 }
 
 void LidarOdometry::insert() {
+  ++scans_in_map_;
   const SE3& T = filter_.state().T_odom_base;
   drift_.advance(T, odom_covariance());
   const Eigen::Matrix3d R = T.rotation();

@@ -128,6 +128,7 @@ class LidarOdometry {
   std::optional<Resumed> resumed_;  // as long as the first scan after resume() is still to come
   SE3 T_odom_previous_;
   int lost_in_a_row_ = 0;
+  int scans_in_map_ = 0;
   // In a corridor the speed stays unknown for ever; what the first scans cannot tell, later ones cannot either.
   static constexpr int kGuesses = 3;
   int guesses_left_ = 0;
