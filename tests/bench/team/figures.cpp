@@ -50,7 +50,8 @@ void Ages::fused(const Team& team, Time now) {
     const Way way{robot, self};
     Version& looked_at = looked_at_[way];
     auto& waits = waits_[way];
-    const bool merged = std::ranges::any_of(team.map().poses(), [&](const auto& pose) { return pose.first.robot == robot; });
+    const bool merged =
+        std::ranges::any_of(team.map().poses(), [&](const auto& pose) { return pose.first.robot == robot; });
     for (; looked_at < times.size(); ++looked_at)
       if (merged) waits.push_back(looked_at + 1);
     const auto layer = team.exchange().layers().find(robot);

@@ -24,9 +24,7 @@ struct Pair {
         b(party_of(features_b)),
         nearest(features_a.fine(), 0.2F, 0.8F),
         nearest_b(features_b.fine(), 0.2F, 0.8F) {}
-  [[nodiscard]] Evidence weigh(const SE3& T_a_b) const {
-    return matching::weigh({a, nearest}, {b, nearest_b}, T_a_b);
-  }
+  [[nodiscard]] Evidence weigh(const SE3& T_a_b) const { return matching::weigh({a, nearest}, {b, nearest_b}, T_a_b); }
   support::MapPair maps;
   MapFeatures features_a, features_b;
   Party a, b;
