@@ -124,13 +124,7 @@ class TeamRun {
     }
     for (RobotId a = 1; a <= robots_.size(); ++a)
       for (RobotId b = a + 1; b <= robots_.size(); ++b) report_pair(a, b);
-    // Robots that stop say all that they still kept back at once.
-    std::printf(
-        "  from said to fused: p50 %.2f s, p99 %.2f s, max %.2f s of %zu; while they drive p50 %.2f s, p99 %.2f s, max "
-        "%.2f s; %d matches, %.2f s each\n",
-        ages_.quantile(0.5), ages_.quantile(0.99), ages_.quantile(1), ages_.count(), ages_.quantile(0.5, stopped_),
-        ages_.quantile(0.99, stopped_), ages_.quantile(1, stopped_), matches_,
-        to_seconds(match_time_) / std::max(1, matches_));
+    report_ages();
     const auto& poses = robots_.front()->team.poses();
     std::printf(
         "  %zu submaps, %td of %zu claims kept; %d refinements, %.2f s each; steps %.1f s, longest %.1f ms; "
@@ -222,6 +216,16 @@ class TeamRun {
           worst_ = std::max(worst_, error->translation().norm());
           ++errors_;
         }
+  }
+
+  void report_ages() {
+    // Robots that stop say all that they still kept back at once.
+    std::printf(
+        "  from said to fused: p50 %.2f s, p99 %.2f s, max %.2f s of %zu; while they drive p50 %.2f s, p99 %.2f s, max "
+        "%.2f s; %d matches, %.2f s each\n",
+        ages_.quantile(0.5), ages_.quantile(0.99), ages_.quantile(1), ages_.count(), ages_.quantile(0.5, stopped_),
+        ages_.quantile(0.99, stopped_), ages_.quantile(1, stopped_), matches_,
+        to_seconds(match_time_) / std::max(1, matches_));
   }
 
   void report_pair(RobotId a, RobotId b) {
