@@ -140,6 +140,24 @@ TEST(TeamMap, HowTheWorkWasCutAndOrderedDoesNotMatter) {
   }
 }
 
+TEST(TeamMap, ANewMapIsShownWithWhatChangedMeanwhile) {
+  const Tiles tiles = random_tiles(6, 3);
+  TeamMap map(kResolution, Policy::kRelativeEntropy);
+  put_all(map, random_tiles(7, 3));
+  map.place(poses_of(tiles));
+  finish(map);
+  map.place(poses_of(tiles, 1));
+  Budget few = Budget::steps(10);
+  ASSERT_FALSE(map.fuse(few));  // the new map is begun
+  put_all(map, tiles);
+  const SubmapKey moved{3, 0};
+  while (map.poses().at(moved).matrix() != poses_of(tiles, 1).at(moved).matrix()) {
+    Budget one = Budget::steps(1);
+    (void)map.fuse(one);
+  }
+  EXPECT_TRUE(map.shows_newest_tiles());
+}
+
 std::map<std::uint64_t, std::uint32_t> labels_of(const SemanticOcTree& map) {
   std::map<std::uint64_t, std::uint32_t> labels;
   SemanticOcTree fine(map);
