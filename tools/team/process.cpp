@@ -16,8 +16,11 @@ namespace cairn::team {
 namespace {
 
 /// In the new process. Only what may be called between fork() and exec().
-[[noreturn]] void become(const Command& command, pid_t parent, char* const* words) {
+[[noreturn]] void become(const Command& command, pid_t parent, char* const* words, const sigset_t& heard) {
   constexpr int kCannot = 127;
+  // The parent's handlers would take what is meant for the program.
+  for (const int number : {SIGINT, SIGTERM}) (void)::signal(number, SIG_DFL);
+  (void)::sigprocmask(SIG_SETMASK, &heard, nullptr);
   (void)::prctl(PR_SET_PDEATHSIG, command.orphaned);
   if (::getppid() != parent) ::_exit(kCannot);  // it died before it could be watched
   (void)::setpgid(0, 0);
@@ -42,10 +45,14 @@ Result<Process> Process::start(const Command& command) {
   std::vector<char*> pointers;
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
+  sigset_t all, heard;
+  ::sigfillset(&all);
+  ::pthread_sigmask(SIG_SETMASK, &all, &heard);
   const pid_t parent = ::getpid(), id = ::fork();
+  if (id == 0) become(command, parent, pointers.data(), heard);
+  ::pthread_sigmask(SIG_SETMASK, &heard, nullptr);
   if (id < 0)
     return Error{Errc::kIo, "cannot start a process", command.words[0], {}, std::generic_category().message(errno)};
-  if (id == 0) become(command, parent, pointers.data());
   return Process(id);
 }
 

@@ -114,17 +114,17 @@ std::string last_line(const fs::path& log) {
   return last;
 }
 
-/// The first robot whose core did not end well.
+/// Nothing, or why there is nothing to compare. A core that was asked to end may have no words: the one that failed
+/// has.
 Result<void> check(const Plan& plan, const TeamEnd& end) {
-  for (Index i = 0; i < end.robots.size(); ++i) {
-    if (end.robots[i].exit_code == 0) continue;
-    const fs::path log = plan.folders[i] / "core.log";
-    return Error{
-        Errc::kIo,
-        "a robot's core failed",
-        plan.recordings[i].name,
-        {},
-        fmt::format("exit code {}, last words: {} ({})", end.robots[i].exit_code, last_line(log), log.string())};
+  if (end.failed) {
+    const fs::path log = plan.folders[*end.failed] / "core.log";
+    return Error{Errc::kIo,
+                 "a robot's core failed",
+                 plan.recordings[*end.failed].name,
+                 {},
+                 fmt::format("exit code {}, last words: {} ({})", end.robots[*end.failed].exit_code, last_line(log),
+                             log.string())};
   }
   if (end.stopped) return Error{Errc::kIo, "the run was ended early"};
   return {};

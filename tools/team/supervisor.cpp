@@ -93,7 +93,9 @@ class Supervisor {
       all = all && code;
       if (!code || end_.robots[i].exit_code == *code) continue;
       end_.robots[i].exit_code = *code;
-      if (*code != 0 && !asked_at_) ask_to_end(fmt::format("{}: its core failed ({})", name(i), *code));
+      if (*code == 0 || asked_at_) continue;
+      end_.failed = i;
+      ask_to_end(fmt::format("{}: its core failed ({})", name(i), *code));
     }
     return all;
   }

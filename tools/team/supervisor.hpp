@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -37,7 +38,8 @@ struct RobotEnd {
 
 struct TeamEnd {
   std::vector<RobotEnd> robots;
-  bool stopped = false;  ///< before the cores ended by themselves: asked to, a core that failed, or too late
+  std::optional<Index> failed;  ///< the robot whose core failed before any was asked to end
+  bool stopped = false;         ///< before the cores ended by themselves: asked to, a core that failed, or too late
   Duration took{};
 };
 

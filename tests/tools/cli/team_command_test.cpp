@@ -133,10 +133,12 @@ TEST_F(TeamCommand, RobotsThatDidNotMeetAreNoFailure) {
 
 TEST_F(TeamCommand, ACoreThatFailsIsNamedWithItsLog) {
   prepare({});
-  script("core", "echo help; exit 3");
+  // The first robot's works until it is asked to end, for the second one's failure.
+  script("core", "[ $(basename $PWD) = robot_1 ] && exec tail -f /dev/null; echo help; exit 3");
   const Outcome outcome = team();
   EXPECT_EQ(outcome.exit_code, kFailed);
   EXPECT_THAT(outcome.err, HasSubstr("a robot's core failed"));
+  EXPECT_THAT(outcome.err, HasSubstr("robot_2"));
   EXPECT_THAT(outcome.err, HasSubstr("exit code 3, last words: help ("));
   EXPECT_THAT(outcome.err, HasSubstr("core.log"));
 }

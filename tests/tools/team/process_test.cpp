@@ -43,6 +43,19 @@ TEST(Process, AProgramThatIsNotThereSaysSo) {
   EXPECT_THAT(text_of(folder / "log"), HasSubstr("/no/such/program: cannot be started: No such file"));
 }
 
+/// Between fork() and exec() it would be the parent's handler that hears of it.
+TEST(Process, ASignalRightAfterTheStartReachesTheProgram) {
+  const support::TemporaryFolder folder;
+  const auto before = std::signal(SIGTERM, [](int) {});
+  for (int i = 0; i < 20; ++i) {
+    auto process = Process::start(shell("exec tail -f /dev/null", folder.path()));
+    ASSERT_TRUE(process);
+    process->signal(SIGTERM);
+    EXPECT_EQ(code_of(*process), 128 + SIGTERM);
+  }
+  (void)std::signal(SIGTERM, before);
+}
+
 TEST(Process, DoesNotOutliveItsObject) {
   const support::TemporaryFolder folder;
   pid_t id = 0;

@@ -102,6 +102,16 @@ TEST_F(Supervising, ACoreThatFailsEndsTheOthers) {
   EXPECT_TRUE(end.stopped);
   EXPECT_EQ(end.robots[0].exit_code, 4);
   EXPECT_THAT(said, HasSubstr("robot_1: its core failed (4)"));
+  EXPECT_EQ(end.failed, 0U);
+}
+
+TEST_F(Supervising, TheCoreThatFailedIsToldFromOneThatWasEndedForIt) {
+  add("exec tail -f /dev/null");
+  add("exit 4");
+  const TeamEnd end = run();
+  EXPECT_EQ(end.failed, 1U);
+  EXPECT_EQ(end.robots[0].exit_code, 128 + SIGTERM);
+  EXPECT_EQ(end.robots[1].exit_code, 4);
 }
 
 TEST_F(Supervising, AskedToEndItAsksTheCoresAndKillsWhoDoesNotListen) {
@@ -123,6 +133,7 @@ TEST_F(Supervising, CoresThatDoNotEndAreEnded) {
   const TeamEnd end = run();
   EXPECT_TRUE(end.stopped);
   EXPECT_EQ(end.robots[0].exit_code, 128 + SIGTERM);
+  EXPECT_FALSE(end.failed);
   EXPECT_THAT(said, HasSubstr("do not end by themselves"));
 }
 
