@@ -13,6 +13,12 @@ Matrix12 information(const NormalEquations& n, double overconfidence) {
   return H / overconfidence;
 }
 
+// Shares per scan. Slower ones do not hold a wrong twist in simulated offices; 0.2 and 0.4 there lower the error by 3
+// to 18 %. A single scan's pose error reaches the twist as 0.08 of it per scan's time: less than the acceleration's
+// noise.
+constexpr double kGapShare = 0.2;
+constexpr double kCorrectedShare = 0.4;
+
 Matrix12 inverse_of(const Matrix12& m) { return m.ldlt().solve(Matrix12::Identity()); }
 
 Matrix12 symmetric(const Matrix12& m) { return 0.5 * (m + m.transpose()); }
@@ -38,9 +44,19 @@ void MotionFilter::reset(const MotionState& state, const Uncertainty& uncertaint
   state_ = state;
   uncertainty_ = uncertainty;
   step_covariance_.setZero();
+  forget_gap();
+}
+
+void MotionFilter::forget_gap() {
+  gap_.setZero();
+  correction_.setZero();
 }
 
 void MotionFilter::predict(double dt, const MotionNoise& noise) {
+  before_ = state_;
+  dt_ = dt;
+  state_.twist += correction_;
+  correction_.setZero();
   const Vector6 xi = dt * state_.twist;
   const SE3 motion = SE3::exp(xi);
   transition_.setIdentity();
@@ -91,6 +107,14 @@ void MotionFilter::update(const MotionState& x, const Measurement& m, const Matr
   step_covariance_ =
       (G * local_before_ * G.transpose() + keep * process_ * keep.transpose() + noise).topLeftCorner<6, 6>();
   state_ = x;
+  follow_motion();
+}
+
+void MotionFilter::follow_motion() {
+  if (dt_ <= 0) return;  // nothing was predicted
+  const Vector6 motion = (before_.T_odom_base.inverse() * state_.T_odom_base).log() / dt_;
+  gap_ += kGapShare * (motion - 0.5 * (before_.twist + state_.twist) - gap_);
+  correction_ = kCorrectedShare * gap_;
 }
 
 }  // namespace cairn

@@ -38,6 +38,11 @@ struct Measurement {
 /// An iterated extended Kalman filter with the constant-twist model. It carries two covariances of the same state:
 /// `local` of the error against the map, which sets the gains, and `total` of the error against the start, which also
 /// inherits the errors that the map's planes were placed with.
+///
+/// A twist that is wrong all the time deskews all scans alike, and a map of such scans confirms it. What gives it away
+/// is that the poses do not move so. Their errors are not carried from scan to scan, so the mean of what lies between
+/// motion and twist over some scans tells the twist's common error, whatever the acceleration; predictions follow it
+/// slowly.
 class MotionFilter {
  public:
   struct Uncertainty {
@@ -46,6 +51,8 @@ class MotionFilter {
   };
 
   void reset(const MotionState& state, const Uncertainty& uncertainty);
+  /// Forgets how far motion and twist have differed: the next scans begin a new map.
+  void forget_gap();
   /// Moves the state by `dt` seconds (> 0).
   void predict(double dt, const MotionNoise& noise);
 
@@ -61,12 +68,18 @@ class MotionFilter {
   [[nodiscard]] const Matrix6& step_covariance() const { return step_covariance_; }
 
  private:
+  void follow_motion();
+
   MotionState state_;
   Uncertainty uncertainty_;
   Matrix12 transition_ = Matrix12::Identity();  // of the last predict()
   Matrix12 local_before_ = Matrix12::Zero();    // before the last predict()
   Matrix12 process_ = Matrix12::Zero();
   Matrix6 step_covariance_ = Matrix6::Zero();
+  MotionState before_;                    // before the last predict()
+  double dt_ = 0;                         // of the last predict()
+  Vector6 gap_ = Vector6::Zero();         // mean over some scans of: motion per second − twist
+  Vector6 correction_ = Vector6::Zero();  // of the twist, by the next predict()
 };
 
 [[nodiscard]] MotionState operator+(const MotionState& x, const Vector12& step);

@@ -228,6 +228,7 @@ void LidarOdometry::accept(const Fit& found) {
   const double misfit = found.equations.robust > 0 ? found.equations.chi2 / found.equations.robust : 1.0;
   const Measurement measurement{found.equations, found.degeneracy, std::max(1.0, misfit) * config_.correlation_factor};
   filter_.update(found.state, measurement, drift_.average(linearise_.uses()));
+  if (scans_in_map_ < kFirstScans) filter_.forget_gap();
 }
 
 void LidarOdometry::lose_track(OdometryUpdate& update) {
@@ -243,6 +244,7 @@ void LidarOdometry::lose_track(OdometryUpdate& update) {
 void LidarOdometry::begin_map() {
   guesses_left_ = kGuesses;
   scans_in_map_ = 0;
+  filter_.forget_gap();
   map_.clear();
   drift_.reset(filter_.state().T_odom_base, odom_covariance());
   T_odom_pruned_ = filter_.state().T_odom_base;
