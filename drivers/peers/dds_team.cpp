@@ -27,9 +27,14 @@ Error failed(const char* what, Entity code) {
   return {Errc::kIo, "Cyclone DDS refused", {}, {}, std::string(what) + ": " + dds_strretcode(-code)};
 }
 
-std::string peers_xml(const std::vector<std::string>& peers) {
+/// Teammates with the ports that discovery knocks on. Without ports Cyclone would take all that it may use itself.
+std::string peers_xml(const DdsConfig& config) {
+  constexpr unsigned kBase = 7400, kOfDomain = 250, kUnicastMeta = 10, kOfParticipant = 2;  // DDSI-RTPS 2.3, 9.6.1.1
   std::string xml;
-  for (const std::string& peer : peers) xml += "<Peer Address=\"" + peer + "\"/>";
+  for (const std::string& peer : config.peers)
+    for (unsigned i = 0; i < config.processes_per_host; ++i)
+      xml += fmt::format("<Peer Address=\"{}:{}\"/>", peer,
+                         kBase + kOfDomain * config.domain + kUnicastMeta + kOfParticipant * i);
   return xml;
 }
 
@@ -46,7 +51,7 @@ std::string configuration(const DdsConfig& config) {
       "<Discovery><ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>{}</MaxAutoParticipantIndex>"
       "<LeaseDuration>{}ms</LeaseDuration><SPDPInterval>2s</SPDPInterval><Peers>{}</Peers></Discovery>"
       "<Internal><SynchronousDeliveryLatencyBound>inf</SynchronousDeliveryLatencyBound></Internal>",
-      interface, config.processes_per_host - 1, config.lease.count() / 1'000'000, peers_xml(config.peers));
+      interface, config.processes_per_host, config.lease.count() / 1'000'000, peers_xml(config));
 }
 
 struct Qos {
@@ -81,7 +86,7 @@ class Team final : public DdsTeam {
 
   Result<void> begin(const DdsConfig& config) {
     domain_ = dds_create_domain(config.domain, configuration(config).c_str());
-    if (domain_ < 0) return failed("domain", domain_);
+    if (domain_ < 0) return failed("domain (are there more on this address than --robots-per-address?)", domain_);
     participant_ = dds_create_participant(config.domain, nullptr, nullptr);
     if (participant_ < 0) return failed("participant", participant_);
     topic_ = dds_create_topic(participant_, &cairn_Datagram_desc, kTopic, nullptr, nullptr);

@@ -15,9 +15,11 @@ namespace cairn::peers {
 struct DdsConfig {
   std::uint64_t robot = 0;  ///< this one's id
   unsigned domain = 42;
-  std::string interface;            ///< name or address of the network interface; empty: the DDS library chooses
-  std::vector<std::string> peers;   ///< addresses; nobody else is spoken to, nothing is multicast
-  unsigned processes_per_host = 4;  ///< as many participants may share a peer's address
+  std::string interface;           ///< name or address of the network interface; empty: the DDS library chooses
+  std::vector<std::string> peers;  ///< addresses; nobody else is spoken to, nothing is multicast
+  /// As many participants may share a peer's address. Discovery knocks on a port for each, at every teammate, every
+  /// two seconds, and where nobody listens the teammate's kernel says so: with four, that was half of what robots sent.
+  unsigned processes_per_host = 1;
   Duration lease = std::chrono::seconds(3);
 };
 

@@ -86,6 +86,10 @@ int main(int argc, char** argv) {
       ->check(CLI::Range(std::uint64_t{1}, ~std::uint64_t{0}));
   app.add_option("--socket", options.socket, "local socket of the core")->required();
   app.add_option("--peer", options.dds.peers, "address of a teammate; again for each")->required();
+  app.add_option("--robots-per-address", options.dds.processes_per_host,
+                 "robots of the team that share an address, this one's included: several on one machine")
+      ->check(CLI::Range(1U, 8U))
+      ->capture_default_str();
   app.add_option("--interface", options.dds.interface, "network interface, by name or address");
   app.add_option("--domain", options.dds.domain, "DDS domain of the team")->capture_default_str();
   app.add_option("--bytes-per-second", options.bytes_per_second, "cap on all that is sent, headers included")

@@ -16,7 +16,7 @@ using peers::LinkFrame;
 using peers::LocalLink;
 
 constexpr const char* kRadioSocket = "radio.sock";  // in the robot's folder
-constexpr Index kMaxRobots = 4;                     // that cairn-peers lets share one address
+constexpr Index kMaxRobots = 8;                     // that cairn-peers lets share one address
 
 /// Both ends of what was one local socket: the core's, and the peer process's.
 struct Tap {
@@ -50,7 +50,8 @@ class LoopbackNetwork final : public Network {
   [[nodiscard]] std::vector<std::string> peer_arguments(Index /*robot*/) const override {
     // Runs on one machine at the same time keep to domains of their own (DDS has 233).
     const std::string domain = std::to_string(10 + ::getpid() % 200);
-    return {"--interface", "lo", "--socket", kRadioSocket, "--peer", "127.0.0.1", "--domain", domain};
+    return {"--interface", "lo",       "--socket", kRadioSocket,           "--peer",
+            "127.0.0.1",   "--domain", domain,     "--robots-per-address", std::to_string(taps_.size())};
   }
   void add_waits(std::vector<pollfd>& waits) const override {
     for (const Tap& tap : taps_)

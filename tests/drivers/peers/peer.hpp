@@ -34,9 +34,10 @@ class Peer {
   ~Peer() { stop(SIGTERM); }
 
   void start() {
-    std::vector<std::string> words{CAIRN_PEERS,          "--robot",     robot_, "--socket", socket_, "--peer",
-                                   "127.0.0.1",          "--interface", "lo",   "--domain", domain_, "--quiet",
-                                   "--bytes-per-second", cap_};
+    std::vector<std::string> words{CAIRN_PEERS, "--robot",   robot_,        "--socket", socket_,
+                                   "--peer",    "127.0.0.1", "--interface", "lo",       "--robots-per-address",
+                                   "4",         "--domain",  domain_,       "--quiet",  "--bytes-per-second",
+                                   cap_};
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
