@@ -12,6 +12,7 @@ namespace {
 
 constexpr int kAgreements = 3;                              // to be accepted
 constexpr double kAgrees = 0.9;                             // least probability of an agreement,
+constexpr double kCertain = 0.99;                           // and of one that counts twice; wrong ones reach 0.988
 constexpr double kLeastGroundM2 = 60;                       // and the structure it needs
 constexpr double kNewGround = 0.1, kLeastNewGroundM2 = 10;  // what it must add to the last one's
 constexpr double kContradicted = 0.06;                      // share of structure in the other's free space
@@ -61,9 +62,15 @@ void suspend(Hypothesis& h, const std::string& why) {
   h.reason = why;
 }
 
+/// What a look on new ground adds. One that is all but certain counts twice, but no look decides alone.
+int weight_of(const Hypothesis& h, int needed) {
+  const int weight = h.probability_correct >= kCertain ? 2 : 1;
+  return h.agreements > 0 ? weight : std::min(weight, needed - 1);
+}
+
 std::string so_often(const Hypothesis& h, int needed) {
-  return (h.earned ? "agreed again " : "agreed on new ground ") + std::to_string(h.agreements) + " of " +
-         std::to_string(needed) + " times";
+  return (h.earned ? "agreed again " : "agreed on new ground ") + std::to_string(std::min(h.agreements, needed)) +
+         " of " + std::to_string(needed) + " times";
 }
 
 /// How many agreements it takes, by what a guess says of the place.
@@ -96,7 +103,7 @@ void judge(Hypothesis& h, const Look& look, const Decision& now, double rival, i
   if (h.earned && !agrees) h.agreements = 0;
   if (!agrees || !(h.earned || on_new_ground(h, look.evidence))) return;
   h.ground_m2 = std::max(h.ground_m2, look.evidence.agreeing_m2);
-  ++h.agreements;
+  h.agreements += weight_of(h, needed);
   h.reason = so_often(h, needed);
   if (h.agreements >= needed) h.standing = Standing::kAccepted;
 }

@@ -14,7 +14,7 @@ SE3 at(double x, double yaw = 0) { return SE3::from_xyz_rpy((Vector6() << x, 1, 
 Look agreeing(const SE3& T, double ground_m2) {
   Look look{{T, 1e-4 * Matrix6::Identity()}, {}};
   look.evidence.structure_inliers = 0.8;
-  look.evidence.structure_pairs = 900;
+  look.evidence.structure_pairs = 450;
   look.evidence.agreeing_m2 = ground_m2;
   look.evidence.weakest_translation = 0.4;
   look.evidence.reverse_conflict = 0.005;
@@ -52,6 +52,24 @@ TEST(Pending, RepeatedAgreementOnNewGroundIs) {
   EXPECT_NEAR(pending.accepted()->T_a_b.mean.translation().x(), 0.05, 1e-12);  // the newest look's
 }
 
+Look certain(const SE3& T, double ground_m2) {
+  Look look = agreeing(T, ground_m2);
+  look.evidence.structure_pairs = 2000;
+  return look;
+}
+
+TEST(Pending, AnAgreementThatIsAllButCertainCountsTwiceButNeverAlone) {
+  for (const bool first : {true, false}) {
+    PendingHypotheses pending;
+    pending.take({first ? certain(at(0), 100) : agreeing(at(0), 100)});
+    EXPECT_EQ(pending.accepted(), nullptr);
+    pending.take({certain(at(0), 105)});
+    EXPECT_EQ(pending.accepted(), nullptr) << "the same ground";
+    pending.take({first ? agreeing(at(0), 200) : certain(at(0), 200)});
+    EXPECT_NE(pending.accepted(), nullptr);
+  }
+}
+
 /// Both robots were put down to within so much.
 UncertainPose guess(const SE3& T, double sigma_m) {
   UncertainPose guess{T, 0.0025 * Matrix6::Identity()};
@@ -71,6 +89,14 @@ TEST(Pending, AGuessCountsForAndAgainst) {
       EXPECT_EQ(pending.accepted() != nullptr, i >= needed) << i << " of " << needed;
     }
   }
+}
+
+TEST(Pending, ACertainLookAndAGuessDoNotDecideAlone) {
+  PendingHypotheses pending;
+  pending.take({certain(at(0), 100)}, guess(at(0.3), 0.5));
+  EXPECT_EQ(pending.accepted(), nullptr);
+  pending.take({agreeing(at(0), 200)}, guess(at(0.3), 0.5));
+  EXPECT_NE(pending.accepted(), nullptr);
 }
 
 TEST(Pending, AGuessDoesNotDecideBetweenPlacesThatAreEquallyGood) {
