@@ -7,14 +7,14 @@
 namespace cairn {
 namespace {
 
-constexpr double kDt = 0.1;
-constexpr MotionNoise kNoise{3.0, 2.0};
+constexpr double kStep = 0.1;
+constexpr MotionNoise kFree{3.0, 2.0};
 
 /// Ends each step at `x`, whatever was measured: what a map would say that confirms every twist.
 void believe(MotionFilter& filter, const MotionState& x) {
   NormalEquations equations;
   equations.aa = equations.ttaa = 1e4 * Matrix6::Identity();
-  filter.predict(kDt, kNoise);
+  filter.predict(kStep, kFree);
   filter.update(x, {equations, {}, 1}, Matrix6::Zero());
 }
 
@@ -24,13 +24,13 @@ TEST(MotionGap, ATwistThatThePosesDoNotShowIsCorrected) {
   MotionState x{{}, forward + sideways};
   filter.reset(x, {Matrix12::Identity(), Matrix12::Identity()});
   for (int i = 0; i < 50; ++i) {
-    x.T_odom_base = x.T_odom_base * SE3::exp(kDt * forward);
+    x.T_odom_base = x.T_odom_base * SE3::exp(kStep * forward);
     believe(filter, x);
   }
-  filter.predict(kDt, kNoise);
+  filter.predict(kStep, kFree);
   const Vector6 correction = filter.state().twist - x.twist;
   EXPECT_LT((correction + 0.4 * sideways).norm(), 1e-3) << correction.transpose();
-  filter.predict(kDt, kNoise);
+  filter.predict(kStep, kFree);
   EXPECT_LT((filter.state().twist - x.twist - correction).norm(), 1e-12) << "once for each scan that fitted";
 }
 
@@ -40,11 +40,11 @@ TEST(MotionGap, AnAccelerationIsNoReasonToCorrectTheTwist) {
   MotionState x{SE3::exp(-acceleration), (Vector6() << 0.9, 0.1, 0, -0.1, 0.2, -0.7).finished()};
   filter.reset(x, {Matrix12::Identity(), Matrix12::Identity()});
   for (int i = 0; i < 20; ++i) {
-    const Vector6 mean = x.twist + 0.5 * kDt * acceleration;
-    x = {x.T_odom_base * SE3::exp(kDt * mean), x.twist + kDt * acceleration};
+    const Vector6 mean = x.twist + 0.5 * kStep * acceleration;
+    x = {x.T_odom_base * SE3::exp(kStep * mean), x.twist + kStep * acceleration};
     believe(filter, x);
   }
-  filter.predict(kDt, kNoise);
+  filter.predict(kStep, kFree);
   EXPECT_LT((filter.state().twist - x.twist).norm(), 1e-9);
 }
 
@@ -54,7 +54,7 @@ TEST(MotionGap, ANewMapKnowsOfNoGap) {
   filter.reset(x, {Matrix12::Identity(), Matrix12::Identity()});
   for (int i = 0; i < 5; ++i) believe(filter, x);
   filter.forget_gap();
-  filter.predict(kDt, kNoise);
+  filter.predict(kStep, kFree);
   EXPECT_EQ(filter.state().twist, x.twist);
 }
 
