@@ -18,7 +18,8 @@ struct DdsConfig {
   std::string interface;           ///< name or address of the network interface; empty: the DDS library chooses
   std::vector<std::string> peers;  ///< addresses; nobody else is spoken to, nothing is multicast
   /// As many participants may share a peer's address. Discovery knocks on a port for each, at every teammate, every
-  /// two seconds, and where nobody listens the teammate's kernel says so: with four, that was half of what robots sent.
+  /// two seconds, and where nobody listens the teammate's kernel says so: with four, that was a fifth of what robots
+  /// sent (an office, three robots, 160 s: 870-950 kB, 700-720 kB with one).
   unsigned processes_per_host = 1;
   Duration lease = std::chrono::seconds(3);
 };

@@ -114,8 +114,7 @@ std::string last_line(const fs::path& log) {
   return last;
 }
 
-/// Nothing, or why there is nothing to compare. A core that was asked to end may have no words: the one that failed
-/// has.
+/// Nothing, or why there is nothing to compare: in the words of the core that failed, not of one that was ended for it.
 Result<void> check(const Plan& plan, const TeamEnd& end) {
   if (end.failed) {
     const fs::path log = plan.folders[*end.failed] / "core.log";
