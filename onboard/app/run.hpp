@@ -23,8 +23,9 @@ struct RunOptions {
   std::filesystem::path live_view;  ///< live: the local socket for `cairn top`; empty: none
   Pace pace = Pace::kRecorded;
   bool reference = false;  ///< at real speed: run an empty task beside the control task, to know what the machine costs
-  std::optional<int> threads;                             ///< instead of the profile's
-  std::optional<double> seconds;                          ///< ends the run when so much of the robot's time has passed
+  std::optional<int> threads;     ///< instead of the profile's
+  std::optional<double> seconds;  ///< ends the run when so much of the robot's time has passed
+  std::function<bool()> stop;     ///< live: asked about every 20 ms whether the run is to end; empty: never
   std::function<void(Time, std::size_t scans)> progress;  ///< after every scan, on odometry's thread; may be empty
 
   /// On the machine's clock, and never the same twice.

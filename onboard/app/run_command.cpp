@@ -72,6 +72,7 @@ int run_robot(Arguments a) {
   a.run.pace = a.run.live() ? Pace::kLive : a.speed == "max" ? Pace::kMaximum : Pace::kRecorded;
   if (::isatty(STDERR_FILENO) != 0) a.run.progress = show_progress;
   catch_stop_signals();
+  a.run.stop = stop_requested;
   const auto result = cairn::run(a.run);
   if (a.run.progress) std::fputc('\n', stderr);
   if (!result) return fail(result.error());

@@ -43,9 +43,9 @@ camera="$VM_PROJECT/tests/vm/camera.sh $VM_PROGRAMS/uvc_camera"
 try "camera on uvcvideo" test_camera_device CAIRN_TEST_VIDEO="$CAIRN_TEST_UVC" CAIRN_TEST_VIDEO_RAMP=1 \
   CAIRN_TEST_VIDEO_UNPLUG="$camera unplug" CAIRN_TEST_VIDEO_REPLUG="$camera plug" \
   CAIRN_TEST_VIDEO_CYCLES="$VM_CYCLES"
-# What a user does with all of them at once. The frames and edges are made meanwhile.
+# What a user does with all of them at once. The frames and edges are made once the recording runs, and end it.
 record_everything() {
-  local log=/tmp/record.log
+  local log=/tmp/record.log drive_log=/tmp/bring_up.log recorder
   cat >/tmp/robot.yaml <<YAML
 name: vm
 lidar: {enabled: false}
@@ -54,12 +54,20 @@ drive: {interface: vcan0}
 gpio: {chip: $CAIRN_TEST_GPIOCHIP, estop_line: "0"}
 YAML
   "$VM_PROGRAMS/cairn" doctor --config /tmp/robot.yaml --seconds 1 | tee "$log"
-  (for level in pull-up pull-down pull-up pull-down pull-up pull-down; do
-    sleep 0.5
+  timeout -k 5 "$VM_LIMIT" "$VM_PROGRAMS/cairn" record --config /tmp/robot.yaml --out /tmp/recorded >/tmp/recorder.log 2>&1 &
+  recorder=$!
+  until compgen -G '/tmp/recorded/*' >/dev/null; do
+    kill -0 "$recorder" 2>/dev/null || break
+    sleep 0.1
+  done
+  for level in pull-up pull-down pull-up pull-down; do
     echo "$level" >"$CAIRN_TEST_GPIOSIM/sim_gpio0/pull"
-  done) &
-  (sleep 1 && "$VM_PROGRAMS/test_drive_device" --gtest_filter='*BringsACia402DriveUp*' >/dev/null) &
-  timeout -k 5 "$VM_LIMIT" "$VM_PROGRAMS/cairn" record --config /tmp/robot.yaml --out /tmp/recorded --seconds 3 | tee -a "$log"
+    sleep 0.2
+  done
+  "$VM_PROGRAMS/test_drive_device" --gtest_filter='*BringsACia402DriveUp*' >"$drive_log" 2>&1 || cat "$drive_log"
+  kill -TERM "$recorder"
+  wait "$recorder"
+  tee -a "$log" </tmp/recorder.log
   "$VM_PROGRAMS/cairn" doctor --recording /tmp/recorded | tee -a "$log"
   if (($(grep -Ec '^ok: (thermal|drive|gpio): [1-9][0-9]* packets, none lost' "$log") == 3)); then
     sed -n 's/^ok: \([a-z]*: [0-9]* packets, none lost\)/vm: recorded \1/p' "$log"

@@ -4,7 +4,6 @@
 #include <algorithm>
 
 #include "onboard/app/allocations.hpp"
-#include "onboard/app/stop_signal.hpp"
 #include "onboard/scheduler/threads.hpp"
 
 namespace cairn {
@@ -239,8 +238,8 @@ Result<void> RobotTasks::run_live(const Clock& clock, Generations* generations) 
   become_real_time();
   const Time start = clock.now() + kStartIn;
   const Duration length = options_.seconds ? from_seconds(*options_.seconds) : Duration::max();
-  executive_.run_live(
-      {start, [&] { return stop_requested() || clock.now() - start > length || played_out(clock.now()); }}, clock);
+  const auto ended = [&](Time now) { return (options_.stop && options_.stop()) || now - start > length; };
+  executive_.run_live({start, [&] { return ended(clock.now()) || played_out(clock.now()); }}, clock);
   note_changes();
   if (saving) saving->close(clock.now(), robot_);
   say_what_is_missing(clock.now());

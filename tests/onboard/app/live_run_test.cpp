@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <semaphore>
 
 #include "drivers/velodyne/udp_sender.hpp"
 #include "drivers/velodyne/udp_source.hpp"
@@ -20,6 +23,7 @@ namespace {
 
 const Vector6 kMountOfLidar = (Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished();
 constexpr double kLiveSeconds = 1.6;
+constexpr Duration kBurst = from_seconds(0.02), kLastWords = from_seconds(0.1);
 
 /// Two ports that nobody else uses while they are held; a moment later nobody does either, as a rule.
 std::pair<int, int> ports_for_now() {
@@ -30,15 +34,40 @@ std::pair<int, int> ports_for_now() {
   return {source->data_port(), source->position_port()};
 }
 
-/// Sends the packets as far apart as they came.
+/// Sends the packets at least as far apart as they came: after a pause of the whole machine, no faster than before.
 void send(const std::vector<Packet>& packets, int port) {
   const auto wire = velodyne::UdpSender::open("127.0.0.1").value();
   const LiveClock clock;
-  const Duration offset = clock.now() - packets.front().arrival;
-  for (const Packet& packet : packets) {
-    LiveClock::wait_until(packet.arrival + offset);
-    ASSERT_TRUE(wire->send(packet.payload(), static_cast<std::uint16_t>(port)));
+  Time due = clock.now();
+  for (std::size_t i = 0; i < packets.size(); ++i) {
+    if (i > 0) due = std::max(due + (packets[i].arrival - packets[i - 1].arrival), clock.now() - kBurst);
+    LiveClock::wait_until(due);
+    ASSERT_TRUE(wire->send(packets[i].payload(), static_cast<std::uint16_t>(port)));
   }
+  LiveClock::wait_until(clock.now() + kLastWords);
+}
+
+/// Runs live from before the first of these packets until after the last, however long the machine takes for them.
+Result<std::unique_ptr<RunResult>> run_while(const std::vector<Packet>& packets, int port, RunOptions options) {
+  Result<std::unique_ptr<RunResult>> result = Error{Errc::kNotFound, "the run has not begun"};
+  std::binary_semaphore listening(0);
+  std::atomic<bool> asked = false, sent = false;
+  options.stop = [&] {
+    if (!asked.exchange(true)) listening.release();
+    return sent.load();
+  };
+  Workers both(2);
+  both.for_each(2, [&](std::size_t side) {
+    if (side == 0) {
+      result = run(options);
+      if (!asked.exchange(true)) listening.release();  // it never ran
+    } else {
+      listening.acquire();
+      send(packets, port);
+      sent = true;
+    }
+  });
+  return result;
 }
 
 TEST(LiveRun, IsRepeatedToTheBitFromWhatItRecorded) {
@@ -52,12 +81,8 @@ TEST(LiveRun, IsRepeatedToTheBitFromWhatItRecorded) {
   live.config = folder / "robot.yaml";
   live.out = folder / "live";
   live.record = folder / "recording";
-  live.seconds = kLiveSeconds;
   live.pace = Pace::kLive;
-  Result<std::unique_ptr<RunResult>> result = Error{Errc::kNotFound, "the run has not begun"};
-  Workers both(2);
-  both.for_each(2,
-                [&](std::size_t side) { side == 0 ? void(result = run(live)) : send(drive.packets(), ports.first); });
+  const auto result = run_while(drive.packets(), ports.first, live);
   ASSERT_TRUE(result) << to_string(result.error());
   const RunReport& ran = (*result)->report;
   EXPECT_GT(ran.scans, 3U);
@@ -67,7 +92,6 @@ TEST(LiveRun, IsRepeatedToTheBitFromWhatItRecorded) {
     RunOptions again = live;
     again.recording = live.record;
     again.record.clear();
-    again.seconds.reset();
     again.pace = threads == 2 ? Pace::kRecorded : Pace::kMaximum;
     again.threads = threads;
     again.out = folder / "again";
@@ -87,18 +111,9 @@ std::vector<Packet> part(const support::Vlp16Drive& drive, double from_s, double
   return packets;
 }
 
-/// Runs live while these packets come.
-Result<std::unique_ptr<RunResult>> run_while(const std::vector<Packet>& packets, int port, const RunOptions& options) {
-  Result<std::unique_ptr<RunResult>> result = Error{Errc::kNotFound, "the run has not begun"};
-  Workers both(2);
-  both.for_each(2, [&](std::size_t side) { side == 0 ? void(result = run(options)) : send(packets, port); });
-  return result;
-}
-
 RunOptions again_from(const RunOptions& live, const std::filesystem::path& out) {
   RunOptions again = live;
   again.state.clear();
-  again.seconds.reset();
   again.recording = live.record;
   again.record.clear();
   again.pace = Pace::kMaximum;
@@ -117,7 +132,6 @@ TEST(LiveRun, AStartAfterAnotherGoesOnInItsMapAndIsRepeatedToTheBit) {
   RunOptions options;
   options.config = folder / "robot.yaml";
   options.state = folder / "state";
-  options.seconds = kLiveSeconds;
   options.pace = Pace::kLive;
   std::string hash;
   for (const int turn : {0, 1}) {
