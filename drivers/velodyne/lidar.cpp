@@ -77,6 +77,7 @@ Result<const Scan*> Lidar::decode_data(const Packet& packet) {
   if (when.kind == DeviceTime::Kind::kJump) note_jump(packet.arrival);
   if (when.kind == DeviceTime::Kind::kNext) count_lost(when.step, data->azimuth[0] * kAzimuthUnitDeg);
   update_rotation(*data);
+  delay_ = packet.arrival - when.first_firing - nominal_step_;
   assemble(*data, when.first_firing);
   return count(assembler_.finished());
 }
@@ -216,7 +217,10 @@ void Lidar::note_nmea(const PositionPacket& position, Time arrival) {
   }
 }
 
-const Scan* Lidar::expire(Time now) { return count(assembler_.expire(now, period_)); }
+/// A scan whose packets are held up on their way is not old yet.
+const Scan* Lidar::expire(Time now) {
+  return count(assembler_.expire(now - std::max(delay_, Duration{}), period_));
+}
 const Scan* Lidar::flush() { return count(assembler_.flush()); }
 
 const Scan* Lidar::count(const Scan* scan) {

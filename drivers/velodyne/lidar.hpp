@@ -93,6 +93,7 @@ class Lidar final : public ScanDecoder {
   Counters counters_;
   Duration period_;          // of one turn, the last time the motor ran
   Duration nominal_step_{};  // from the last packet to its successor
+  Duration delay_{};         // of the last packet's arrival after its last firing
   double last_azimuth_deg_ = 0;
   std::optional<Duration> utc_offset_;
   std::optional<Time> locked_at_;  // arrival of the last position packet that said locked and valid

@@ -33,6 +33,24 @@ TEST(Lidar, TimeJumpDiscardsTheRunningScanAndSaysSo) {
   }
 }
 
+TEST(Lidar, PacketsThatAreHeldUpStillMakeWholeScans) {
+  Rig rig;
+  Sensor sensor;
+  const auto run = [&](Duration duration) {
+    for (const auto end = sensor.device_ns + duration.count(); sensor.device_ns < end;) {
+      const Packet packet = sensor.next();
+      rig.give(packet);
+      if (const Scan* scan = rig.lidar->expire(packet.arrival)) rig.scans.push_back(*scan);
+    }
+  };
+  run(350ms);
+  sensor.start += 600ms;
+  run(700ms);
+  EXPECT_LE(rig.scans.size(), 11U);
+  for (std::size_t k = 1; k < rig.scans.size(); ++k) EXPECT_FALSE(rig.scans[k].incomplete) << k;
+  EXPECT_NE(rig.lidar->expire(sensor.start + Duration{sensor.device_ns} + 160ms), nullptr) << "then silence";
+}
+
 Packet position(const Sensor& sensor, std::uint8_t pps, const std::string& sentence) {
   Packet packet;
   packet.channel = kDefaultPositionPort;
