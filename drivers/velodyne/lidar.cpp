@@ -218,9 +218,7 @@ void Lidar::note_nmea(const PositionPacket& position, Time arrival) {
 }
 
 /// A scan whose packets are held up on their way is not old yet.
-const Scan* Lidar::expire(Time now) {
-  return count(assembler_.expire(now - std::max(delay_, Duration{}), period_));
-}
+const Scan* Lidar::expire(Time now) { return count(assembler_.expire(now - std::max(delay_, Duration{}), period_)); }
 const Scan* Lidar::flush() { return count(assembler_.flush()); }
 
 const Scan* Lidar::count(const Scan* scan) {
