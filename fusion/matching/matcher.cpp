@@ -7,6 +7,7 @@
 #include "fusion/matching/em.hpp"
 #include "fusion/matching/oicp.hpp"
 #include "fusion/matching/pmm.hpp"
+#include "fusion/matching/tilted_matcher.hpp"
 
 namespace cairn::matching {
 namespace {
@@ -23,9 +24,9 @@ struct Method {
   Make make;
 };
 constexpr Method kMethods[] = {
-    {"default", make<DefaultMatcher>}, {"global", make<GlobalMatcher>}, {"oicp", make<Oicp>}, {"pmm", make<Pmm>},
-    {"pmm_level1", make<PmmLevel1>},   {"edge_icp", make<EdgeIcp>},     {"em", make<Em>},     {"icp", make<Icp>},
-    {"p2plane", make<PlaneIcp>}};
+    {"default", make<DefaultMatcher>}, {"global", make<GlobalMatcher>},     {"oicp", make<Oicp>}, {"pmm", make<Pmm>},
+    {"pmm_level1", make<PmmLevel1>},   {"edge_icp", make<EdgeIcp>},         {"em", make<Em>},     {"icp", make<Icp>},
+    {"p2plane", make<PlaneIcp>},       {"global_6dof", make<TiltedMatcher>}};
 
 }  // namespace
 

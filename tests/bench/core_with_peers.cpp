@@ -8,6 +8,7 @@
 //   keys: seconds (60), peers (8), rate (bytes/s of each, 32000), rounds (2), resolution (0.2 m)
 #include <unistd.h>
 
+#include <atomic>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -16,13 +17,13 @@
 #include <random>
 #include <set>
 #include <string>
-#include <thread>
 
 #include "drivers/peers/local_link.hpp"
 #include "fusion/peers/claim.hpp"
 #include "fusion/peers/exchange.hpp"
 #include "fusion/peers/tile_codec.hpp"
 #include "hal/clock.hpp"
+#include "hal/workers.hpp"
 #include "onboard/app/run.hpp"
 #include "onboard/mapping/map_file.hpp"
 
@@ -99,7 +100,7 @@ class Peer {
 };
 
 /// Speaks for all of them until it is told to end.
-void speak(const fs::path& socket, const Tiles& tiles, const std::stop_token& end) {
+void speak(const fs::path& socket, const Tiles& tiles, const std::atomic<bool>& ended) {
   peers::LocalLink link = peers::LocalLink::connect(socket);
   std::map<RobotId, Peer> team;
   for (int i = 0; i < static_cast<int>(g_options["peers"]); ++i)
@@ -107,7 +108,7 @@ void speak(const fs::path& socket, const Tiles& tiles, const std::stop_token& en
   const LiveClock clock;
   std::vector<std::byte> memory;
   peers::LinkFrame frame;
-  for (Time due = clock.now(); !end.stop_requested(); due += kTick) {
+  for (Time due = clock.now(); !ended; due += kTick) {
     LiveClock::wait_until(due);
     if (!link.join()) continue;
     while (link.receive(memory, frame))
@@ -135,9 +136,14 @@ std::unique_ptr<RunResult> play(const fs::path& recording, const Tiles* tiles, c
   options.pace = Pace::kLive;
   options.seconds = g_options["seconds"];
   options.reference = true;
-  std::jthread speaker;
-  if (tiles != nullptr) speaker = std::jthread([&](const std::stop_token& end) { speak(socket, *tiles, end); });
-  auto ran = run(options);
+  Result<std::unique_ptr<RunResult>> ran = Error{Errc::kNotFound, "the run has not begun"};
+  std::atomic<bool> ended = false;
+  Workers both(2);
+  both.for_each(tiles != nullptr ? 2 : 1, [&](std::size_t side) {
+    if (side == 1) return speak(socket, *tiles, ended);
+    ran = run(options);
+    ended = true;
+  });
   if (ran) return std::move(*ran);
   std::fprintf(stderr, "core_with_peers: %s\n", to_string(ran.error()).c_str());
   std::exit(1);

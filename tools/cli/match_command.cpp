@@ -117,7 +117,7 @@ void add_match_command(Commands& commands) {
   const auto options = std::make_shared<Options>();
   sub->add_option("a", options->a, "map (.cairn, .ot or .bt) whose frame the pose is given in")->required();
   sub->add_option("b", options->b, "map whose pose is sought")->required();
-  sub->add_option("--method", options->method, "how")
+  sub->add_option("--method", options->method, "how; global_6dof: neither map's z need be upwards")
       ->check(CLI::IsMember(std::vector<std::string>(matching::method_names().begin(), matching::method_names().end())))
       ->capture_default_str();
   CLI::Option* initial = sub->add_option("--initial", options->initial,

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/matching/tilted_matcher.hpp"
+
+#include <utility>
+
+#include "fusion/matching/default_matcher.hpp"
+#include "fusion/matching/judge.hpp"
+#include "fusion/matching/levelling.hpp"
+#include "fusion/merging/merge.hpp"
+
+namespace cairn::matching {
+namespace {
+
+constexpr double kSure = 0.8;  // of a match after which no other is looked for
+
+/// A map in a frame whose z may be upwards.
+struct Levelled {
+  SE3 T_level_map;
+  std::unique_ptr<SemanticOcTree> map;
+  std::unique_ptr<MapFeatures> features;
+};
+
+Result<std::vector<Levelled>> level(const SemanticOcTree& map, const std::vector<SE3>& turns) {
+  // Not owned: the caller's map outlives this.
+  const std::shared_ptr<const SemanticOcTree> view(std::shared_ptr<const SemanticOcTree>{}, &map);
+  std::vector<Levelled> all;
+  for (const SE3& T_level_map : turns) {
+    merging::Contributions alone;
+    merging::offer(alone, 0, {1, view, T_level_map});
+    auto turned = merging::merge(alone);
+    if (!turned) return turned.error();
+    auto features = MapFeatures::build(**turned);
+    if (!features) return features.error();
+    all.push_back({T_level_map, *std::move(turned), std::make_unique<MapFeatures>(*std::move(features))});
+  }
+  return all;
+}
+
+/// Whichever way up each of them may be.
+std::vector<SE3> both_ways(const std::vector<SE3>& turns) {
+  const SE3 upside_down(Eigen::Vector3d(1, -1, -1).asDiagonal(), Eigen::Vector3d::Zero());
+  std::vector<SE3> all;
+  for (const SE3& turn : turns)
+    for (const SE3& other : {turn, upside_down * turn}) all.push_back(other);
+  return all;
+}
+
+/// Such as one at the end of the tree's range.
+MatchResult not_levelled(const Error& why) {
+  MatchResult result;
+  result.T_a_b = anywhere();
+  result.reason = "the map cannot be turned upright: " + to_string(why);
+  return result;
+}
+
+MatchResult in_own_frames(MatchResult result, const SE3& T_level_a, const SE3& T_level_b) {
+  const UncertainPose exact_a{T_level_a.inverse()}, exact_b{T_level_b};
+  result.T_a_b = compose(compose(exact_a, result.T_a_b), exact_b);
+  return result;
+}
+
+}  // namespace
+
+Result<MatchResult> TiltedMatcher::match(const std::optional<UncertainPose>& initial, Budget& budget) const {
+  if (auto fault = fault_of(initial)) return *std::move(fault);
+  auto all_a = level(a_.map(), levellings(a_.fine())), all_b = level(b_.map(), both_ways(levellings(b_.fine())));
+  for (const auto* all : {&all_a, &all_b})
+    if (!*all) return not_levelled(all->error());
+  std::optional<MatchResult> best;
+  for (const Levelled& a : *all_a)
+    for (const Levelled& b : *all_b) {
+      const int spent = budget.spent();
+      auto result = GlobalMatcher(*a.features, *b.features).match(std::nullopt, budget);
+      if (!result) return result;
+      const bool sure = result->probability_correct > kSure;
+      if (!best || result->evidence.score > best->evidence.score)
+        best = in_own_frames(*std::move(result), a.T_level_map, b.T_level_map);
+      best->iterations = budget.spent();
+      if (sure || budget.spent() == spent) return *best;
+    }
+  return *best;
+}
+
+}  // namespace cairn::matching
