@@ -99,8 +99,8 @@ class TeamRun {
   void report() {
     const auto world = load_map(folder_ / "robot_1" / "world.ot");
     for (std::size_t i = 0; i < robots_.size(); ++i) {
-      const RecordedRobot& robot = *robots_[i];
-      const auto& map = robot.team.map().map();
+      RecordedRobot& robot = *robots_[i];
+      const auto& map = robot.finished_map();
       if (!g_out.empty()) (void)save_cairn(map, g_out / ("team_" + std::to_string(i + 1) + ".cairn"));
       std::printf(
           "%s robot_%zu: team of %zu, map %016llx, sent %.0f kB, received %.0f kB, raw %.1f MB (1/%.0f), "

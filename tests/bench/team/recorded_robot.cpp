@@ -2,6 +2,7 @@
 #include "tests/bench/team/recorded_robot.hpp"
 
 #include <algorithm>
+#include <limits>
 
 #include "drivers/recording/recording_reader.hpp"
 #include "drivers/velodyne/lidar.hpp"
@@ -92,6 +93,12 @@ SE3 RecordedRobot::T_world_base() const {
   const double f = to_seconds(last.stamp - before->stamp) / to_seconds(next->stamp - before->stamp);
   return {before->pose.quaternion().slerp(f, next->pose.quaternion()),
           (1 - f) * before->pose.translation() + f * next->pose.translation()};
+}
+
+const SemanticOcTree& RecordedRobot::finished_map() {
+  Budget all = Budget::steps(std::numeric_limits<int>::max());
+  while (!team.fuse(all)) continue;
+  return team.map().map();
 }
 
 }  // namespace cairn::bench

@@ -39,6 +39,8 @@ class RecordedRobot {
   [[nodiscard]] SE3 T_world_odom() const { return T_world_base() * T_odom_base().inverse(); }
   [[nodiscard]] const Robot& robot() const { return robot_; }
   [[nodiscard]] std::uint64_t raw_bytes() const { return raw_bytes_; }
+  /// The team's map, after all that is left to be fused, as at the end of a robot's run.
+  [[nodiscard]] const SemanticOcTree& finished_map();
 
   Team team;
   std::uint64_t received_bytes = 0;
