@@ -35,7 +35,7 @@ constexpr std::array<double, 5> kShares{1.01, 0.45, 0.30, 0.15, 0.05};
 struct Row {
   int looks = 0, right = 0, exact = 0, accepted = 0, wrongly = 0;
   double seconds = 0, slowest = 0;
-  std::vector<double> off_m, off_deg;  // of those that are right
+  std::vector<double> off_m, off_z, off_deg;  // of those that are right
 };
 
 double median(std::vector<double> values) {
@@ -112,6 +112,7 @@ void look(const Explorer& a, const Explorer& b, const std::string& method, const
   if (off_m <= 0.5 && off_deg <= 3) {
     ++r.right;
     r.off_m.push_back(off_m);
+    r.off_z.push_back(std::abs((T_frame_b.rotation().transpose() * (error * at - at)).z()));
     r.off_deg.push_back(off_deg);
   }
   r.exact += off_m <= 0.05 && off_deg <= 0.3 ? 1 : 0;
@@ -125,11 +126,12 @@ void print(const std::vector<Row>& rows) {
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const Row& r = rows[i];
     std::printf(
-        "  overlap %.2f to %.2f: %3d looks, right %3d (median %.3f m %.2f deg; %3d within 5 cm and 0.3 deg); accepted "
+        "  overlap %.2f to %.2f: %3d looks, right %3d (median %.3f m, %.3f of it upwards, %.2f deg; %3d within 5 cm "
+        "and 0.3 deg); accepted "
         "%3d, "
         "wrongly %d; %.2f s of CPU, at most %.2f\n",
-        kShares[i], kShares[i - 1], r.looks, r.right, median(r.off_m), median(r.off_deg), r.exact, r.accepted,
-        r.wrongly, r.seconds / std::max(1, r.looks), r.slowest);
+        kShares[i], kShares[i - 1], r.looks, r.right, median(r.off_m), median(r.off_z), median(r.off_deg), r.exact,
+        r.accepted, r.wrongly, r.seconds / std::max(1, r.looks), r.slowest);
   }
   std::fflush(stdout);
 }
