@@ -9,10 +9,10 @@
 
 namespace cairn::matching {
 
-/// Turns of a map (T_level_map, without translation) that may put its gravity along z: for each direction that many
-/// surfaces face, first the one along which the map extends least, as buildings and streets are wider than high. At
-/// most three directions, at least 45° apart, unit length and each with z ≥ 0 of the map's frame turned upwards; the
-/// identity alone where nothing is flat.
+/// Turns of a map (T_level_map, without translation) that may put its gravity along z: one for each of at most three
+/// directions that many flat surfels face (either way), at least 45° apart. First that along which the map extends
+/// least: buildings and streets are wider than high. Which way up is not decided: the end that had the larger z stays
+/// above. The identity alone where nothing is flat.
 [[nodiscard]] std::vector<SE3> levellings(std::span<const Surfel> surfels);
 
 }  // namespace cairn::matching
