@@ -6,6 +6,7 @@ namespace {
 
 constexpr Duration kPollTimeout = std::chrono::milliseconds(50);
 constexpr Duration kFlushPeriod = std::chrono::seconds(1);
+constexpr int kMostWaiting = 10'000;  // packets when told to stop: several full socket buffers
 
 class Recorder {
  public:
@@ -16,7 +17,8 @@ class Recorder {
     for (;;) {
       const Time now = clock_.now();
       report_.length = now - start_;
-      if ((options_.length && report_.length >= *options_.length) || (options_.stop && options_.stop())) return {};
+      if ((options_.length && report_.length >= *options_.length) || (options_.stop && options_.stop()))
+        return write_waiting(now);
       if (auto flushed = flush(now); !flushed) return flushed;
       const auto poll = source_.next(packet_, kPollTimeout);
       if (!poll) {
@@ -32,6 +34,17 @@ class Recorder {
   [[nodiscard]] RecordReport& report() { return report_; }
 
  private:
+  /// What came before the end and waits in the sources' buffers.
+  Result<void> write_waiting(Time end) {
+    for (int left = kMostWaiting; left > 0; --left) {
+      const auto poll = source_.next(packet_, Duration::zero());
+      if (!poll || *poll != Poll::kPacket) return {};
+      if (packet_.arrival > end) continue;
+      if (auto written = writer_.write(packet_); !written) return written;
+    }
+    return {};
+  }
+
   void note(const Error& error) {
     if (report_.source_errors++ == 0) report_.first_error = to_string(error);
   }

@@ -25,9 +25,9 @@ struct RecordReport {
   std::string first_error;
 };
 
-/// Writes every packet of `source` as it is, flushing about once a second, until the end. An error of the writer (a
-/// full disk) ends the recording and is handed on; what was written before it is kept. The writer is closed in any
-/// case.
+/// Writes every packet of `source` as it is, flushing about once a second, until the end; what has come by then and
+/// still waits in the source is written, too. An error of the writer (a full disk) ends the recording and is handed on;
+/// what was written before it is kept. The writer is closed in any case.
 [[nodiscard]] Result<RecordReport> record(Source& source, const Clock& clock, RecordingWriter& writer,
                                           const RecordOptions& options);
 

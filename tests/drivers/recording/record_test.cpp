@@ -11,11 +11,13 @@ namespace {
 
 using std::chrono::milliseconds;
 
-/// A sensor that sends a packet every 100 ms of virtual time, with a fault now and then.
+/// A sensor that sends a packet every 100 ms of virtual time, with a fault now and then. Who does not wait gets those
+/// that are `waiting` alone.
 class Sensor final : public Source {
  public:
   explicit Sensor(VirtualClock& clock) : clock_(clock) {}
-  Result<Poll> next(Packet& packet, Duration) override {
+  Result<Poll> next(Packet& packet, Duration timeout) override {
+    if (timeout == Duration::zero() && waiting-- <= 0) return Poll::kTimeout;
     clock_.advance_to(clock_.now() + milliseconds(100));
     if (++calls_ == fault_at) return Error{Errc::kLinkDown, "unplugged"};
     if (calls_ % 10 == 5) return Poll::kTimeout;
@@ -23,11 +25,12 @@ class Sensor final : public Source {
     packet = {};
     packet.channel = 2368;
     packet.sequence = sent++;
-    packet.arrival = clock_.now();
+    packet.arrival = clock_.now() - age;
     packet.bytes.assign(1206, std::byte{7});
     return Poll::kPacket;
   }
-  int fault_at = -1, end_at = -1;
+  int fault_at = -1, end_at = -1, waiting = 0;
+  Duration age{};  ///< of a packet when it is handed on
   std::uint64_t sent = 0;
 
  private:
@@ -78,6 +81,26 @@ TEST(Record, StopsWhenTold) {
   f.options.stop = [&] { return f.sensor.sent == 17; };
   ASSERT_TRUE(f.record_it());
   EXPECT_EQ(f.replayed().size(), 17U);
+}
+
+TEST(Record, WhatHadComeWhenItWasToldToStopIsWrittenAndNothingLater) {
+  for (const auto age : {std::chrono::seconds(1), std::chrono::seconds(0)}) {
+    Fixture f;
+    f.sensor.waiting = 2;
+    f.options.stop = [&] {
+      f.sensor.age = age;
+      return f.sensor.sent == 17;
+    };
+    ASSERT_TRUE(f.record_it());
+    EXPECT_EQ(f.replayed().size(), age > Duration::zero() ? 19U : 17U);
+  }
+}
+
+TEST(Record, ASourceThatNeverFallsSilentDoesNotKeepItFromStopping) {
+  Fixture f;
+  f.sensor.waiting = 1 << 30;
+  f.options.stop = [&] { return f.sensor.sent == 17; };
+  ASSERT_TRUE(f.record_it());
 }
 
 TEST(Record, AnErrorOfTheSourceIsCountedAndItGoesOn) {
