@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fusion/matching/tilted_matcher.hpp"
 
+#include <memory>
 #include <utility>
+#include <vector>
 
 #include "fusion/matching/default_matcher.hpp"
 #include "fusion/matching/judge.hpp"
@@ -15,25 +17,20 @@ constexpr double kSure = 0.8;  // of a match after which no other is looked for
 
 /// A map in a frame whose z may be upwards.
 struct Levelled {
-  SE3 T_level_map;
   std::unique_ptr<SemanticOcTree> map;
   std::unique_ptr<MapFeatures> features;
 };
 
-Result<std::vector<Levelled>> level(const SemanticOcTree& map, const std::vector<SE3>& turns) {
+Result<Levelled> level(const SemanticOcTree& map, const SE3& T_level_map) {
   // Not owned: the caller's map outlives this.
   const std::shared_ptr<const SemanticOcTree> view(std::shared_ptr<const SemanticOcTree>{}, &map);
-  std::vector<Levelled> all;
-  for (const SE3& T_level_map : turns) {
-    merging::Contributions alone;
-    merging::offer(alone, 0, {1, view, T_level_map});
-    auto turned = merging::merge(alone);
-    if (!turned) return turned.error();
-    auto features = MapFeatures::build(**turned);
-    if (!features) return features.error();
-    all.push_back({T_level_map, *std::move(turned), std::make_unique<MapFeatures>(*std::move(features))});
-  }
-  return all;
+  merging::Contributions alone;
+  merging::offer(alone, 0, {1, view, T_level_map});
+  auto turned = merging::merge(alone);
+  if (!turned) return turned.error();
+  auto features = MapFeatures::build(**turned);
+  if (!features) return features.error();
+  return Levelled{*std::move(turned), std::make_unique<MapFeatures>(*std::move(features))};
 }
 
 /// Whichever way up each of them may be.
@@ -63,21 +60,28 @@ MatchResult in_own_frames(MatchResult result, const SE3& T_level_a, const SE3& T
 
 Result<MatchResult> TiltedMatcher::match(const std::optional<UncertainPose>& initial, Budget& budget) const {
   if (auto fault = fault_of(initial)) return *std::move(fault);
-  auto all_a = level(a_.map(), levellings(a_.fine())), all_b = level(b_.map(), both_ways(levellings(b_.fine())));
-  for (const auto* all : {&all_a, &all_b})
-    if (!*all) return not_levelled(all->error());
+  const std::vector<SE3> turns_b = both_ways(levellings(b_.fine()));
+  std::vector<Levelled> all_b;  // as far as they were needed
   std::optional<MatchResult> best;
-  for (const Levelled& a : *all_a)
-    for (const Levelled& b : *all_b) {
+  for (const SE3& turn_a : levellings(a_.fine())) {
+    const auto a = level(a_.map(), turn_a);
+    if (!a) return not_levelled(a.error());
+    for (std::size_t i = 0; i < turns_b.size(); ++i) {
+      if (i == all_b.size()) {
+        auto b = level(b_.map(), turns_b[i]);
+        if (!b) return not_levelled(b.error());
+        all_b.push_back(*std::move(b));
+      }
       const int spent = budget.spent();
-      auto result = GlobalMatcher(*a.features, *b.features).match(std::nullopt, budget);
+      auto result = GlobalMatcher(*a->features, *all_b[i].features).match(std::nullopt, budget);
       if (!result) return result;
       const bool sure = result->probability_correct > kSure;
       if (!best || result->evidence.score > best->evidence.score)
-        best = in_own_frames(*std::move(result), a.T_level_map, b.T_level_map);
+        best = in_own_frames(*std::move(result), turn_a, turns_b[i]);
       best->iterations = budget.spent();
       if (sure || budget.spent() == spent) return *best;
     }
+  }
   return *best;
 }
 

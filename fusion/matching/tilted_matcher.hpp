@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <memory>
-#include <vector>
+#include <optional>
 
 #include "fusion/matching/map_features.hpp"
 #include "fusion/matching/matcher.hpp"
