@@ -28,40 +28,57 @@ class Window {
  public:
   static constexpr int kEdge = 4;
 
-  Window(const TileLayer& layer, const TileBox& box) : low_(box.low) {
+  Window(const TileLayer& layer, const TileBox& box) {
     const auto coordinate = [](int tile) { return static_cast<std::uint16_t>(tile * kTileEdge); };
     for (int z = std::max(box.low.z(), 0); z <= std::min(box.high.z(), kTiles - 1); ++z)
       for (int y = std::max(box.low.y(), 0); y <= std::min(box.high.y(), kTiles - 1); ++y)
         for (int x = std::max(box.low.x(), 0); x <= std::min(box.high.x(), kTiles - 1); ++x) {
           const auto found = layer.find(TileKey::of_voxel(coordinate(x), coordinate(y), coordinate(z)));
           if (found == layer.end()) continue;
-          tiles_[index(x, y, z)] = &found->second.state;
+          tiles_[place(x - box.low.x(), y - box.low.y(), z - box.low.z())] = &found->second.state;
           any_ = true;
           labelled_ = labelled_ || !found->second.state.labels.empty();
         }
   }
   [[nodiscard]] bool any() const { return any_; }
   [[nodiscard]] bool labelled() const { return labelled_; }
+  /// Of a voxel of the box, counted from the first of box.low.
   [[nodiscard]] VoxelLabel label(int x, int y, int z) const {
-    const TileState* tile = tiles_[index(x >> 3, y >> 3, z >> 3)];
-    if (tile == nullptr) return {};
-    return tile->label(static_cast<unsigned>(x & 7), static_cast<unsigned>(y & 7), static_cast<unsigned>(z & 7));
+    const TileState* tile = tiles_[place(x >> 3, y >> 3, z >> 3)];
+    return tile == nullptr ? VoxelLabel{} : tile->label(unsigned(x & 7), unsigned(y & 7), unsigned(z & 7));
   }
-  /// Of a voxel, counted from the tree's corner; it lies in the box.
   [[nodiscard]] float log_odds(int x, int y, int z) const {
-    const TileState* tile = tiles_[index(x >> 3, y >> 3, z >> 3)];
-    if (tile == nullptr) return SemanticNode::kAbsent;
-    return tile->log_odds(static_cast<unsigned>(x & 7), static_cast<unsigned>(y & 7), static_cast<unsigned>(z & 7));
+    const TileState* tile = tiles_[place(x >> 3, y >> 3, z >> 3)];
+    return tile == nullptr ? SemanticNode::kAbsent : tile->log_odds(unsigned(x & 7), unsigned(y & 7), unsigned(z & 7));
   }
 
  private:
-  [[nodiscard]] std::size_t index(int x, int y, int z) const {
-    return static_cast<std::size_t>((x - low_.x()) + kEdge * ((y - low_.y()) + kEdge * (z - low_.z())));
-  }
+  static std::size_t place(int x, int y, int z) { return static_cast<std::size_t>(x + kEdge * (y + kEdge * z)); }
 
   std::array<const TileState*, kEdge * kEdge * kEdge> tiles_{};
-  Eigen::Vector3i low_;
   bool any_ = false, labelled_ = false;
+};
+
+/// Where the centres of a team's tile's voxels lie in a submap: sums of one step of each axis, without a product.
+class Steps {
+ public:
+  using Fixed = std::array<std::int64_t, 3>;
+  Steps(const std::array<Fixed, 3>& rotation, const Fixed& first_centre, const Eigen::Vector3i& low_tile) {
+    for (std::size_t i = 0; i < 3; ++i) {
+      const std::int64_t low = std::int64_t{low_tile[static_cast<Eigen::Index>(i)] * kTileEdge - kHalfTree} << kBits;
+      for (std::size_t k = 0; k < 3; ++k)
+        for (int n = 0; n < kTileEdge; ++n)
+          steps_[i][k][static_cast<std::size_t>(n)] = (k == 0 ? first_centre[i] - low : 0) + rotation[i][k] * n;
+    }
+  }
+  /// Along axis i, counted from the first voxel of `low_tile`.
+  [[nodiscard]] int voxel(std::size_t i, int x, int y, int z) const {
+    const auto step = [&](std::size_t k, int n) { return steps_[i][k][static_cast<std::size_t>(n)]; };
+    return static_cast<int>((step(0, x) + step(1, y) + step(2, z)) >> kBits);
+  }
+
+ private:
+  std::array<std::array<std::array<std::int64_t, kTileEdge>, 3>, 3> steps_;
 };
 
 }  // namespace
@@ -130,18 +147,15 @@ Placement::Fixed Placement::first_centre(TileKey tile) const {
 }
 
 bool Placement::read(const TileLayer& layer, TileKey tile, Said& said) const {
-  const Window window(layer, sources_of(tile));
+  const TileBox box = sources_of(tile);
+  const Window window(layer, box);
   if (!window.any()) return false;
-  const Fixed corner = first_centre(tile);
-  const auto& R = submap_from_team_.rotation;
-  const auto key = [&](std::size_t i, int x, int y, int z) {
-    return static_cast<int>((corner[i] + R[i][0] * x + R[i][1] * y + R[i][2] * z) >> kBits) + kHalfTree;
-  };
+  const Steps steps(submap_from_team_.rotation, first_centre(tile), box.low);
   bool any = false;
   said.labelled = window.labelled();
   for (int at = 0; at < kTileVoxels; ++at) {
     const int x = coordinate(at), y = coordinate(at >> 1), z = coordinate(at >> 2);
-    const int u = key(0, x, y, z), v = key(1, x, y, z), w = key(2, x, y, z);
+    const int u = steps.voxel(0, x, y, z), v = steps.voxel(1, x, y, z), w = steps.voxel(2, x, y, z);
     const float value = window.log_odds(u, v, w);
     said.voxels[static_cast<std::size_t>(at)] = value;
     if (said.labelled) said.labels[static_cast<std::size_t>(at)] = window.label(u, v, w);

@@ -103,14 +103,6 @@ void TileState::set_labels(std::vector<VoxelLabel> of_voxels) {
   if (kinds(counts) == 0) labels.clear();
 }
 
-float TileState::log_odds(unsigned x, unsigned y, unsigned z) const {
-  const unsigned at = 8 * y + x;
-  const auto bit = [at, z](const Plane& plane) { return static_cast<unsigned>(plane[z] >> at & 1U); };
-  if (bit(known) == 0) return SemanticNode::kAbsent;
-  const unsigned grade = bit(low) | bit(high) << 1;
-  return bit(occupied) != 0 ? kOccupied[grade] : kFree[grade];
-}
-
 void TileState::set(unsigned x, unsigned y, unsigned z, float log_odds, float threshold) {
   const bool is_occupied = log_odds >= threshold;
   const auto halfway = [&](const auto& grades, std::size_t i) { return (grades[i] + grades[i + 1]) / 2; };

@@ -38,7 +38,13 @@ struct TileState {
   [[nodiscard]] bool valid() const;
 
   /// Log-odds of a voxel, each coordinate 0…7; SemanticNode::kAbsent where it is unknown.
-  [[nodiscard]] float log_odds(unsigned x, unsigned y, unsigned z) const;
+  [[nodiscard]] float log_odds(unsigned x, unsigned y, unsigned z) const {
+    const unsigned at = kEdge * y + x;
+    const auto bit = [at, z](const Plane& plane) { return static_cast<unsigned>(plane[z] >> at & 1U); };
+    if (bit(known) == 0) return SemanticNode::kAbsent;
+    const unsigned grade = bit(low) | bit(high) << 1;
+    return bit(occupied) != 0 ? kOccupied[grade] : kFree[grade];
+  }
   [[nodiscard]] VoxelLabel label(unsigned x, unsigned y, unsigned z) const {
     return labels.empty() ? VoxelLabel{} : labels[x + kEdge * (y + kEdge * z)];
   }
