@@ -33,11 +33,19 @@ MappingConfig mapping(double resolution_m) {
   return config;
 }
 
+SE3 lean(simulator::Random& random, double most_deg) {
+  const double angle = random.uniform(0, most_deg) * std::numbers::pi / 180,
+               turn = random.uniform(0, 2 * std::numbers::pi);
+  const double height = most_deg < 90 ? 0 : random.uniform(-1, 1), level = std::sqrt(1 - height * height);
+  const Eigen::Vector3d axis(level * std::cos(turn), level * std::sin(turn), height);
+  return {Eigen::Quaterniond(Eigen::AngleAxisd(angle, axis)), Eigen::Vector3d::Zero()};
+}
+
 }  // namespace
 
 Site::Site(simulator::World w) : world(std::move(w)), plan(world), tracer(*simulator::Tracer::build(world.mesh)) {}
 
-Explorer::Explorer(const Site& site, std::uint64_t seed, double metres, double resolution_m)
+Explorer::Explorer(const Site& site, std::uint64_t seed, double metres, double resolution_m, double lean_deg)
     : site_(site),
       seed_(seed),
       resolution_m_(resolution_m),
@@ -48,11 +56,11 @@ Explorer::Explorer(const Site& site, std::uint64_t seed, double metres, double r
   if (paths) stops_ = stops_along(paths->front(), kStopM);
   simulator::Random random(seed, kFrameStream);
   Vector6 frame;
-  frame << random.uniform(-5, 5), random.uniform(-5, 5), random.uniform(-0.5, 0.5), 0, 0,
+  frame << random.uniform(-10, 10), random.uniform(-10, 10), random.uniform(-0.5, 0.5), 0, 0,
       random.uniform(-std::numbers::pi, std::numbers::pi);
   const Eigen::Vector2d start = stops_.empty() ? Eigen::Vector2d::Zero() : stops_.front();
   const Eigen::Vector3d from(start.x(), start.y(), site.world.ground(start.x(), start.y()));
-  T_map_world_ = SE3::from_xyz_rpy(frame) * SE3(Eigen::Quaterniond::Identity(), -from);
+  T_map_world_ = SE3::from_xyz_rpy(frame) * lean(random, lean_deg) * SE3(Eigen::Quaterniond::Identity(), -from);
   features_ = std::make_unique<matching::MapFeatures>(*matching::MapFeatures::build(mapper_->tree()));
 }
 

@@ -23,13 +23,15 @@ struct Site {
 };
 
 /// A robot that roams a site and maps it: every 1.5 m it stops for a scan of sixteen lasers, 2 cm of noise on each
-/// range; its poses are exact. Its map's frame is turned and moved at random, gravity along z.
+/// range; its poses are exact. Its map's frame is turned and moved at random, and leans: a robot does not know gravity
+/// exactly, and floors that lie along a grid flatter who tells heights and leans.
 class Explorer {
  public:
-  static constexpr double kStopM = 1.5, kRangeM = 12;
+  static constexpr double kStopM = 1.5, kRangeM = 12, kLeanDeg = 0.5;
 
-  /// `site` must outlive it. `metres` is how far it drives.
-  Explorer(const Site& site, std::uint64_t seed, double metres, double resolution_m = 0.1);
+  /// `site` must outlive it. `metres` is how far it drives, `lean_deg` by how much its frame leans at most, about a
+  /// level axis; from 90 on about any.
+  Explorer(const Site& site, std::uint64_t seed, double metres, double resolution_m = 0.1, double lean_deg = kLeanDeg);
 
   /// The next `scans` stops.
   void advance(int scans);
