@@ -13,7 +13,7 @@
 namespace cairn::matching {
 namespace {
 
-constexpr double kShared = 9;          // surfels of a plane that share voxels
+constexpr double kShared = 4;          // surfels of a plane that share voxels, as errors show it
 constexpr double kNormalNoise = 0.1;   // standard deviation of the normal of a flat surfel [rad]; others' is larger
 constexpr double kBent = 0.3;          // squared error of a normal, for each unit of variation
 constexpr double kMinResidual = 0.02;  // of a cell: no grid is believed to be finer
@@ -176,13 +176,13 @@ Matrix6 covariance(const Party& target, const NearestGrid& nearest, const Party&
     const int i = nearest.nearest(q, cell);
     if (i == NearestGrid::kNone) continue;
     const Surfel& r = target.surfels[static_cast<std::size_t>(i)];
-    if (!same_side(r, s, R * s.normal) || one_face(r, s)) continue;
+    if (!same_side(r, s, R * s.normal)) continue;
     const Eigen::Vector3f normal = signed_normal(r);
+    const Eigen::Vector3f e = q - r.point - off_the_face(r, s, r.normal.dot(R * s.normal)) * r.normal;
     const Eigen::Vector3d x = s.point.cast<double>(), n = (R.transpose() * normal).cast<double>();
     const auto w = static_cast<double>(weight(r, s));
     sum.add(x, n, static_cast<double>(std::max(r.variation, s.variation)), w);
-    (level(r, s) ? ground : other)
-        .push_back({stretch_of(r), lever(x) * n, static_cast<double>(normal.dot(q - r.point)), w});
+    (level(r, s) ? ground : other).push_back({stretch_of(r), lever(x) * n, static_cast<double>(normal.dot(e)), w});
   }
   const double least = kMinResidual * static_cast<double>(cell), bias = kLevelBias * static_cast<double>(cell);
   const Matrix6 H = sum.positive(), of_ground = gradient_covariance(ground, least * least);

@@ -10,7 +10,6 @@ namespace {
 
 constexpr float kThin = 0.999F;  // 1 less the variance along a normal over that across it
 constexpr int kMinPairs = 20;
-constexpr float kOneFace = 0.1F;  // weight of a pair of a wall's middle and its face
 constexpr float kClutter = 0.1F;  // weight of a pair without a plane
 constexpr float kLevel = 0.85F;
 
@@ -63,12 +62,13 @@ NormalEquations plane_to_plane(std::span<const Surfel> target, const NearestGrid
     const int i = nearest.nearest(q, gate_m);
     if (i == NearestGrid::kNone) continue;
     const Surfel& r = target[static_cast<std::size_t>(i)];
-    const Eigen::Vector3f e = R.transpose() * (q - r.point), n = R.transpose() * r.normal;
+    const Eigen::Vector3f n = R.transpose() * r.normal;
+    const float cosine = n.dot(s.normal);
+    const Eigen::Vector3f e = R.transpose() * (q - r.point) - off_the_face(r, s, cosine) * n;
     // The two faces of a trunk or a thin wall, seen by one robot each, are not one place.
-    if (r.oriented && s.oriented && n.dot(s.normal) < 0) continue;
+    if (r.oriented && s.oriented && cosine < 0) continue;
     Eigen::Matrix3f W = level(r, s) ? information_of_height(R.row(2).transpose()) : information(n, s.normal);
     W *= weight(r, s);
-    if (one_face(r, s)) W *= kOneFace;
     if (robust_m > 0) W *= credit(e.dot(W * e), robust_m);
     Matrix36f J;
     J << Eigen::Matrix3f::Identity(), -skew(s.point);

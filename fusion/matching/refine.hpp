@@ -39,9 +39,9 @@ struct NormalEquations {
 /// as much. Level ground counts the less the more its planes lean, as that is where a floor changes from one layer of
 /// voxels to the next.
 [[nodiscard]] float weight(const Surfel& target, const Surfel& source);
-/// Σ eᵀ (Σ_t + R Σ_s Rᵀ)⁻¹ e over the pairs within the gate, e = T x_s − x_t, with the covariance of a surfel thin
-/// along its normal (4.17, with R on the side that makes both covariances speak of the target's frame), times weight().
-/// Pairs that were seen from opposite sides are left out.
+/// Σ eᵀ (Σ_t + R Σ_s Rᵀ)⁻¹ e over the pairs within the gate, e = T x_s − x_t less off_the_face(), with the covariance
+/// of a surfel thin along its normal (4.17, with R on the side that makes both covariances speak of the target's
+/// frame), times weight(). Pairs that were seen from opposite sides are left out.
 [[nodiscard]] NormalEquations plane_to_plane(std::span<const Surfel> target, const NearestGrid& nearest,
                                              std::span<const Surfel> source, const SE3& T, float gate_m,
                                              float robust_m = 0);

@@ -107,7 +107,7 @@ Surfel SurfelGrid::fit(const Cell& cell) const {
     count += other.count;
   });
   const auto own = static_cast<float>(cell.count);
-  Surfel s{centre(cell) + cell.sum / own, Eigen::Vector3f::Zero(), 1.0F / 3.0F, cell.occupancy / own, false, false};
+  Surfel s{centre(cell) + cell.sum / own, Eigen::Vector3f::Zero(), 1.0F / 3.0F, cell.occupancy / own};
   if (count < kMinVoxels) return s;
   const Eigen::Vector3f mean = sum / static_cast<float>(count);
   const Eigen::Matrix3f spread = squares / static_cast<float>(count) - mean * mean.transpose() +
@@ -116,6 +116,8 @@ Surfel SurfelGrid::fit(const Cell& cell) const {
   solver.computeDirect(spread);
   s.normal = solver.eigenvectors().col(0);
   s.variation = std::max(solver.eigenvalues()[0], 0.0F) / solver.eigenvalues().sum();
+  const float of_one_face = resolution_m_ * resolution_m_ / 12;  // the variance within a layer of voxels
+  s.half_thickness = std::sqrt(std::max(solver.eigenvalues()[0] - of_one_face, 0.0F));
   // The staircase of voxels along a slanted wall is an artefact of the grid.
   if (s.flat()) s.point -= s.normal * s.normal.dot(s.point - (centre(cell) + mean));
   return s;

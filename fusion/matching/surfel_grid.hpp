@@ -22,7 +22,9 @@ struct Surfel {
   float occupancy = 0;  ///< mean probability of the cell's voxels
   /// Whether the normal points to where free space was observed, and none behind; see facing_free_space().
   bool oriented = false;
-  bool thin = false;  ///< free space was observed on both sides
+  bool thin = false;  ///< free space was observed on both sides: the point is in the middle of a wall
+  /// m, from the point to the faces of a thin wall, as the spread along the normal shows it
+  float half_thickness = 0;
 
   /// Whether there is a plane to speak of; elsewhere the point is the mean of the cell's voxels.
   [[nodiscard]] bool flat() const { return variation < 0.1F; }
@@ -33,10 +35,12 @@ struct Surfel {
   }
 };
 
-/// Whether one of the maps saw both faces of a thin wall and the other one face: the first has its middle in a cell,
-/// the second its face, and to lay one upon the other is wrong by half the wall.
-[[nodiscard]] inline bool one_face(const Surfel& s, const Surfel& other) {
-  return (s.thin && other.oriented) || (s.oriented && other.thin);
+/// How far the source's point lies from where it would be had both maps seen the same of a wall, in m along the
+/// target's normal: one may have seen both faces of a thin wall, and has its middle in the cell, the other only one.
+/// `cosine`: of the normals.
+[[nodiscard]] inline float off_the_face(const Surfel& target, const Surfel& source, float cosine) {
+  if (target.thin && source.oriented) return cosine > 0 ? target.half_thickness : -target.half_thickness;
+  return target.oriented && source.thin ? -source.half_thickness : 0;
 }
 
 /// Surfels of one cell size, kept as a map grows: replacing some tiles costs what lies in and next to them. What it

@@ -20,6 +20,7 @@ void expect_equal(std::span<const Surfel> a, std::span<const Surfel> b) {
     ASSERT_EQ(a[i].normal, b[i].normal);
     ASSERT_EQ(a[i].variation, b[i].variation);
     ASSERT_EQ(a[i].occupancy, b[i].occupancy);
+    ASSERT_EQ(a[i].half_thickness, b[i].half_thickness);
   }
 }
 
@@ -60,6 +61,25 @@ TEST(MapFeatures, KeptAsTheMapGrowsAreThoseOfTheWholeMap) {
   kept->update(all);
   expect_equal(kept->fine(), afresh->fine());
   expect_equal(kept->coarse(), afresh->coarse());
+}
+
+TEST(MapFeatures, AWallShowsItsThicknessWhereBothFacesWereSeen) {
+  const Eigen::Vector3f normal = Eigen::Vector3f(0.8F, 0.6F, 0);
+  for (const float thickness : {0.0F, 0.12F, 0.2F}) {
+    SemanticOcTree map(0.1);
+    for (float u = -3; u < 3; u += 0.02F)
+      for (float z = -1; z < 1; z += 0.02F)
+        for (const float face : {-0.5F, 0.5F}) {
+          const Eigen::Vector3f p = face * thickness * normal + u * Eigen::Vector3f(-normal.y(), normal.x(), 0);
+          map.setNodeValue(octomap::point3d(p.x(), p.y(), z), 2.0F, true);
+        }
+    map.canonicalise();
+    const auto features = MapFeatures::build(map);
+    ASSERT_TRUE(features);
+    double sum = 0;
+    for (const Surfel& s : features->fine()) sum += static_cast<double>(s.half_thickness);
+    EXPECT_NEAR(sum / static_cast<double>(features->fine().size()), static_cast<double>(thickness) / 2, 0.025);
+  }
 }
 
 TEST(MapFeatures, ATiltedPlaneIsAPlaneNotAStaircase) {

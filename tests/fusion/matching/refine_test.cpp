@@ -54,6 +54,26 @@ TEST(PlaneToPlane, GradientIsThatOfTheCost) {
   }
 }
 
+/// One robot saw one face of each wall, the other both, and has the middle of the wall in its cells.
+TEST(PlaneToPlane, AFaceAndTheMiddleOfAThinWallLieHalfItsThicknessApart) {
+  for (const float sign : {1.0F, -1.0F}) {
+    auto faces = corner(), middles = corner();
+    for (Surfel& s : faces) s.oriented = true;
+    for (Surfel& s : middles) {
+      s.thin = true;
+      s.half_thickness = 0.06F;
+      s.point -= s.half_thickness * s.normal;
+      s.normal *= sign;
+    }
+    for (const bool turn : {false, true}) {
+      const auto &target = turn ? middles : faces, &source = turn ? faces : middles;
+      const auto sum = plane_to_plane(target, NearestGrid(target, 0.2F, 0.5F), source, SE3(), 0.1F);
+      EXPECT_GT(sum.pairs, 500);
+      EXPECT_LT(sum.cost / sum.pairs, 0.1 * 0.06 * 0.06) << sign << turn;  // across alone it would be 500 times 0.06²
+    }
+  }
+}
+
 TEST(Refine, FindsTheMotionOfACopy) {
   const auto pair = support::two_robots(support::lobby(), {0, 1.5, 8}, {0.2, 1.7, 8}, 3);
   const auto a = MapFeatures::build(*pair.a);
