@@ -13,7 +13,8 @@ namespace {
 constexpr std::size_t kRefinePoints = 2000;
 constexpr std::size_t kPlacements = 400, kHeightVotes = 600, kGlobalModes = 64, kBestSwept = 24, kCloser = 6;
 
-constexpr RefineOptions kOnCoarse{3.0F, 1.25F, 0.75F, 12, 0, 1e-3, 1e-4};  // gates in cells
+constexpr RefineOptions kAtFirst{3.0F, 1.25F, 0.75F, 3, 0, 1e-3, 1e-4};  // gates in cells
+constexpr RefineOptions kOnCoarse{1.3F, 1.25F, 0.75F, 9, 0, 1e-3, 1e-4};
 constexpr RefineOptions kOnFine{4.0F, 2.0F, 0.7F, 30, 0.4F, 1e-4, 1e-5};
 constexpr RefineOptions kCloserLook{4.0F, 2.0F, 0.7F, 6, 0, 1e-3, 1e-4};
 
@@ -29,6 +30,13 @@ bool leans(const SE3& T) {
   constexpr double kMostDeviations = 4;
   const double most_rad = kMostDeviations * std::sqrt(anywhere().covariance(3, 3));
   return T.rotation()(2, 2) < std::cos(most_rad);
+}
+
+/// Whether two refinements that have begun will end at one place: most modes of a map lead to a few.
+bool one_way(const SE3& T, const SE3& other) {
+  constexpr double kNearM = 0.4, kNearRad = 0.04;
+  const SE3 between = T.inverse() * other;
+  return between.translation().norm() < kNearM && rotation_angle(between) < kNearRad;
 }
 
 template <class Candidate>
@@ -75,12 +83,19 @@ std::vector<SE3> DefaultMatcher::starts_anywhere(Budget& budget) const {
   return starts;
 }
 
+SE3 DefaultMatcher::on_coarse(const SE3& T, const RefineOptions& in_cells, Budget& budget) const {
+  return refine(coarse_a_, near_coarse_, coarse_sample_b_, T, in_metres(in_cells, coarse_m_), budget).T_target_source;
+}
+
 std::vector<DefaultMatcher::Candidate> DefaultMatcher::verified(const std::vector<SE3>& starts, Budget& budget) const {
   std::vector<Candidate> candidates;
+  std::vector<SE3> under_way;
   for (const SE3& start : starts) {
     if (!budget.one_more()) break;
-    const SE3 T = refine(coarse_a_, near_coarse_, coarse_sample_b_, start, in_metres(kOnCoarse, coarse_m_), budget)
-                      .T_target_source;
+    const SE3 begun = on_coarse(start, kAtFirst, budget);
+    if (std::any_of(under_way.begin(), under_way.end(), [&](const SE3& T) { return one_way(T, begun); })) continue;
+    under_way.push_back(begun);
+    const SE3 T = on_coarse(begun, kOnCoarse, budget);
     candidates.push_back({T, judge_.score(T)});
   }
   std::stable_sort(candidates.begin(), candidates.end(), better<Candidate>);
@@ -107,7 +122,11 @@ SE3 DefaultMatcher::refined(const SE3& T, Budget& budget) const {
 std::vector<DefaultMatcher::Candidate> DefaultMatcher::modes(const std::optional<UncertainPose>& initial,
                                                              Budget& budget) const {
   auto best_first = verified(initial ? modes_.near(*initial) : starts_anywhere(budget), budget);
-  if (initial) return best_first;
+  if (initial) {
+    const auto expected = [&](const Candidate& c) { return within(*initial, c.T_a_b); };
+    std::stable_partition(best_first.begin(), best_first.end(), expected);
+    return best_first;
+  }
   look_closer(best_first, budget);
   std::erase_if(best_first, [](const Candidate& c) { return leans(c.T_a_b); });
   return best_first;

@@ -44,7 +44,8 @@ class DefaultMatcher : public Matcher {
   [[nodiscard]] std::vector<Candidate> modes(const std::optional<UncertainPose>& initial, Budget& budget) const;
   [[nodiscard]] SE3 refined(const SE3& T, Budget& budget) const;
   [[nodiscard]] std::vector<SE3> starts_anywhere(Budget& budget) const;
-  /// Each start refined on the coarse surfels and scored, best first.
+  [[nodiscard]] SE3 on_coarse(const SE3& T, const RefineOptions& in_cells, Budget& budget) const;
+  /// Each start refined on the coarse surfels and scored, best first; one for all that soon go the same way.
   [[nodiscard]] std::vector<Candidate> verified(const std::vector<SE3>& starts, Budget& budget) const;
   /// The first few of them refined on the fine surfels and scored again, best first.
   void look_closer(std::vector<Candidate>& best_first, Budget& budget) const;

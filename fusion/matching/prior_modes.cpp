@@ -13,8 +13,9 @@ namespace cairn::matching {
 namespace {
 
 constexpr std::size_t kSearchPoints = 2000;
-constexpr int kModes = 40, kWideModes = 48;
+constexpr int kModes = 60, kWideModes = 48;
 constexpr double kWindowSigmas = 3, kMinWindowM = 0.8, kMaxWindowM = 20, kMaxHeightM = 4, kMinYaw = 0.07;
+constexpr double kMarginM = 0.4, kMarginYaw = 0.1;  // of a window: a cell of the search, and what that is at 4 m
 constexpr double kOneHeightM = 0.5;  // a prior that knows the height better than this needs no search over it
 constexpr double kWideYaw = 1.0;
 
@@ -39,6 +40,13 @@ SearchWindow window_of(const UncertainPose& prior) {
 }
 
 }  // namespace
+
+bool within(const UncertainPose& prior, const SE3& T) {
+  const SearchWindow window = window_of(prior);
+  const Eigen::Vector2d moved = (T.translation() - prior.mean.translation()).head<2>();
+  return moved.cwiseAbs().maxCoeff() <= window.xy_m + kMarginM &&
+         rotation_angle(prior.mean.inverse() * T) <= window.yaw_rad + kMarginYaw;
+}
 
 PriorModes::PriorModes(const MapFeatures& a, const MapFeatures& b)
     : structure_a_(points_of(structure_of(a.coarse()))),

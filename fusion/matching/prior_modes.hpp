@@ -22,4 +22,8 @@ class PriorModes {
   float cell_m_;
 };
 
+/// Whether a pose that was found from one of these is still where the prior has it, by a small margin: the next door of
+/// a corridor often fits as well, and refinement goes there.
+[[nodiscard]] bool within(const UncertainPose& prior, const SE3& T_a_b);
+
 }  // namespace cairn::matching
