@@ -65,7 +65,8 @@ class Steps {
   using Fixed = std::array<std::int64_t, 3>;
   Steps(const std::array<Fixed, 3>& rotation, const Fixed& first_centre, const Eigen::Vector3i& low_tile) {
     for (std::size_t i = 0; i < 3; ++i) {
-      const std::int64_t low = std::int64_t{low_tile[static_cast<Eigen::Index>(i)] * kTileEdge - kHalfTree} << kBits;
+      const std::int64_t low =
+          (low_tile[static_cast<Eigen::Index>(i)] * kTileEdge - kHalfTree) * (std::int64_t{1} << kBits);
       for (std::size_t k = 0; k < 3; ++k)
         for (int n = 0; n < kTileEdge; ++n)
           steps_[i][k][static_cast<std::size_t>(n)] = (k == 0 ? first_centre[i] - low : 0) + rotation[i][k] * n;
