@@ -2,27 +2,22 @@
 #include "onboard/app/stop_signal.hpp"
 
 #include <csignal>
-#include <cstdint>
-#include <ctime>
+
+#include "hal/clock.hpp"
 
 namespace cairn {
 namespace {
 
 volatile std::sig_atomic_t requested = 0;
-std::int64_t requested_ns = 0, patience_ns = 0;  // of the monotonic clock; only the handler uses them afterwards
-
-std::int64_t now_ns() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * std::int64_t{1'000'000'000} + now.tv_nsec;
-}
+Time requested_at;  // this and the next: only the handler uses them once signals are caught
+Duration least_pause{};
 
 void request(int number) {
-  const std::int64_t now = now_ns();
+  const Time now = LiveClock().now();  // one system call, as a handler may make it
   if (requested == 0) {
-    requested_ns = now;
+    requested_at = now;
     requested = 1;
-  } else if (now - requested_ns >= patience_ns) {
+  } else if (now - requested_at >= least_pause) {
     (void)std::signal(number, SIG_DFL);
     (void)std::raise(number);
   }
@@ -31,7 +26,7 @@ void request(int number) {
 }  // namespace
 
 void catch_stop_signals(Duration patience) {
-  patience_ns = patience.count();
+  least_pause = patience;
   struct sigaction action {};
   action.sa_handler = request;
   sigemptyset(&action.sa_mask);
