@@ -38,8 +38,8 @@ class Recorder {
   Result<void> write_waiting(Time end) {
     for (int left = kMostWaiting; left > 0; --left) {
       const auto poll = source_.next(packet_, Duration::zero());
-      if (!poll || *poll != Poll::kPacket) return {};
-      if (packet_.arrival > end) continue;
+      if (poll && *poll != Poll::kPacket) return {};
+      if (!poll || packet_.arrival > end) continue;  // a sensor that fails must not cost what others hold
       if (auto written = writer_.write(packet_); !written) return written;
     }
     return {};

@@ -96,6 +96,18 @@ TEST(Record, WhatHadComeWhenItWasToldToStopIsWrittenAndNothingLater) {
   }
 }
 
+TEST(Record, AFaultAtTheEndCostsNothingThatWaits) {
+  Fixture f;
+  f.sensor.waiting = 3;
+  f.options.stop = [&] {
+    f.sensor.age = std::chrono::seconds(1);
+    f.sensor.fault_at = 19 + 2;  // the 18th packet is the 19th call or later; two calls timed out before
+    return f.sensor.sent == 17;
+  };
+  ASSERT_TRUE(f.record_it());
+  EXPECT_EQ(f.replayed().size(), 19U);
+}
+
 TEST(Record, ASourceThatNeverFallsSilentDoesNotKeepItFromStopping) {
   Fixture f;
   f.sensor.waiting = 1 << 30;
