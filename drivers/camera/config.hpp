@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "hal/config.hpp"
+#include "hal/config/config.hpp"
 
 namespace cairn::camera {
 

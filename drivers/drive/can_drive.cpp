@@ -3,8 +3,8 @@
 
 #include <algorithm>
 
-#include "drivers/drive/agilex_chassis.hpp"
-#include "drivers/drive/cia402_master.hpp"
+#include "drivers/drive/agilex/agilex_chassis.hpp"
+#include "drivers/drive/canopen/cia402_master.hpp"
 
 namespace cairn::drive {
 

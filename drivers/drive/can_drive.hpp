@@ -4,8 +4,8 @@
 #include <functional>
 #include <memory>
 
-#include "drivers/drive/can_link.hpp"
-#include "drivers/drive/config.hpp"
+#include "drivers/drive/can/can_link.hpp"
+#include "drivers/drive/chassis/config.hpp"
 #include "drivers/drive/guard.hpp"
 #include "drivers/drive/wheel_decoder.hpp"
 

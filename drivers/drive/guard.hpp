@@ -3,8 +3,8 @@
 
 #include <optional>
 
-#include "drivers/drive/link_monitor.hpp"
-#include "drivers/drive/protocol.hpp"
+#include "drivers/drive/can/link_monitor.hpp"
+#include "drivers/drive/chassis/protocol.hpp"
 #include "hal/drive.hpp"
 
 namespace cairn::drive {

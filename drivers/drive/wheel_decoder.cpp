@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/drive/agilex.hpp"
-#include "drivers/drive/cia402.hpp"
+#include "drivers/drive/agilex/agilex.hpp"
+#include "drivers/drive/canopen/cia402.hpp"
 
 namespace cairn::drive {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "drivers/drive/config.hpp"
+#include "drivers/drive/chassis/config.hpp"
 #include "drivers/drive/wheel_odometry.hpp"
 #include "hal/drive.hpp"
 

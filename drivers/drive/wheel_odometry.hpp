@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "drivers/drive/config.hpp"
+#include "drivers/drive/chassis/config.hpp"
 #include "hal/drive.hpp"
 
 namespace cairn::drive {

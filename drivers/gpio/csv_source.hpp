@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "drivers/gpio/line_event.hpp"
-#include "hal/line_file.hpp"
+#include "hal/files/line_file.hpp"
 #include "hal/ports.hpp"
 
 namespace cairn::gpio {

@@ -5,12 +5,12 @@
 #include <string>
 #include <utility>
 
-#include "drivers/drive/candump_source.hpp"
+#include "drivers/drive/can/candump_source.hpp"
 #include "drivers/gpio/csv_source.hpp"
 #include "drivers/peers/peers_log.hpp"
-#include "drivers/recording/image_folder.hpp"
+#include "drivers/recording/formats/image_folder.hpp"
 #include "drivers/recording/scan_source.hpp"
-#include "drivers/velodyne/pcap_source.hpp"
+#include "drivers/velodyne/transport/pcap_source.hpp"
 
 namespace cairn::recording {
 namespace {

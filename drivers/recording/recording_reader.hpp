@@ -4,8 +4,8 @@
 #include <filesystem>
 #include <memory>
 
+#include "drivers/recording/formats/recording.hpp"
 #include "drivers/recording/merged_source.hpp"
-#include "drivers/recording/recording.hpp"
 #include "hal/ports.hpp"
 
 namespace cairn::recording {

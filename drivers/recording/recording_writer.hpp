@@ -6,7 +6,7 @@
 #include <memory>
 #include <vector>
 
-#include "drivers/recording/recording.hpp"
+#include "drivers/recording/formats/recording.hpp"
 #include "drivers/recording/source_writer.hpp"
 #include "hal/packet.hpp"
 #include "hal/result.hpp"

@@ -6,8 +6,8 @@
 #include <system_error>
 #include <utility>
 
-#include "drivers/recording/recording.hpp"
-#include "hal/file.hpp"
+#include "drivers/recording/formats/recording.hpp"
+#include "hal/files/file.hpp"
 
 namespace cairn::recording {
 namespace {

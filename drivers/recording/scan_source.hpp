@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/recording/scan_file.hpp"
+#include "drivers/recording/formats/scan_file.hpp"
 #include "hal/ports.hpp"
 
 namespace cairn::recording {

@@ -6,13 +6,13 @@
 #include <system_error>
 #include <utility>
 
-#include "drivers/drive/candump.hpp"
+#include "drivers/drive/can/candump.hpp"
 #include "drivers/gpio/line_event.hpp"
 #include "drivers/peers/peers_log.hpp"
-#include "drivers/recording/append_file.hpp"
-#include "drivers/recording/image_folder.hpp"
-#include "drivers/recording/pcap_writer.hpp"
-#include "drivers/recording/scan_file.hpp"
+#include "drivers/recording/formats/append_file.hpp"
+#include "drivers/recording/formats/image_folder.hpp"
+#include "drivers/recording/formats/pcap_writer.hpp"
+#include "drivers/recording/formats/scan_file.hpp"
 
 namespace cairn::recording {
 namespace {

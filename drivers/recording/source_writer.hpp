@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "drivers/recording/recording.hpp"
+#include "drivers/recording/formats/recording.hpp"
 #include "hal/packet.hpp"
 #include "hal/result.hpp"
 

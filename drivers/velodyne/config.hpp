@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "hal/config.hpp"
+#include "hal/config/config.hpp"
 
 namespace cairn::velodyne {
 

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusion/matching/global_search.hpp"
-#include "fusion/matching/sample.hpp"
+#include "fusion/matching/features/sample.hpp"
+#include "fusion/matching/search/global_search.hpp"
 
 namespace cairn::matching {
 namespace {

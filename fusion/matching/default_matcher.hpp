@@ -4,11 +4,11 @@
 #include <utility>
 #include <vector>
 
-#include "fusion/matching/judge.hpp"
+#include "fusion/matching/evidence/judge.hpp"
+#include "fusion/matching/features/nearest_grid.hpp"
 #include "fusion/matching/matcher.hpp"
-#include "fusion/matching/nearest_grid.hpp"
-#include "fusion/matching/prior_modes.hpp"
-#include "fusion/matching/refine.hpp"
+#include "fusion/matching/search/prior_modes.hpp"
+#include "fusion/matching/search/refine.hpp"
 
 namespace cairn::matching {
 

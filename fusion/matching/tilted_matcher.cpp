@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "fusion/matching/default_matcher.hpp"
-#include "fusion/matching/judge.hpp"
-#include "fusion/matching/levelling.hpp"
+#include "fusion/matching/evidence/judge.hpp"
+#include "fusion/matching/features/levelling.hpp"
 #include "fusion/merging/merge.hpp"
 
 namespace cairn::matching {

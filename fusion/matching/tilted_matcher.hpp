@@ -3,7 +3,7 @@
 
 #include <optional>
 
-#include "fusion/matching/map_features.hpp"
+#include "fusion/matching/features/map_features.hpp"
 #include "fusion/matching/matcher.hpp"
 
 namespace cairn::matching {

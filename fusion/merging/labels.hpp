@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <span>
 
-#include "onboard/mapping/voxel_label.hpp"
+#include "onboard/mapping/tree/voxel_label.hpp"
 
 namespace cairn::merging {
 

@@ -9,7 +9,7 @@
 #include "fusion/merging/fold.hpp"
 #include "hal/result.hpp"
 #include "hal/se3.hpp"
-#include "onboard/mapping/semantic_octree.hpp"
+#include "onboard/mapping/tree/semantic_octree.hpp"
 
 namespace cairn::merging {
 

@@ -10,7 +10,7 @@
 
 #include "hal/se3.hpp"
 #include "hal/time.hpp"
-#include "onboard/mapping/tile_state.hpp"
+#include "onboard/mapping/tree/tile_state.hpp"
 
 namespace cairn::merging {
 

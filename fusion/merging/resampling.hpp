@@ -7,7 +7,7 @@
 
 #include "fusion/merging/tile_window.hpp"
 #include "hal/se3.hpp"
-#include "onboard/mapping/semantic_octree.hpp"
+#include "onboard/mapping/tree/semantic_octree.hpp"
 
 namespace cairn::merging {
 

@@ -15,7 +15,7 @@
 #include "fusion/merging/remembered_fold.hpp"
 #include "hal/budget.hpp"
 #include "hal/se3.hpp"
-#include "onboard/mapping/semantic_octree.hpp"
+#include "onboard/mapping/tree/semantic_octree.hpp"
 
 namespace cairn::merging {
 

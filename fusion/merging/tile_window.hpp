@@ -5,7 +5,7 @@
 #include <array>
 #include <vector>
 
-#include "onboard/mapping/tile_voxels.hpp"
+#include "onboard/mapping/tree/tile_voxels.hpp"
 
 namespace cairn::merging {
 

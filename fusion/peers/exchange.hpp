@@ -10,9 +10,9 @@
 #include <string>
 #include <vector>
 
-#include "fusion/peers/datagram.hpp"
-#include "fusion/peers/holding.hpp"
+#include "fusion/peers/datagrams/datagram.hpp"
 #include "fusion/peers/interest.hpp"
+#include "fusion/peers/items/holding.hpp"
 #include "fusion/peers/link.hpp"
 #include "hal/result.hpp"
 #include "hal/time.hpp"

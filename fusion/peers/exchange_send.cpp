@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "fusion/peers/datagram_part.hpp"
+#include "fusion/peers/datagrams/datagram_part.hpp"
 #include "fusion/peers/exchange.hpp"
 
 namespace cairn::peers {

@@ -6,7 +6,7 @@
 #include <tuple>
 #include <utility>
 
-#include "fusion/peers/tile_codec.hpp"
+#include "fusion/peers/items/tile_codec.hpp"
 
 namespace cairn::peers {
 namespace {

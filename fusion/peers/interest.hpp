@@ -5,8 +5,8 @@
 #include <optional>
 #include <vector>
 
-#include "fusion/peers/holding.hpp"
-#include "fusion/peers/item.hpp"
+#include "fusion/peers/items/holding.hpp"
+#include "fusion/peers/items/item.hpp"
 
 namespace cairn::peers {
 

@@ -10,7 +10,7 @@
 
 #include "fusion/peers/clock_offset.hpp"
 #include "fusion/peers/conduct.hpp"
-#include "fusion/peers/datagram.hpp"
+#include "fusion/peers/datagrams/datagram.hpp"
 #include "hal/time.hpp"
 
 namespace cairn::peers {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fusion/peers/own_submaps.hpp"
 
-#include "fusion/peers/claim.hpp"
+#include "fusion/peers/items/claim.hpp"
 
 namespace cairn::peers {
 namespace {

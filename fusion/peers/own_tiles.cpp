@@ -5,7 +5,7 @@
 #include <bit>
 #include <vector>
 
-#include "fusion/peers/tile_codec.hpp"
+#include "fusion/peers/items/tile_codec.hpp"
 
 namespace cairn::peers {
 

@@ -6,7 +6,7 @@
 
 #include "fusion/peers/exchange.hpp"
 #include "hal/time.hpp"
-#include "onboard/mapping/tile_state.hpp"
+#include "onboard/mapping/tree/tile_state.hpp"
 
 namespace cairn::peers {
 

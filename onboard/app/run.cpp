@@ -4,9 +4,9 @@
 #include <optional>
 #include <thread>
 
-#include "onboard/app/restart.hpp"
+#include "onboard/app/restart/restart.hpp"
+#include "onboard/app/restart/start_log.hpp"
 #include "onboard/app/run_output.hpp"
-#include "onboard/app/start_log.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
 #include "onboard/app/team/join_team.hpp"
 

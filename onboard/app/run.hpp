@@ -1,36 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <filesystem>
-#include <functional>
-#include <optional>
+#include <memory>
 
+#include "hal/monitor.hpp"
 #include "hal/result.hpp"
-#include "hal/time.hpp"
-#include "onboard/app/door.hpp"
-#include "onboard/app/report/run_report.hpp"
+#include "onboard/app/profile/run_options.hpp"
+#include "onboard/report/figures/run_report.hpp"
 
 namespace cairn {
-
-struct RunOptions {
-  std::filesystem::path config;     ///< empty: the defaults
-  std::filesystem::path recording;  ///< empty: live hardware
-  std::filesystem::path out;
-  std::filesystem::path record;     ///< live: where to keep the packets and the schedule; empty: nowhere
-  std::filesystem::path schedule;   ///< of another live run, instead of the recording's own schedule.log
-  std::filesystem::path state;      ///< live: where the map is kept for a restart; empty: nowhere
-  bool peers = false;               ///< takes part in the team; a recording is played then as if it were the devices
-  std::filesystem::path live_view;  ///< live: the local socket for `cairn top`; empty: none
-  Pace pace = Pace::kRecorded;
-  bool reference = false;  ///< at real speed: run an empty task beside the control task, to know what the machine costs
-  std::optional<int> threads;     ///< instead of the profile's
-  std::optional<double> seconds;  ///< ends the run when so much of the robot's time has passed
-  std::function<bool()> stop;     ///< live: asked about every 20 ms whether the run is to end; empty: never
-  std::function<void(Time, std::size_t scans)> progress;  ///< after every scan, on odometry's thread; may be empty
-
-  /// On the machine's clock, and never the same twice.
-  [[nodiscard]] bool live() const { return recording.empty() || peers; }
-};
 
 /// What a run leaves behind, beside its files.
 struct RunResult {

@@ -9,10 +9,10 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "onboard/app/report/budgets.hpp"
-#include "onboard/app/report/report_json.hpp"
+#include "onboard/app/live/stop_signal.hpp"
 #include "onboard/app/run.hpp"
-#include "onboard/app/stop_signal.hpp"
+#include "onboard/report/json/budgets.hpp"
+#include "onboard/report/json/report_json.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -92,30 +92,34 @@ int run_robot(Arguments a) {
 }  // namespace
 
 void add_run_command(Commands& commands) {
-  auto* sub = commands.app.add_subcommand("run", "one robot: live hardware, or the same program on a recording");
+  add_run_options(*commands.app.add_subcommand("run", "one robot: live hardware, or the same program on a recording"),
+                  commands);
+}
+
+void add_run_options(CLI::App& app, Commands& commands) {
   auto a = std::make_shared<Arguments>();
-  sub->add_option("--config", a->run.config, "robot profile, such as config/husky.yaml; defaults without one");
-  sub->add_option("--recording", a->run.recording, "folder of a recording; live hardware without one");
-  sub->add_option("--out", a->run.out, "folder for what the run leaves")->default_val("cairn-out");
-  sub->add_option("--record", a->run.record, "live: also keep every packet and the schedule, for a replay to the bit");
-  sub->add_option(
+  app.add_option("--config", a->run.config, "robot profile, such as config/husky.yaml; defaults without one");
+  app.add_option("--recording", a->run.recording, "folder of a recording; live hardware without one");
+  app.add_option("--out", a->run.out, "folder for what the run leaves")->default_val("cairn-out");
+  app.add_option("--record", a->run.record, "live: also keep every packet and the schedule, for a replay to the bit");
+  app.add_option(
       "--state", a->run.state,
       "live: keep map and pose in this folder, and go on from there after a crash; see the profile's restart");
-  sub->add_flag(
+  app.add_flag(
       "--peers", a->run.peers,
       "take part in the team, through the peer process (cairn-peers) at the profile's team.socket; a recording "
       "is played as if it were the robot's devices");
-  sub->add_option("--live-view", a->run.live_view, "live: a local socket for cairn top, such as /run/cairn/live.sock");
-  sub->add_option("--schedule", a->run.schedule, "repeat the schedule.log of a live run; a recording may hold its own");
-  sub->add_option("--speed", a->speed, "of a recording: as it was made, or as fast as possible in virtual time")
+  app.add_option("--live-view", a->run.live_view, "live: a local socket for cairn top, such as /run/cairn/live.sock");
+  app.add_option("--schedule", a->run.schedule, "repeat the schedule.log of a live run; a recording may hold its own");
+  app.add_option("--speed", a->speed, "of a recording: as it was made, or as fast as possible in virtual time")
       ->check(CLI::IsMember({"real", "max"}))
       ->default_val("real");
-  sub->add_option("--assert", a->budgets, "fail when a budget is exceeded, such as config/budgets/husky.yaml");
-  sub->add_option("--threads", a->run.threads, "instead of the profile's; the result does not depend on it")
+  app.add_option("--assert", a->budgets, "fail when a budget is exceeded, such as config/budgets/husky.yaml");
+  app.add_option("--threads", a->run.threads, "instead of the profile's; the result does not depend on it")
       ->check(CLI::Range(1, 64));
-  sub->add_option("--seconds", a->run.seconds, "end after so much of the robot's time")->check(CLI::PositiveNumber);
-  sub->add_flag("--json", a->json, "print report.json on stdout");
-  sub->callback([&commands, a] { commands.job = [a] { return run_robot(*a); }; });
+  app.add_option("--seconds", a->run.seconds, "end after so much of the robot's time")->check(CLI::PositiveNumber);
+  app.add_flag("--json", a->json, "print report.json on stdout");
+  app.callback([&commands, a] { commands.job = [a] { return run_robot(*a); }; });
 }
 
 }  // namespace cairn::cli

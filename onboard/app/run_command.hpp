@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "tools/cli/command.hpp"
+#include "onboard/app/cli/command.hpp"
 
 namespace cairn::cli {
 
 /// `cairn run`: one robot, live or on a recording.
 void add_run_command(Commands& commands);
+/// The options of `cairn run` on `app`, whose callback leaves the run in `commands.job`: all that cairn-core does.
+void add_run_options(CLI::App& app, Commands& commands);
 
 }  // namespace cairn::cli

@@ -3,15 +3,15 @@
 
 #include <fstream>
 
-#include "drivers/recording/recording.hpp"
-#include "drivers/recording/trajectory_file.hpp"
-#include "hal/file.hpp"
-#include "onboard/app/report/sha256.hpp"
-#include "onboard/app/report/write_report.hpp"
+#include "drivers/recording/formats/recording.hpp"
+#include "drivers/recording/formats/trajectory_file.hpp"
+#include "hal/files/file.hpp"
 #include "onboard/app/run.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
 #include "onboard/app/team/team_output.hpp"
-#include "onboard/mapping/map_file.hpp"
+#include "onboard/mapping/files/map_file.hpp"
+#include "onboard/report/figures/sha256.hpp"
+#include "onboard/report/write_report.hpp"
 
 namespace cairn {
 namespace {

@@ -5,8 +5,8 @@
 
 #include "hal/monitor.hpp"
 #include "hal/result.hpp"
-#include "onboard/app/report/run_report.hpp"
-#include "onboard/app/robot_profile.hpp"
+#include "onboard/app/profile/robot_profile.hpp"
+#include "onboard/report/figures/run_report.hpp"
 
 namespace cairn {
 

@@ -10,12 +10,12 @@
 
 #include "hal/result.hpp"
 #include "hal/workers.hpp"
-#include "onboard/mapping/footprint.hpp"
-#include "onboard/mapping/footprint_applier.hpp"
-#include "onboard/mapping/map_tile.hpp"
+#include "onboard/mapping/insert/footprint.hpp"
+#include "onboard/mapping/insert/footprint_applier.hpp"
+#include "onboard/mapping/insert/scan_rays.hpp"
 #include "onboard/mapping/mapping_config.hpp"
-#include "onboard/mapping/scan_rays.hpp"
-#include "onboard/mapping/semantic_octree.hpp"
+#include "onboard/mapping/tree/map_tile.hpp"
+#include "onboard/mapping/tree/semantic_octree.hpp"
 
 namespace cairn {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "hal/config.hpp"
+#include "hal/config/config.hpp"
 
 namespace cairn {
 

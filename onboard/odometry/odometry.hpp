@@ -15,11 +15,11 @@
 #include "onboard/odometry/config.hpp"
 #include "onboard/odometry/degeneracy.hpp"
 #include "onboard/odometry/drift_history.hpp"
+#include "onboard/odometry/local_map/patch_map.hpp"
+#include "onboard/odometry/local_map/subsample.hpp"
 #include "onboard/odometry/motion_filter.hpp"
 #include "onboard/odometry/normal_equations.hpp"
-#include "onboard/odometry/patch_map.hpp"
 #include "onboard/odometry/recent_scans.hpp"
-#include "onboard/odometry/subsample.hpp"
 
 namespace cairn {
 

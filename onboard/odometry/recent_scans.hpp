@@ -11,7 +11,7 @@
 #include "hal/se3.hpp"
 #include "hal/time.hpp"
 #include "onboard/odometry/config.hpp"
-#include "onboard/odometry/subsample.hpp"
+#include "onboard/odometry/local_map/subsample.hpp"
 
 namespace cairn {
 

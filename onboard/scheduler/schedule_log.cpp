@@ -5,7 +5,7 @@
 #include <charconv>
 #include <span>
 
-#include "hal/file.hpp"
+#include "hal/files/file.hpp"
 
 namespace cairn::scheduler {
 namespace {

@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "hal/config.hpp"
+#include "hal/config/config.hpp"
 #include "hal/result.hpp"
 #include "hal/time.hpp"
 

@@ -19,13 +19,13 @@
 #include <string>
 
 #include "drivers/peers/local_link.hpp"
-#include "fusion/peers/claim.hpp"
 #include "fusion/peers/exchange.hpp"
-#include "fusion/peers/tile_codec.hpp"
+#include "fusion/peers/items/claim.hpp"
+#include "fusion/peers/items/tile_codec.hpp"
 #include "hal/clock.hpp"
 #include "hal/workers.hpp"
 #include "onboard/app/run.hpp"
-#include "onboard/mapping/map_file.hpp"
+#include "onboard/mapping/files/map_file.hpp"
 
 namespace cairn::bench {
 namespace {

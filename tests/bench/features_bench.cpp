@@ -2,7 +2,7 @@
 // What matching prepares of a map of about 65 k occupied voxels: all at once, and after a scan changed some of it.
 #include <benchmark/benchmark.h>
 
-#include "fusion/matching/map_features.hpp"
+#include "fusion/matching/features/map_features.hpp"
 #include "tests/support/map_pairs.hpp"
 
 namespace cairn::matching {

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "fusion/matching/map_check.hpp"
+#include "fusion/matching/belief/map_check.hpp"
 #include "fusion/matching/matcher.hpp"
 #include "tests/bench/missions/building.hpp"
 #include "tests/bench/missions/explorer.hpp"

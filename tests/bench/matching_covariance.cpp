@@ -13,6 +13,7 @@
 #include "fusion/matching/default_matcher.hpp"
 #include "tests/bench/missions/building.hpp"
 #include "tests/bench/missions/explorer.hpp"
+#include "tools/simulator/scenes/make_world.hpp"
 
 namespace cairn::missions {
 namespace {

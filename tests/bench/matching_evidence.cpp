@@ -9,11 +9,11 @@
 #include <numbers>
 #include <random>
 
-#include "fusion/matching/matcher.hpp"
-#include "onboard/mapping/map_file.hpp"
+#include "fusion/matching/methods.hpp"
+#include "onboard/mapping/files/map_file.hpp"
 #include "tests/support/map_pairs.hpp"
 #include "tests/support/recorded_data.hpp"
-#include "tools/protocol/halves.hpp"
+#include "tools/protocol/pairs/halves.hpp"
 
 namespace cairn::matching {
 namespace {

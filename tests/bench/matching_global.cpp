@@ -14,12 +14,12 @@
 #include <string>
 #include <vector>
 
-#include "fusion/matching/judge.hpp"
-#include "fusion/matching/matcher.hpp"
+#include "fusion/matching/evidence/judge.hpp"
+#include "fusion/matching/methods.hpp"
 #include "hal/clock.hpp"
 #include "tests/bench/missions/building.hpp"
 #include "tests/bench/missions/explorer.hpp"
-#include "tools/simulator/random.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::missions {
 namespace {

@@ -17,11 +17,12 @@
 #include <string>
 #include <vector>
 
-#include "fusion/matching/growing_match.hpp"
+#include "fusion/matching/belief/growing_match.hpp"
 #include "fusion/matching/matcher.hpp"
 #include "hal/clock.hpp"
 #include "tests/bench/missions/building.hpp"
 #include "tests/bench/missions/explorer.hpp"
+#include "tools/simulator/scenes/make_world.hpp"
 
 namespace cairn::missions {
 namespace {

@@ -8,13 +8,13 @@
 #include <cstdlib>
 #include <numbers>
 
-#include "fusion/matching/matcher.hpp"
+#include "fusion/matching/book/methods.hpp"
 #include "hal/clock.hpp"
-#include "onboard/mapping/map_file.hpp"
+#include "onboard/mapping/files/map_file.hpp"
 #include "tests/support/map_pairs.hpp"
 #include "tests/support/recorded_data.hpp"
-#include "tools/protocol/halves.hpp"
-#include "tools/protocol/starts.hpp"
+#include "tools/protocol/methods/starts.hpp"
+#include "tools/protocol/pairs/halves.hpp"
 
 namespace cairn::matching {
 namespace {
@@ -59,7 +59,7 @@ void run(const support::MapPair& pair, std::string_view method, int count) {
   const Duration t0 = thread_cpu_time();
   const auto a = MapFeatures::build(*pair.a), b = MapFeatures::build(*pair.b);
   if (!a || !b) return (void)std::printf("%s: too large\n", pair.name.c_str());
-  const auto matcher = make_matcher(method, *a, *b);
+  const auto matcher = make_any_matcher(method, *a, *b);
   const double preparation = to_seconds(thread_cpu_time() - t0);
   if (!matcher) return (void)std::printf("%s\n", to_string(matcher.error()).c_str());
   std::printf("%-10s %zu and %zu occupied voxels, %zu and %zu fine surfels\n", pair.name.c_str(),
@@ -118,6 +118,6 @@ int main(int argc, char** argv) {
   const auto seed = static_cast<unsigned>(argc > 4 ? std::atoi(argv[4]) : 1);
   const double share = argc > 5 ? std::atof(argv[5]) : 0.4;
   for (const auto& pair : pairs(wanted, seed, share))
-    for (const std::string_view name : method_names())
+    for (const std::string_view name : all_method_names())
       if (method == "all" || method == name) run(pair, name, starts);
 }

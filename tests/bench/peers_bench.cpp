@@ -6,8 +6,8 @@
 #include <random>
 
 #include "fusion/merging/team_map.hpp"
-#include "fusion/peers/datagram.hpp"
-#include "fusion/peers/tile_codec.hpp"
+#include "fusion/peers/datagrams/datagram.hpp"
+#include "fusion/peers/items/tile_codec.hpp"
 #include "tests/support/map_pairs.hpp"
 
 namespace cairn {

@@ -9,7 +9,6 @@
 #include <xxhash.h>
 
 #include <algorithm>
-#include <array>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -18,14 +17,15 @@
 #include <sstream>
 #include <string>
 
-#include "fusion/matching/acceptance.hpp"
-#include "fusion/matching/judge.hpp"
+#include "fusion/matching/evidence/acceptance.hpp"
+#include "fusion/matching/evidence/judge.hpp"
+#include "fusion/matching/matcher.hpp"
 #include "hal/clock.hpp"
-#include "onboard/mapping/map_file.hpp"
+#include "onboard/mapping/files/map_file.hpp"
 #include "tests/bench/team/figures.hpp"
 #include "tests/bench/team/recorded_robot.hpp"
-#include "tests/fusion/fleet/network.hpp"
-#include "tools/team/map_overlap.hpp"
+#include "tests/fusion/team/fleet/network.hpp"
+#include "tools/team/figures/map_overlap.hpp"
 
 namespace cairn::bench {
 namespace {

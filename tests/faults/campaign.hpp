@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hal/time.hpp"
-#include "onboard/scheduler/fault.hpp"
+#include "onboard/safety/fault.hpp"
 
 namespace cairn::faults {
 

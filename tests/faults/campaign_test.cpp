@@ -8,7 +8,7 @@
 #include <set>
 #include <string_view>
 
-#include "hal/file.hpp"
+#include "hal/files/file.hpp"
 
 namespace cairn::faults {
 

@@ -3,12 +3,12 @@
 #include <cerrno>
 #include <string>
 
-#include "onboard/app/generations.hpp"
-#include "onboard/app/start_log.hpp"
+#include "onboard/app/restart/generations.hpp"
+#include "onboard/app/restart/start_log.hpp"
 #include "onboard/app/tasks/odometry_task.hpp"
-#include "onboard/scheduler/failsafe.hpp"
-#include "onboard/scheduler/health.hpp"
-#include "onboard/scheduler/overload.hpp"
+#include "onboard/safety/failsafe.hpp"
+#include "onboard/safety/health.hpp"
+#include "onboard/safety/overload.hpp"
 #include "onboard/scheduler/overrun.hpp"
 #include "tests/faults/campaign.hpp"
 #include "tests/support/failing_disk.hpp"

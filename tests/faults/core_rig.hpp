@@ -6,8 +6,8 @@
 #include <functional>
 #include <optional>
 
-#include "drivers/drive/canopen.hpp"
-#include "drivers/drive/cia402.hpp"
+#include "drivers/drive/canopen/canopen.hpp"
+#include "drivers/drive/canopen/cia402.hpp"
 #include "onboard/app/tasks/drive_task.hpp"
 #include "onboard/app/tasks/odometry_task.hpp"
 #include "onboard/app/tasks/receive_task.hpp"

@@ -5,7 +5,7 @@
 
 #include <iostream>
 
-#include "onboard/app/generations.hpp"
+#include "onboard/app/restart/generations.hpp"
 #include "tests/onboard/mapping/random_maps.hpp"
 #include "tests/support/temporary_folder.hpp"
 

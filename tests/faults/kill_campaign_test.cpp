@@ -18,12 +18,12 @@
 #include <string>
 #include <vector>
 
-#include "drivers/velodyne/udp_sender.hpp"
-#include "drivers/velodyne/udp_source.hpp"
+#include "drivers/velodyne/transport/udp_sender.hpp"
+#include "drivers/velodyne/transport/udp_source.hpp"
 #include "hal/clock.hpp"
-#include "hal/file.hpp"
+#include "hal/files/file.hpp"
 #include "hal/workers.hpp"
-#include "onboard/app/generations.hpp"
+#include "onboard/app/restart/generations.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/vlp16_drive.hpp"

@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
+#include "drivers/recording/formats/scan_file.hpp"
 #include "drivers/recording/recording_writer.hpp"
-#include "drivers/recording/scan_file.hpp"
 #include "onboard/app/run.hpp"
 #include "tests/faults/campaign.hpp"
 #include "tests/support/box_world.hpp"

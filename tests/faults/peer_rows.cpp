@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Peers and the network between them: three robots, with clocks an hour apart that drift, over an emulated link.
 #include "tests/faults/campaign.hpp"
-#include "tests/fusion/fleet/fleet.hpp"
+#include "tests/fusion/team/fleet/fleet.hpp"
 
 namespace cairn::faults {
 namespace {

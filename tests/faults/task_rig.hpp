@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include "onboard/app/schedule_profile.hpp"
+#include "onboard/app/profile/schedule_profile.hpp"
 #include "onboard/app/tasks/drive_task.hpp"
 #include "onboard/app/tasks/odometry_task.hpp"
 #include "onboard/app/tasks/receive_task.hpp"

@@ -4,7 +4,7 @@
 
 #include <cstdio>
 
-#include "onboard/app/generations.hpp"
+#include "onboard/app/restart/generations.hpp"
 #include "onboard/robot.hpp"
 #include "tests/onboard/mapping/tree_compare.hpp"
 #include "tests/support/box_world.hpp"

@@ -4,7 +4,7 @@
 #include <cerrno>
 #include <limits>
 
-#include "hal/file_calls.hpp"
+#include "hal/files/file_calls.hpp"
 
 namespace cairn::support {
 

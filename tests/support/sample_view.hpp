@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "onboard/app/live_view.hpp"
+#include "onboard/app/live/live_view.hpp"
 
 namespace cairn::support {
 

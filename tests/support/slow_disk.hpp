@@ -3,7 +3,7 @@
 
 #include <atomic>
 
-#include "hal/file_calls.hpp"
+#include "hal/files/file_calls.hpp"
 
 namespace cairn::support {
 

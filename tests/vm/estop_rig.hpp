@@ -8,17 +8,17 @@
 #include <string>
 #include <vector>
 
-#include "drivers/drive/canopen.hpp"
-#include "drivers/drive/cia402.hpp"
-#include "drivers/drive/socketcan_link.hpp"
-#include "onboard/app/schedule_profile.hpp"
+#include "drivers/drive/can/socketcan_link.hpp"
+#include "drivers/drive/canopen/canopen.hpp"
+#include "drivers/drive/canopen/cia402.hpp"
+#include "onboard/app/profile/schedule_profile.hpp"
 #include "onboard/app/tasks/drive_task.hpp"
 #include "onboard/app/tasks/odometry_task.hpp"
 #include "onboard/app/tasks/receive_task.hpp"
 #include "onboard/app/tasks/safety_task.hpp"
 #include "onboard/scheduler/executive.hpp"
 #include "tests/drivers/drive/virtual_bus.hpp"
-#include "tools/simulator/drive_model.hpp"
+#include "tools/simulator/motion/drive_model.hpp"
 
 namespace cairn::vm {
 

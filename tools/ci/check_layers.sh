@@ -50,12 +50,12 @@ deny "hal knows nobody" "move the word both sides need into hal/, or hand the th
 deny "drivers know only hal" "hand the result on as one of hal's types; onboard/app connects driver and stage" \
   "$(inc '(onboard|fusion|tools|tests)/')" "$none" "${drivers[@]}"
 deny "onboard knows only hal; onboard/app may also know drivers and fusion" "take a port of hal/ports.hpp as argument" \
-  "$(inc '(drivers|fusion)/')" '^onboard/app/' "${onboard[@]}"
+  "$(inc '(drivers|fusion)/')" '^onboard/app/|^onboard/report/figures/trajectory_error\.[ch]pp$' "${onboard[@]}"
 deny "onboard knows neither tools nor tests" "move what is needed into the room that owns it" \
-  "$(inc '(tools|tests)/')" '^onboard/app/' "${onboard[@]}"
+  "$(inc '(tools|tests)/')" "$none" "${onboard[@]}"
 deny "the program does not know tests" "move what is needed out of tests/" "$(inc 'tests/')" "$none" "${product[@]}"
 deny "fusion knows only hal and onboard/mapping" "let it see maps and poses only" \
-  "$(inc '(drivers|tools|tests|onboard/(app|odometry|perception|scheduler|[a-z_]+\.))')" "$none" "${fusion[@]}"
+  "$(inc '(drivers|tools|tests|onboard/(app|odometry|perception|report|safety|scheduler|[a-z_]+\.))')" "$none" "${fusion[@]}"
 deny "only onboard/app, tools and tests know onboard/app" "move the shared part down into its own room" \
   "$(inc 'onboard/app/')" '^onboard/app/' "${hal[@]}" "${drivers[@]}" "${onboard[@]}" "${fusion[@]}"
 deny "includes name the path from the project's root" "write \"room/file.hpp\"" '^ *# *include *"(\.\.?/|[^/"]+")' "$none" "${all[@]}"
@@ -71,8 +71,20 @@ for driver in drivers/*/; do
     "$(inc "drivers/($others)/")" "$none" "${own[@]}"
 done
 deny "decoding is pure: it never knows its transport" "decode a std::span; the transport calls the decoder" \
-  "$(inc '(drivers/[a-z_]+/(udp|pcap|v4l2|socketcan|libgpiod)_?|sys/socket|pcap|gpiod)')" \
+  "$(inc '(drivers/[a-z_/]+/(udp|pcap|v4l2|socketcan|libgpiod)_?|sys/socket|pcap|gpiod)')" \
   '/(udp|pcap|v4l2|socketcan|libgpiod|import|record)[a-z0-9_]*\.|^drivers/recording/|^drivers/peers/(local_link|peer_process)\.' "${drivers[@]}"
+
+# Folders
+readonly max_files=30
+mapfile -t crowded < <(find hal drivers onboard fusion tools tests -type f -not -path '*/corpus/*' 2>/dev/null |
+  sed 's#/[^/]*$##' | sort | uniq -c | awk -v max="$max_files" '$1 > max {print $2 ": " $1 " files"}')
+deny_files "a folder has at most $max_files files" "make folders of what belongs together" "${crowded[@]}"
+# Who includes whom, folder by folder; tsort names a circle where there is one.
+circle=$(printf '%s\n' "${product[@]}" | xargs -d '\n' grep -HoE '^ *# *include *"[^"]+/[^"]+"' |
+  sed -E 's#^(.*)/[^/]+: *\# *include *"(.*)/[^/]+"$#\1 \2#' | awk '$1 != $2' | sort -u | tsort 2>&1 >/dev/null |
+  sed 's/^tsort: //') || true
+mapfile -t circle < <(grep -v 'contains a loop' <<<"$circle" | grep -v '^$')
+deny_files "folders do not depend on each other in a circle" "move what both need into a folder below both" "${circle[@]}"
 
 # Time, threads, devices
 deny "only hal/clock.cpp reads the machine's clock" "take a Clock or a Time as argument; CPU time is thread_cpu_time()" \
@@ -86,17 +98,17 @@ deny "only hal/workers and onboard/scheduler/threads start threads" \
   '^hal/workers\.[ch]pp$|^onboard/scheduler/(threads\.[ch]pp|executive_threads\.cpp)$' "${all[@]}"
 # Local sockets alone (AF_UNIX): the service manager's and the live view's, which housekeeping serves and no real-time
 # thread. Whatever comes from another machine enters by a driver.
-readonly local_sockets='onboard/app/(sd_notify|live_server)\.cpp|tools/cli/top/live_client\.cpp|tests/support/local_socket\.hpp|drivers/peers/local_link\.cpp'
+readonly local_sockets='onboard/app/live/(sd_notify|live_server)\.cpp|tools/cli/top/live_client\.cpp|tests/support/local_socket\.hpp|drivers/peers/local_link\.cpp'
 # Networks that end on this machine: those of the robots of `cairn team`.
-readonly emulated_networks='tools/team/tun_device\.cpp'
+readonly emulated_networks='tools/team/network/tun_device\.cpp'
 deny "sockets belong to drivers" "put it into drivers/*/udp_* or socketcan_*, behind a Source" \
   "$(inc '(sys/socket|sys/un|netinet/|netdb|net/if|netpacket/|linux/(can|if_|net))')" \
-  "^(drivers|tests/drivers)/[a-z_]+/(udp|socketcan)_[a-z_]*\\.|^tests/vm/uvc_camera\\.cpp$|^($local_sockets|$emulated_networks)$" "${all[@]}"
+  "^(drivers|tests/drivers)/[a-z_/]+/(udp|socketcan)_[a-z_]*\\.|^tests/vm/uvc_camera\\.cpp$|^($local_sockets|$emulated_networks)$" "${all[@]}"
 deny "only drivers speak to other machines" "put it into drivers/*/udp_*" '\b(AF|PF)_(INET6?|PACKET|CAN)\b' \
   "^(drivers|tests/drivers|tests/vm)/|^($emulated_networks)$" "${all[@]}"
 deny "devices belong to drivers" "put it into drivers/, behind a port of hal/ports.hpp" \
   "$(inc '(termios|sys/ioctl|arpa/|linux/|pcap|gpiod)')" \
-  "^(tests/)?drivers/|^tools/cli/top_command\\.cpp$|^($emulated_networks)$" "${all[@]}"  # the exception asks for the size of its terminal
+  "^(tests/)?drivers/|^tools/cli/top/top_command\\.cpp$|^($emulated_networks)$" "${all[@]}"  # the exception asks for the size of its terminal
 deny "OctoMap's own readers recurse without bounds on hostile files" "read maps with onboard/mapping's reader" \
   '(AbstractOcTree|AbstractOccupancyOcTree|OcTree)::read|(\.|->)read(Binary|BinaryData|Data)\(' '^tests/' "${all[@]}"
 
@@ -108,7 +120,7 @@ deny "builds run on every machine of their kind and give the same bits" \
   '-march=native|-mtune=native|-ffast-math|-Ofast|-funsafe-math|-ffp-contract=(fast|on)' "$none" "${builds[@]}" "${all[@]}"
 # A team's epoch alone must differ from all others; it enters as a packet and is recorded.
 deny "fixed seeds" "seed with a number that is in the source or an argument" 'std::random_device|\bsrand\(|\brand\(\)' \
-  '^onboard/app/team/team_profile\.cpp$' "${all[@]}"
+  '^onboard/app/profile/team_profile\.cpp$' "${all[@]}"
 
 # Order in the house
 mapfile -t scripts < <(find tools toolchains tests .ci \( -name '*.sh' -o -path .ci/run \) -type f 2>/dev/null)

@@ -1,27 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/commands.hpp"
 
-#include "tools/cli/doctor_command.hpp"
-#include "tools/cli/evaluate_command.hpp"
-#include "tools/cli/faults_command.hpp"
-#include "tools/cli/import_command.hpp"
-#include "tools/cli/inspect_command.hpp"
-#include "tools/cli/map_command.hpp"
-#include "tools/cli/match_command.hpp"
-#include "tools/cli/merge_command.hpp"
-#include "tools/cli/record_command.hpp"
-#include "tools/cli/replay_command.hpp"
-#include "tools/cli/team_command.hpp"
-#include "tools/cli/top_command.hpp"
+#include "tools/cli/doctor/doctor_command.hpp"
+#include "tools/cli/inspect/inspect_command.hpp"
+#include "tools/cli/map/evaluate_command.hpp"
+#include "tools/cli/map/map_command.hpp"
+#include "tools/cli/map/match_command.hpp"
+#include "tools/cli/map/merge_command.hpp"
+#include "tools/cli/recording/faults_command.hpp"
+#include "tools/cli/recording/import_command.hpp"
+#include "tools/cli/recording/record_command.hpp"
+#include "tools/cli/recording/send_command.hpp"
+#include "tools/cli/team/team_command.hpp"
+#include "tools/cli/top/top_command.hpp"
 #ifdef CAIRN_HAS_SIMULATOR
-#include "tools/cli/simulate_command.hpp"
+#include "tools/cli/simulate/simulate_command.hpp"
 #endif
 
 namespace cairn::cli {
 
 void add_tool_commands(Commands& commands) {
   add_record_command(commands);
-  add_replay_command(commands);
+  add_send_command(commands);
 #ifdef CAIRN_HAS_SIMULATOR  // it needs Embree, which Debian has for x86-64 only
   add_simulate_command(commands);
 #endif

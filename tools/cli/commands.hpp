@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "tools/cli/command.hpp"
+#include "onboard/app/cli/command.hpp"
 
 namespace cairn::cli {
 

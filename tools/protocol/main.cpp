@@ -3,9 +3,9 @@
 #include <CLI/CLI.hpp>
 #include <iostream>
 
-#include "tools/protocol/make_pairs.hpp"
-#include "tools/protocol/report.hpp"
-#include "tools/protocol/run_methods.hpp"
+#include "tools/protocol/methods/run_methods.hpp"
+#include "tools/protocol/pairs/make_pairs.hpp"
+#include "tools/protocol/report/report.hpp"
 
 namespace {
 

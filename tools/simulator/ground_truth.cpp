@@ -4,8 +4,8 @@
 #include <string>
 
 #include "drivers/camera/picture_file.hpp"
-#include "drivers/recording/trajectory_file.hpp"
-#include "hal/file.hpp"
+#include "drivers/recording/formats/trajectory_file.hpp"
+#include "hal/files/file.hpp"
 
 namespace cairn::simulator {
 

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "drivers/recording/append_file.hpp"
+#include "drivers/recording/formats/append_file.hpp"
 #include "tools/simulator/sensors/view.hpp"
 #include "tools/simulator/stage.hpp"
 

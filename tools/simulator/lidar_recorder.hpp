@@ -8,7 +8,7 @@
 
 #include "hal/packet.hpp"
 #include "hal/workers.hpp"
-#include "tools/simulator/lidar.hpp"
+#include "tools/simulator/lidar/lidar.hpp"
 #include "tools/simulator/simulate.hpp"
 
 namespace cairn::simulator {

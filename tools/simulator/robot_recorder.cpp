@@ -8,11 +8,11 @@
 #include <utility>
 
 #include "drivers/recording/recording_writer.hpp"
-#include "hal/file.hpp"
+#include "hal/files/file.hpp"
 #include "tools/simulator/ground_truth.hpp"
-#include "tools/simulator/random.hpp"
 #include "tools/simulator/sensor_recorder.hpp"
 #include "tools/simulator/simulated_profile.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::simulator {
 namespace {

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/simulator/simulate.hpp"
+#include "tools/simulator/scenes/make_world.hpp"
 
 #include <sstream>
 
 #include "hal/workers.hpp"
-#include "tools/simulator/flight.hpp"
-#include "tools/simulator/random.hpp"
+#include "tools/simulator/motion/flight.hpp"
+#include "tools/simulator/motion/route.hpp"
 #include "tools/simulator/robot_recorder.hpp"
-#include "tools/simulator/route.hpp"
 #include "tools/simulator/stage.hpp"
-#include "tools/simulator/voxels.hpp"
+#include "tools/simulator/world/random.hpp"
+#include "tools/simulator/world/voxels.hpp"
 
 namespace cairn::simulator {
 namespace {

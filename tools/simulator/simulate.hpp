@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "hal/result.hpp"
-#include "tools/simulator/drive.hpp"
-#include "tools/simulator/flight.hpp"
-#include "tools/simulator/lidar.hpp"
+#include "tools/simulator/lidar/lidar.hpp"
+#include "tools/simulator/motion/drive.hpp"
+#include "tools/simulator/motion/flight.hpp"
 #include "tools/simulator/sensors/depth_sensor.hpp"
 #include "tools/simulator/sensors/motor_bus.hpp"
 #include "tools/simulator/sensors/stereo.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "onboard/app/robot_profile.hpp"
+#include "onboard/app/profile/robot_profile.hpp"
 #include "tools/simulator/simulate.hpp"
 
 namespace cairn::simulator {

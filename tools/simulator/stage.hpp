@@ -5,12 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "tools/simulator/motion/trajectory.hpp"
 #include "tools/simulator/people/crowd.hpp"
 #include "tools/simulator/sensors/climate.hpp"
 #include "tools/simulator/simulate.hpp"
-#include "tools/simulator/tracer.hpp"
-#include "tools/simulator/trajectory.hpp"
-#include "tools/simulator/world.hpp"
+#include "tools/simulator/world/tracer.hpp"
+#include "tools/simulator/world/world.hpp"
 
 namespace cairn::simulator {
 

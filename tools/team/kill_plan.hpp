@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hal/time.hpp"
-#include "tools/team/radio.hpp"
+#include "tools/team/network/radio.hpp"
 
 namespace cairn::team {
 

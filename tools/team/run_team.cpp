@@ -7,17 +7,17 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "drivers/recording/recording.hpp"
+#include "drivers/recording/formats/recording.hpp"
 #include "hal/clock.hpp"
-#include "hal/file.hpp"
-#include "onboard/app/report/report_json.hpp"
-#include "onboard/app/robot_profile.hpp"
-#include "onboard/mapping/map_file.hpp"
-#include "tools/team/network.hpp"
+#include "hal/files/file.hpp"
+#include "onboard/app/profile/robot_profile.hpp"
+#include "onboard/mapping/files/map_file.hpp"
+#include "onboard/report/json/report_json.hpp"
+#include "tools/team/figures/team_figures.hpp"
+#include "tools/team/figures/team_picture.hpp"
+#include "tools/team/figures/team_recordings.hpp"
+#include "tools/team/network/network.hpp"
 #include "tools/team/supervisor.hpp"
-#include "tools/team/team_figures.hpp"
-#include "tools/team/team_picture.hpp"
-#include "tools/team/team_recordings.hpp"
 #include "tools/team/team_report.hpp"
 
 namespace cairn::team {

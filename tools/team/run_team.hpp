@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "hal/result.hpp"
-#include "tools/team/link_config.hpp"
+#include "tools/team/network/link_config.hpp"
 
 namespace cairn::team {
 

@@ -9,7 +9,7 @@
 #include "hal/clock.hpp"
 #include "hal/result.hpp"
 #include "tools/team/kill_plan.hpp"
-#include "tools/team/network.hpp"
+#include "tools/team/network/network.hpp"
 #include "tools/team/process.hpp"
 
 namespace cairn::team {

@@ -5,10 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "tools/team/network.hpp"
+#include "tools/team/figures/team_figures.hpp"
+#include "tools/team/figures/team_recordings.hpp"
+#include "tools/team/network/network.hpp"
 #include "tools/team/supervisor.hpp"
-#include "tools/team/team_figures.hpp"
-#include "tools/team/team_recordings.hpp"
 
 namespace cairn::team {
 

@@ -7,7 +7,7 @@
 
 #include "hal/latest_value.hpp"
 #include "hal/spsc_queue.hpp"
-#include "onboard/mapping/tree_copy.hpp"
+#include "onboard/mapping/tree/tree_copy.hpp"
 #include "onboard/robot.hpp"
 
 namespace cairn {

@@ -7,8 +7,8 @@
 #include "hal/point_cloud.hpp"
 #include "hal/time.hpp"
 #include "onboard/robot.hpp"
+#include "onboard/safety/failsafe.hpp"
 #include "onboard/scheduler/channel.hpp"
-#include "onboard/scheduler/failsafe.hpp"
 
 namespace cairn {
 

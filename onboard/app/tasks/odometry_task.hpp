@@ -7,11 +7,11 @@
 #include <optional>
 
 #include "hal/monitor.hpp"
-#include "onboard/app/robot_profile.hpp"
+#include "onboard/app/profile/robot_profile.hpp"
 #include "onboard/app/tasks/map_copier.hpp"
 #include "onboard/app/tasks/messages.hpp"
 #include "onboard/app/team/team_messages.hpp"
-#include "onboard/scheduler/overload.hpp"
+#include "onboard/safety/overload.hpp"
 #include "onboard/scheduler/tick.hpp"
 
 namespace cairn {

@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "hal/monitor.hpp"
-#include "onboard/app/door.hpp"
+#include "onboard/app/door/door.hpp"
 #include "onboard/app/tasks/messages.hpp"
+#include "onboard/safety/rejection.hpp"
+#include "onboard/safety/stuck.hpp"
 #include "onboard/scheduler/feed.hpp"
-#include "onboard/scheduler/rejection.hpp"
-#include "onboard/scheduler/stuck.hpp"
 #include "onboard/scheduler/tick.hpp"
 
 namespace cairn {

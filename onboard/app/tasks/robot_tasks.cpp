@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "onboard/app/allocations.hpp"
+#include "onboard/app/tasks/allocations.hpp"
 #include "onboard/scheduler/threads.hpp"
 
 namespace cairn {

@@ -5,9 +5,9 @@
 #include <optional>
 
 #include "hal/workers.hpp"
-#include "onboard/app/door.hpp"
-#include "onboard/app/restart.hpp"
-#include "onboard/app/run.hpp"
+#include "onboard/app/door/door.hpp"
+#include "onboard/app/profile/run_options.hpp"
+#include "onboard/app/restart/restart.hpp"
 #include "onboard/app/tasks/drive_task.hpp"
 #include "onboard/app/tasks/housekeeping_task.hpp"
 #include "onboard/app/tasks/odometry_task.hpp"

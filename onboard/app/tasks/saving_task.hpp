@@ -6,7 +6,7 @@
 #include <string>
 
 #include "hal/monitor.hpp"
-#include "onboard/app/generations.hpp"
+#include "onboard/app/restart/generations.hpp"
 #include "onboard/app/tasks/map_copier.hpp"
 #include "onboard/scheduler/tick.hpp"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "onboard/safety/fault.hpp"
 #include "onboard/scheduler/executive.hpp"
-#include "onboard/scheduler/fault.hpp"
 
 namespace cairn {
 

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cstdlib>
 
-#include "onboard/app/report/run_report.hpp"
+#include "onboard/report/figures/run_report.hpp"
 
 namespace cairn {
 namespace {

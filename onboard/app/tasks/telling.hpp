@@ -6,12 +6,12 @@
 #include <string>
 
 #include "hal/monitor.hpp"
-#include "onboard/app/live_server.hpp"
-#include "onboard/app/live_view.hpp"
-#include "onboard/app/watchdog.hpp"
+#include "onboard/app/live/live_server.hpp"
+#include "onboard/app/live/live_view.hpp"
+#include "onboard/app/live/watchdog.hpp"
+#include "onboard/safety/failsafe.hpp"
+#include "onboard/safety/overload.hpp"
 #include "onboard/scheduler/executive.hpp"
-#include "onboard/scheduler/failsafe.hpp"
-#include "onboard/scheduler/overload.hpp"
 
 namespace cairn {
 

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "onboard/app/tasks/recorder.hpp"
-#include "onboard/scheduler/fault.hpp"
-#include "onboard/scheduler/health.hpp"
+#include "onboard/safety/fault.hpp"
+#include "onboard/safety/health.hpp"
 #include "onboard/scheduler/tick.hpp"
 
 namespace cairn {

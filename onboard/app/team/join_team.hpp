@@ -3,8 +3,8 @@
 
 #include "hal/clock.hpp"
 #include "hal/result.hpp"
-#include "onboard/app/door.hpp"
-#include "onboard/app/robot_profile.hpp"
+#include "onboard/app/door/door.hpp"
+#include "onboard/app/profile/robot_profile.hpp"
 
 namespace cairn {
 

@@ -5,8 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "fusion/team.hpp"
-#include "onboard/mapping/tile_state.hpp"
+#include "fusion/team/team.hpp"
+#include "onboard/mapping/tree/tile_state.hpp"
 #include "onboard/scheduler/channel.hpp"
 
 namespace cairn {

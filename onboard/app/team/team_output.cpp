@@ -3,8 +3,8 @@
 
 #include <iterator>
 
-#include "drivers/recording/trajectory_file.hpp"
-#include "onboard/mapping/map_file.hpp"
+#include "drivers/recording/formats/trajectory_file.hpp"
+#include "onboard/mapping/files/map_file.hpp"
 
 namespace cairn {
 namespace {

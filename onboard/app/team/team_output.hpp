@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "hal/result.hpp"
-#include "onboard/app/report/run_report.hpp"
 #include "onboard/app/team/team_task.hpp"
+#include "onboard/report/figures/run_report.hpp"
 
 namespace cairn {
 

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "drivers/peers/peer_packet.hpp"
+#include "fusion/matching/matcher.hpp"
 
 namespace cairn {
 

@@ -10,9 +10,9 @@
 #include "drivers/peers/peer_port.hpp"
 #include "hal/latest_value.hpp"
 #include "hal/monitor.hpp"
-#include "onboard/app/live_view.hpp"
+#include "onboard/app/live/live_view.hpp"
+#include "onboard/app/profile/team_profile.hpp"
 #include "onboard/app/team/team_messages.hpp"
-#include "onboard/app/team/team_profile.hpp"
 #include "onboard/scheduler/feed.hpp"
 #include "onboard/scheduler/tick.hpp"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/team/team_tasks.hpp"
 
-#include "onboard/app/robot_profile.hpp"
+#include "onboard/app/profile/robot_profile.hpp"
 
 namespace cairn {
 namespace {

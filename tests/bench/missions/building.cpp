@@ -6,8 +6,8 @@
 #include <numbers>
 #include <vector>
 
-#include "tools/simulator/random.hpp"
 #include "tools/simulator/scenes/furniture.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::missions {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-#include "tools/simulator/world.hpp"
+#include "tools/simulator/world/world.hpp"
 
 namespace cairn::missions {
 

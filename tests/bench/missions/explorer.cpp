@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/simulator/random.hpp"
-#include "tools/simulator/route.hpp"
+#include "tools/simulator/motion/route.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::missions {
 namespace {

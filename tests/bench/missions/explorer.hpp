@@ -4,12 +4,12 @@
 #include <memory>
 #include <string>
 
-#include "fusion/matching/map_features.hpp"
+#include "fusion/matching/features/map_features.hpp"
 #include "hal/se3.hpp"
 #include "onboard/mapping/mapper.hpp"
-#include "tools/simulator/floor_plan.hpp"
-#include "tools/simulator/path.hpp"
-#include "tools/simulator/tracer.hpp"
+#include "tools/simulator/motion/path.hpp"
+#include "tools/simulator/world/floor_plan.hpp"
+#include "tools/simulator/world/tracer.hpp"
 
 namespace cairn::missions {
 

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
-#include "fusion/peers/datagram_part.hpp"
-#include "fusion/team.hpp"
+#include "fusion/peers/datagrams/datagram_part.hpp"
+#include "fusion/team/team.hpp"
 #include "hal/time.hpp"
 
 namespace cairn::bench {

@@ -6,7 +6,7 @@
 
 #include "drivers/recording/recording_reader.hpp"
 #include "drivers/velodyne/lidar.hpp"
-#include "onboard/app/robot_profile.hpp"
+#include "onboard/app/profile/robot_profile.hpp"
 
 namespace cairn::bench {
 

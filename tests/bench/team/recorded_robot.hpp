@@ -6,8 +6,8 @@
 #include <memory>
 #include <vector>
 
-#include "drivers/recording/trajectory_file.hpp"
-#include "fusion/team.hpp"
+#include "drivers/recording/formats/trajectory_file.hpp"
+#include "fusion/team/team.hpp"
 #include "hal/monitor.hpp"
 #include "hal/ports.hpp"
 #include "hal/result.hpp"

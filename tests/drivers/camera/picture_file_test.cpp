@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 
-#include "hal/file.hpp"
+#include "hal/files/file.hpp"
 #include "tests/drivers/camera/frames.hpp"
 #include "tests/drivers/recording/files.hpp"
 #include "tests/support/recorded_data.hpp"

@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/drive/cia402_master.hpp"
+#include "drivers/drive/canopen/cia402_master.hpp"
 #include "tests/drivers/drive/virtual_bus.hpp"
 
 namespace cairn::drive {

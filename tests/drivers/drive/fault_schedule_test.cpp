@@ -3,7 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "tests/drivers/drive/virtual_bus.hpp"
-#include "tools/simulator/random.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::drive {
 namespace {

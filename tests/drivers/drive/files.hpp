@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "hal/file.hpp"
+#include "hal/files/file.hpp"
 
 namespace cairn::drive::test {
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "drivers/drive/can_drive.hpp"
-#include "tools/simulator/drive_model.hpp"
+#include "tools/simulator/motion/drive_model.hpp"
 
 namespace cairn::drive::test {
 

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "drivers/drive/agilex.hpp"
-#include "drivers/drive/cia402.hpp"
+#include "drivers/drive/agilex/agilex.hpp"
+#include "drivers/drive/canopen/cia402.hpp"
 #include "tests/drivers/drive/virtual_bus.hpp"
 
 namespace cairn::drive {

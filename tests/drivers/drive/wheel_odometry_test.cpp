@@ -6,9 +6,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "drivers/drive/differential.hpp"
+#include "drivers/drive/chassis/differential.hpp"
 #include "tests/drivers/drive/virtual_bus.hpp"
-#include "tools/simulator/random.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::drive {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/file.hpp"
+#include "hal/files/file.hpp"
 
 namespace cairn::gpio {
 namespace {

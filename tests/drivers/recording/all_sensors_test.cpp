@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "drivers/camera/frame.hpp"
-#include "drivers/drive/can_frame.hpp"
+#include "drivers/drive/can/can_frame.hpp"
 #include "drivers/gpio/line_event.hpp"
 #include "drivers/recording/recording_reader.hpp"
 #include "drivers/recording/recording_writer.hpp"

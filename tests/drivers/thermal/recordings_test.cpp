@@ -10,7 +10,7 @@
 #include "drivers/camera/npy.hpp"
 #include "drivers/camera/picture_file.hpp"
 #include "drivers/thermal/thermal.hpp"
-#include "hal/file.hpp"
+#include "hal/files/file.hpp"
 #include "tests/drivers/recording/files.hpp"
 #include "tests/support/recorded_data.hpp"
 

@@ -10,9 +10,9 @@
 #include <string>
 
 #include "drivers/velodyne/lidar.hpp"
-#include "drivers/velodyne/pcap_source.hpp"
+#include "drivers/velodyne/transport/pcap_source.hpp"
 #include "hal/bytes.hpp"
-#include "hal/file.hpp"
+#include "hal/files/file.hpp"
 #include "tests/support/recorded_data.hpp"
 
 namespace cairn::velodyne {

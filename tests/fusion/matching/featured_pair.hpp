@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "fusion/matching/map_features.hpp"
+#include "fusion/matching/features/map_features.hpp"
 #include "tests/support/map_pairs.hpp"
 
 namespace cairn::matching {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fusion/matching/matcher.hpp"
+#include "fusion/matching/methods.hpp"
 
 #include <gtest/gtest.h>
 
@@ -101,28 +101,6 @@ TEST(Matcher, MapsOfDifferentPlacesAreNotAccepted) {
   ASSERT_TRUE(r);
   EXPECT_FALSE(r->accepted);
   EXPECT_LT(r->probability_correct, 0.9);
-}
-
-TEST(Matcher, MapsWithTooLittleGiveAReason) {
-  const SemanticOcTree empty(0.1);
-  SemanticOcTree voxel(0.1), plane(0.1);
-  voxel.setNodeValue(octomap::point3d(1, 2, 3), 1.0F);
-  for (int x = 0; x < 60; ++x)
-    for (int y = 0; y < 60; ++y) plane.setNodeValue(octomap::point3d(0.1F * float(x), 0.1F * float(y), 0), 1.0F);
-  for (const SemanticOcTree* one :
-       {&empty, static_cast<const SemanticOcTree*>(&voxel), static_cast<const SemanticOcTree*>(&plane)})
-    for (const SemanticOcTree* other : {&empty, static_cast<const SemanticOcTree*>(&plane)}) {
-      const auto a = MapFeatures::build(*one), b = MapFeatures::build(*other);
-      ASSERT_TRUE(a && b);
-      for (const std::string_view name : method_names()) {
-        Budget budget = Budget::steps(1000);
-        const auto r = (*make_matcher(name, *a, *b))->match(std::nullopt, budget);
-        ASSERT_TRUE(r);
-        EXPECT_FALSE(r->accepted);
-        EXPECT_FALSE(r->reason.empty());
-        EXPECT_TRUE(r->T_a_b.mean.matrix().allFinite());
-      }
-    }
 }
 
 TEST(Matcher, ResolutionsMayDiffer) {

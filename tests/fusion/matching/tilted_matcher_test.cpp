@@ -5,7 +5,7 @@
 
 #include <numbers>
 
-#include "fusion/matching/levelling.hpp"
+#include "fusion/matching/features/levelling.hpp"
 #include "tests/support/map_pairs.hpp"
 
 namespace cairn::matching {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "onboard/mapping/cairn_file.hpp"
+#include "onboard/mapping/files/cairn_file.hpp"
 #include "tests/onboard/mapping/random_maps.hpp"
 
 namespace cairn::merging {

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "fusion/peers/tile_codec.hpp"
+#include "fusion/peers/items/tile_codec.hpp"
 #include "tests/fusion/peers/tile_states.hpp"
 
 namespace cairn::peers {

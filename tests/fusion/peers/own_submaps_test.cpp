@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-#include "fusion/peers/claim.hpp"
+#include "fusion/peers/items/claim.hpp"
 
 namespace cairn::peers {
 namespace {

@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "onboard/mapping/tile_state.hpp"
+#include "onboard/mapping/tree/tile_state.hpp"
 
 namespace cairn::peers {
 

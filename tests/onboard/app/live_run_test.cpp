@@ -10,8 +10,8 @@
 #include <nlohmann/json.hpp>
 #include <semaphore>
 
-#include "drivers/velodyne/udp_sender.hpp"
-#include "drivers/velodyne/udp_source.hpp"
+#include "drivers/velodyne/transport/udp_sender.hpp"
+#include "drivers/velodyne/transport/udp_source.hpp"
 #include "hal/workers.hpp"
 #include "onboard/app/run.hpp"
 #include "tests/support/scenes.hpp"

@@ -12,10 +12,10 @@
 #include <optional>
 #include <string>
 
+#include "drivers/recording/formats/scan_file.hpp"
+#include "drivers/recording/formats/trajectory_file.hpp"
 #include "drivers/recording/recording_writer.hpp"
-#include "drivers/recording/scan_file.hpp"
-#include "drivers/recording/trajectory_file.hpp"
-#include "onboard/mapping/map_file.hpp"
+#include "onboard/mapping/files/map_file.hpp"
 #include "tests/support/box_world.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/vlp16_drive.hpp"

@@ -8,8 +8,8 @@
 #include <limits>
 #include <set>
 
+#include "tests/onboard/mapping/insert/scan_cases.hpp"
 #include "tests/onboard/mapping/kitti_scans.hpp"
-#include "tests/onboard/mapping/scan_cases.hpp"
 #include "tests/onboard/mapping/scan_yard.hpp"
 #include "tests/onboard/mapping/tree_compare.hpp"
 #include "tests/support/allocation_count.hpp"

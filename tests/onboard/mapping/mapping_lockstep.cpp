@@ -4,7 +4,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "tests/onboard/mapping/scan_cases.hpp"
+#include "tests/onboard/mapping/insert/scan_cases.hpp"
 
 int main(int argc, char** argv) {
   if (argc != 3) return std::fprintf(stderr, "usage: %s FIRST COUNT\n", argv[0]), 2;

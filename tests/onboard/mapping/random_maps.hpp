@@ -6,7 +6,7 @@
 #include <memory>
 #include <random>
 
-#include "onboard/mapping/semantic_octree.hpp"
+#include "onboard/mapping/tree/semantic_octree.hpp"
 
 namespace cairn {
 

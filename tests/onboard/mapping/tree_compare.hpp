@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "onboard/mapping/semantic_octree.hpp"
+#include "onboard/mapping/tree/semantic_octree.hpp"
 
 namespace cairn {
 

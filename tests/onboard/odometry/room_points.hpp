@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-#include "onboard/odometry/patch_grid.hpp"
+#include "onboard/odometry/local_map/patch_grid.hpp"
 
 namespace cairn {
 

@@ -61,6 +61,11 @@ denied "the program does not know tests" tools/a.cpp '#include "tests/support/a.
 denied "includes name the path from the project's root" onboard/mapping/a.cpp '#include "../robot.hpp"'
 denied "includes name the path from the project's root" onboard/mapping/a.cpp '#include "tree.hpp"'
 
+plant onboard/safety/a.cpp '#include "onboard/scheduler/a.hpp"'
+plant onboard/scheduler/b.cpp '#include "onboard/safety/a.hpp"'
+expected+=("folders do not depend on each other in a circle|onboard/scheduler")
+denied "onboard knows neither tools nor tests" onboard/app/a.hpp '#include "tools/cli/command.hpp"'
+
 denied "only hal/clock.cpp reads" onboard/robot.cpp 'auto t = std::chrono::steady_clock::now();'
 denied "only hal/clock.cpp reads" tests/hal/a.cpp 'clock_gettime(CLOCK_MONOTONIC, &t);'
 denied "only hal/clock.cpp reads" tools/a.cpp 'auto t = std::time(nullptr);'
@@ -91,14 +96,14 @@ plant drivers/thermal/a.cpp '#include "drivers/camera/frame.hpp"'
 plant drivers/camera/v4l2_source.cpp '#include <linux/videodev2.h>'
 plant onboard/app/a.cpp '#include "drivers/velodyne/decoder.hpp"'
 plant fusion/team.cpp '#include "onboard/mapping/tree.hpp"'
-plant onboard/app/a.hpp '#include "tools/cli/command.hpp"' 'Time t = door.clock().now();'
+plant onboard/app/a.hpp 'Time t = door.clock().now();'
 plant drivers/velodyne/config.cpp '#include <arpa/inet.h>'
 plant hal/clock.cpp 'clock_gettime(CLOCK_MONOTONIC, &t);'
 plant onboard/robot.cpp 'auto n = std::thread::hardware_concurrency();'
 plant hal/workers.hpp 'std::vector<std::thread> pool_;'
 plant drivers/velodyne/udp_source.cpp '#include <sys/socket.h>'
 plant tests/vm/uvc_camera.cpp '#include <sys/socket.h>'
-plant onboard/app/sd_notify.cpp '#include <sys/un.h>'
+plant onboard/app/live/sd_notify.cpp '#include <sys/un.h>'
 plant hal/a.cpp "$(seq -f '// %g' 299)"
 out=$("$check" "$tree" 2>&1) || complain "wrongly denied: $out"
 

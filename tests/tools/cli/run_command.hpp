@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "onboard/app/cli/command.hpp"
 #include "tests/support/temporary_folder.hpp"
-#include "tools/cli/command.hpp"
 
 namespace cairn::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/cli/simulate_command.hpp"
+#include "tools/cli/simulate/simulate_command.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

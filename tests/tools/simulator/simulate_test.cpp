@@ -10,10 +10,10 @@
 #include <fstream>
 #include <map>
 
-#include "drivers/recording/recording.hpp"
+#include "drivers/recording/formats/recording.hpp"
+#include "drivers/recording/formats/trajectory_file.hpp"
 #include "drivers/recording/recording_reader.hpp"
-#include "drivers/recording/trajectory_file.hpp"
-#include "hal/file.hpp"
+#include "hal/files/file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace cairn::simulator {

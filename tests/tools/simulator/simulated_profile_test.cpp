@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-#include "hal/file.hpp"
+#include "hal/files/file.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace cairn::simulator {

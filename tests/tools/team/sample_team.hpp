@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
+#include "drivers/recording/formats/trajectory_file.hpp"
 #include "drivers/recording/recording_writer.hpp"
-#include "drivers/recording/trajectory_file.hpp"
-#include "onboard/mapping/map_file.hpp"
-#include "tests/onboard/app/report/random_map.hpp"
+#include "onboard/mapping/files/map_file.hpp"
+#include "tests/onboard/report/random_map.hpp"
 
 namespace cairn::team {
 

@@ -15,7 +15,7 @@
 
 #include "drivers/peers/local_link.hpp"
 #include "fusion/peers/exchange.hpp"
-#include "fusion/peers/tile_codec.hpp"
+#include "fusion/peers/items/tile_codec.hpp"
 #include "hal/clock.hpp"
 #include "tests/fusion/peers/tile_states.hpp"
 

@@ -9,9 +9,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "hal/file.hpp"
-#include "onboard/app/report/report_json.hpp"
+#include "hal/files/file.hpp"
 #include "onboard/app/run.hpp"
+#include "onboard/report/json/report_json.hpp"
 #include "tools/cli/top/live_client.hpp"
 
 namespace cairn::cli {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "onboard/app/live_view.hpp"
+#include "onboard/app/live/live_view.hpp"
 #include "tools/cli/doctor/finding.hpp"
 
 namespace cairn::cli {

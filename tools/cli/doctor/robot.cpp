@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "onboard/app/devices.hpp"
+#include "onboard/app/door/devices.hpp"
 #include "tools/cli/inspect/inspect.hpp"
 
 namespace cairn::cli {

@@ -4,7 +4,7 @@
 #include <map>
 #include <optional>
 
-#include "drivers/drive/agilex.hpp"
+#include "drivers/drive/agilex/agilex.hpp"
 #include "tools/cli/inspect/sensor_figures.hpp"
 
 namespace cairn::cli {

@@ -6,16 +6,16 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "drivers/recording/pcd_file.hpp"
+#include "drivers/recording/formats/pcd_file.hpp"
+#include "drivers/recording/formats/trajectory_file.hpp"
+#include "drivers/recording/formats/utc.hpp"
 #include "drivers/recording/recording_reader.hpp"
-#include "drivers/recording/trajectory_file.hpp"
-#include "drivers/recording/utc.hpp"
 #include "drivers/velodyne/models.hpp"
 #include "drivers/velodyne/packet.hpp"
-#include "drivers/velodyne/pcap_source.hpp"
-#include "hal/file.hpp"
-#include "onboard/app/report/map_measures.hpp"
-#include "onboard/mapping/map_file.hpp"
+#include "drivers/velodyne/transport/pcap_source.hpp"
+#include "hal/files/file.hpp"
+#include "onboard/mapping/files/map_file.hpp"
+#include "onboard/report/figures/map_measures.hpp"
 #include "tools/cli/inspect/inspect_stream.hpp"
 #include "tools/cli/inspect/native_file.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "hal/result.hpp"
-#include "onboard/app/report/report_json.hpp"
+#include "onboard/report/json/report_json.hpp"
 
 namespace cairn::cli {
 

@@ -3,7 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include "drivers/recording/utc.hpp"
+#include "drivers/recording/formats/utc.hpp"
 
 namespace cairn::cli {
 namespace {

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "drivers/recording/recording.hpp"
-#include "drivers/recording/scan_file.hpp"
+#include "drivers/recording/formats/recording.hpp"
+#include "drivers/recording/formats/scan_file.hpp"
 #include "drivers/velodyne/lidar.hpp"
 #include "hal/monitor.hpp"
 #include "hal/ports.hpp"

@@ -5,9 +5,9 @@
 #include <fstream>
 #include <string>
 
-#include "drivers/drive/candump.hpp"
+#include "drivers/drive/can/candump.hpp"
 #include "drivers/gpio/line_event.hpp"
-#include "drivers/recording/image_folder.hpp"
+#include "drivers/recording/formats/image_folder.hpp"
 
 namespace cairn::cli {
 namespace {

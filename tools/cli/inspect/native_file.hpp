@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <optional>
 
-#include "drivers/recording/recording.hpp"
+#include "drivers/recording/formats/recording.hpp"
 
 namespace cairn::cli {
 

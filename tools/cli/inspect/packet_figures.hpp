@@ -6,7 +6,7 @@
 
 #include "hal/histogram.hpp"
 #include "hal/packet.hpp"
-#include "onboard/app/report/report_json.hpp"
+#include "onboard/report/json/report_json.hpp"
 
 namespace cairn::cli {
 

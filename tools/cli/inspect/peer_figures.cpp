@@ -5,7 +5,7 @@
 #include <variant>
 
 #include "drivers/peers/peer_packet.hpp"
-#include "fusion/peers/datagram.hpp"
+#include "fusion/peers/datagrams/datagram.hpp"
 
 namespace cairn::cli {
 

@@ -5,7 +5,7 @@
 
 #include "hal/histogram.hpp"
 #include "hal/point_cloud.hpp"
-#include "onboard/app/report/report_json.hpp"
+#include "onboard/report/json/report_json.hpp"
 
 namespace cairn::cli {
 

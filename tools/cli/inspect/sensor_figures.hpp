@@ -3,10 +3,10 @@
 
 #include <memory>
 
-#include "drivers/recording/recording.hpp"
+#include "drivers/recording/formats/recording.hpp"
 #include "hal/packet.hpp"
 #include "hal/point_cloud.hpp"
-#include "onboard/app/report/report_json.hpp"
+#include "onboard/report/json/report_json.hpp"
 
 namespace cairn::cli {
 

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <system_error>
 
-#include "onboard/app/live_view.hpp"
+#include "onboard/app/live/live_view.hpp"
 
 namespace cairn::cli {
 

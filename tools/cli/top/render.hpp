@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "onboard/app/live_view.hpp"
+#include "onboard/app/live/live_view.hpp"
 
 namespace cairn::cli {
 

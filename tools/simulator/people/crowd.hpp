@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "hal/result.hpp"
-#include "tools/simulator/floor_plan.hpp"
+#include "tools/simulator/motion/trajectory.hpp"
 #include "tools/simulator/people/figure.hpp"
-#include "tools/simulator/trajectory.hpp"
-#include "tools/simulator/world.hpp"
+#include "tools/simulator/world/floor_plan.hpp"
+#include "tools/simulator/world/world.hpp"
 
 namespace cairn::simulator {
 

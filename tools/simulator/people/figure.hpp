@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
-#include "tools/simulator/mesh.hpp"
-#include "tools/simulator/tracer.hpp"
+#include "tools/simulator/world/mesh.hpp"
+#include "tools/simulator/world/tracer.hpp"
 
 namespace cairn::simulator {
 

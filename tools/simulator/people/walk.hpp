@@ -5,9 +5,9 @@
 #include <span>
 #include <vector>
 
-#include "tools/simulator/path.hpp"
+#include "tools/simulator/motion/path.hpp"
 #include "tools/simulator/people/crowd.hpp"
-#include "tools/simulator/random.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::simulator {
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <numbers>
 
-#include "tools/simulator/random.hpp"
 #include "tools/simulator/scenes/furniture.hpp"
 #include "tools/simulator/scenes/scenes.hpp"
 #include "tools/simulator/scenes/vehicles.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::simulator::scenes {
 namespace {

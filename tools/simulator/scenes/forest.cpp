@@ -2,9 +2,9 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/simulator/random.hpp"
 #include "tools/simulator/scenes/furniture.hpp"
 #include "tools/simulator/scenes/scenes.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::simulator::scenes {
 namespace {

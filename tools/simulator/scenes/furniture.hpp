@@ -3,7 +3,7 @@
 
 #include <span>
 
-#include "tools/simulator/mesh.hpp"
+#include "tools/simulator/world/mesh.hpp"
 
 /// What stands in buildings and car parks. Every body stands at its placement: x is its front-to-back axis, and what a
 /// user of it faces (screen, back rest, wall) is on the +x side unless it says otherwise. Metres.

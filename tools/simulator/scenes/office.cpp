@@ -2,9 +2,9 @@
 #include <array>
 #include <numbers>
 
-#include "tools/simulator/random.hpp"
 #include "tools/simulator/scenes/office_rooms.hpp"
 #include "tools/simulator/scenes/scenes.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::simulator::scenes {
 namespace {

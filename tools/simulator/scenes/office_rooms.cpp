@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/simulator/random.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::simulator::scenes {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "tools/simulator/world.hpp"
+#include "tools/simulator/world/world.hpp"
 
 /// One function per scene: it draws the mesh, names the places and gives the ground. Layouts use fixed seeds.
 namespace cairn::simulator::scenes {

@@ -3,11 +3,11 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/simulator/random.hpp"
 #include "tools/simulator/scenes/furniture.hpp"
 #include "tools/simulator/scenes/scenes.hpp"
 #include "tools/simulator/scenes/street_furniture.hpp"
 #include "tools/simulator/scenes/vehicles.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::simulator::scenes {
 namespace {

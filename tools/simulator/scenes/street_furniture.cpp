@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/simulator/random.hpp"
 #include "tools/simulator/scenes/furniture.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::simulator::scenes {
 namespace {

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-#include "tools/simulator/mesh.hpp"
+#include "tools/simulator/world/mesh.hpp"
 
 /// What stands beside a road. Signs, lights and lamps face −x of their placement: against the traffic that comes.
 namespace cairn::simulator::scenes {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "tools/simulator/mesh.hpp"
+#include "tools/simulator/world/mesh.hpp"
 
 /// What drives or is parked. Fronts are at +x of the placement; the placement is on the ground below the middle.
 namespace cairn::simulator::scenes {

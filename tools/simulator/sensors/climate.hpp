@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-#include "tools/simulator/world.hpp"
+#include "tools/simulator/world/world.hpp"
 
 namespace cairn::simulator {
 

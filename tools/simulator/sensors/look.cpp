@@ -5,7 +5,7 @@
 #include <array>
 #include <cmath>
 
-#include "tools/simulator/random.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::simulator {
 namespace {

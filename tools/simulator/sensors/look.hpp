@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "tools/simulator/material.hpp"
 #include "tools/simulator/sensors/climate.hpp"
 #include "tools/simulator/sensors/view.hpp"
+#include "tools/simulator/world/material.hpp"
 
 namespace cairn::simulator {
 

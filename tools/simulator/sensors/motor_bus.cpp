@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/drive/differential.hpp"
+#include "drivers/drive/chassis/differential.hpp"
 
 namespace cairn::simulator {
 namespace {

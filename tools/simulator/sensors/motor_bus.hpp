@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "drivers/drive/can_drive.hpp"
-#include "tools/simulator/drive_model.hpp"
-#include "tools/simulator/trajectory.hpp"
+#include "tools/simulator/motion/drive_model.hpp"
+#include "tools/simulator/motion/trajectory.hpp"
 
 namespace cairn::simulator {
 

@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "drivers/camera/frame.hpp"
-#include "tools/simulator/random.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::simulator {
 namespace {

@@ -6,10 +6,10 @@
 
 #include "hal/packet.hpp"
 #include "hal/workers.hpp"
+#include "tools/simulator/motion/trajectory.hpp"
 #include "tools/simulator/people/crowd.hpp"
 #include "tools/simulator/sensors/look.hpp"
 #include "tools/simulator/sensors/view.hpp"
-#include "tools/simulator/trajectory.hpp"
 
 namespace cairn::simulator {
 

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "tools/simulator/random.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::simulator {
 namespace {

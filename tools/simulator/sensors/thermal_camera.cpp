@@ -7,7 +7,7 @@
 
 #include "drivers/camera/frame.hpp"
 #include "drivers/thermal/telemetry.hpp"
-#include "tools/simulator/random.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::simulator {
 namespace {

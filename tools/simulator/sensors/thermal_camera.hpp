@@ -5,9 +5,9 @@
 
 #include "hal/packet.hpp"
 #include "hal/workers.hpp"
+#include "tools/simulator/motion/trajectory.hpp"
 #include "tools/simulator/people/crowd.hpp"
 #include "tools/simulator/sensors/warmth.hpp"
-#include "tools/simulator/trajectory.hpp"
 
 namespace cairn::simulator {
 

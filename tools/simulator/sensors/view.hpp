@@ -8,7 +8,7 @@
 
 #include "hal/se3.hpp"
 #include "tools/simulator/people/figure.hpp"
-#include "tools/simulator/tracer.hpp"
+#include "tools/simulator/world/tracer.hpp"
 
 namespace cairn::simulator {
 

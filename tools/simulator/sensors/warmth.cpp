@@ -6,8 +6,8 @@
 #include <cmath>
 #include <initializer_list>
 
-#include "tools/simulator/random.hpp"
 #include "tools/simulator/sensors/look.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::simulator {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <deque>
 
-#include "onboard/app/allocations.hpp"
+#include "onboard/app/tasks/allocations.hpp"
 #include "tests/support/estop_line.hpp"
 
 namespace cairn {

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/simulator/people/crowd.hpp"
+#include "tools/simulator/scenes/make_world.hpp"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <sstream>
 
-#include "tools/simulator/drive.hpp"
-#include "tools/simulator/route.hpp"
+#include "tools/simulator/motion/drive.hpp"
+#include "tools/simulator/motion/route.hpp"
 
 namespace cairn::simulator {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "tools/simulator/random.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::simulator {
 namespace {

@@ -3,8 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tools/simulator/random.hpp"
 #include "tools/simulator/sensors/stereo.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::simulator {
 namespace {

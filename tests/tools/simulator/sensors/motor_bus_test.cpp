@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/simulator/sensors/motor_bus.hpp"
+#include "tools/simulator/scenes/make_world.hpp"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "drivers/drive/candump.hpp"
+#include "drivers/drive/can/candump.hpp"
 #include "drivers/drive/wheel_decoder.hpp"
 #include "tests/tools/simulator/sensors/scene_with_people.hpp"
 

@@ -5,11 +5,12 @@
 #include <utility>
 #include <vector>
 
-#include "tools/simulator/drive.hpp"
+#include "tools/simulator/motion/drive.hpp"
+#include "tools/simulator/motion/route.hpp"
 #include "tools/simulator/people/crowd.hpp"
-#include "tools/simulator/route.hpp"
+#include "tools/simulator/scenes/make_world.hpp"
 #include "tools/simulator/sensors/climate.hpp"
-#include "tools/simulator/tracer.hpp"
+#include "tools/simulator/world/tracer.hpp"
 
 namespace cairn::simulator {
 

@@ -9,7 +9,7 @@
 
 #include "drivers/camera/camera.hpp"
 #include "tests/tools/simulator/sensors/scene_with_people.hpp"
-#include "tools/simulator/random.hpp"
+#include "tools/simulator/world/random.hpp"
 
 namespace cairn::simulator {
 namespace {

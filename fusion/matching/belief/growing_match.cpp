@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/matching/belief/growing_match.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "fusion/matching/belief/guess.hpp"
+#include "fusion/matching/default_matcher.hpp"
+
+namespace cairn::matching {
+namespace {
+
+constexpr double kGrowth = 1.2;
+constexpr std::size_t kLeastSurfels = 1500, kMostFound = 4, kMostNear = 2;
+
+}  // namespace
+
+bool GrowingMatch::due(const MapFeatures& a, const MapFeatures& b) {
+  const auto grown = [](std::size_t now, std::size_t then) {
+    return static_cast<double>(now) >= kGrowth * static_cast<double>(then);
+  };
+  if (!grown(a.fine().size(), searched_a_) && !grown(b.fine().size(), searched_b_)) return false;
+  searched_a_ = a.fine().size();
+  searched_b_ = b.fine().size();
+  return true;
+}
+
+void GrowingMatch::update(const MapFeatures& a, const MapFeatures& b, Budget& budget,
+                          const std::optional<UncertainPose>& given) {
+  const auto guess = given && worth_following(*given) ? given : std::nullopt;
+  if (std::min(a.fine().size(), b.fine().size()) < kLeastSurfels) return;
+  const DefaultMatcher matcher(a, b);
+  if (!matcher.comparable()) return;
+  std::vector<Look> looks;
+  std::vector<SE3> known;
+  for (const SE3& T : hypotheses_.places()) {
+    if (!budget.one_more()) break;
+    looks.push_back(matcher.look_again(T, budget));
+    known.push_back(looks.back().T_a_b.mean);
+  }
+  const auto held = [&](const SE3& T) {
+    return std::ranges::any_of(hypotheses_.all(), [&](const Hypothesis& h) { return same_place(h.T_a_b.mean, T); });
+  };
+  if (guess && !held(guess->mean)) {  // so that the maps can say no
+    looks.push_back(matcher.look_again(guess->mean, budget));
+    known.push_back(looks.back().T_a_b.mean);
+  }
+  const auto search = [&](const std::optional<UncertainPose>& initial, std::size_t most) {
+    for (Look& look : matcher.look_around(initial, known, most, budget)) {
+      known.push_back(look.T_a_b.mean);
+      looks.push_back(std::move(look));
+    }
+  };
+  if (due(a, b)) {
+    if (guess) search(guess, kMostNear);
+    search({}, kMostFound);
+  }
+  hypotheses_.take(std::move(looks), guess);
+}
+
+}  // namespace cairn::matching

@@ -1,0 +1,175 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/matching/belief/pending.hpp"
+
+#include <algorithm>
+#include <utility>
+
+#include "fusion/matching/belief/guess.hpp"
+#include "fusion/matching/evidence/acceptance.hpp"
+
+namespace cairn::matching {
+namespace {
+
+constexpr int kAgreements = 3;                              // to be accepted
+constexpr double kAgrees = 0.9;                             // least probability of an agreement,
+constexpr double kCertain = 0.99;                           // and of one that counts twice; wrong ones reach 0.988
+constexpr double kLeastGroundM2 = 60;                       // and the structure it needs
+constexpr double kNewGround = 0.1, kLeastNewGroundM2 = 10;  // what it must add to the last one's
+constexpr double kContradicted = 0.06;                      // share of structure in the other's free space
+constexpr int kContradictions = 2;                          // in a row, to be dropped
+constexpr double kRivalled = 0.15;   // probability of another place that keeps an agreement from counting,
+constexpr double kOverthrown = 0.5;  // and that suspends what was accepted
+
+bool contradicts(const Evidence& e) { return e.conflict + e.reverse_conflict > kContradicted; }
+
+bool on_new_ground(const Hypothesis& h, const Evidence& e) {
+  return e.agreeing_m2 >= std::max(kLeastGroundM2, h.ground_m2 + std::max(kLeastNewGroundM2, kNewGround * h.ground_m2));
+}
+
+/// By what they are and nothing else, so that equal rounds give equal answers whatever their order.
+bool before(const Look& x, const Look& y) {
+  if (x.evidence.score != y.evidence.score) return x.evidence.score > y.evidence.score;
+  const Vector6 a = x.T_a_b.mean.xyz_rpy(), b = y.T_a_b.mean.xyz_rpy();
+  return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
+}
+
+/// The looks at different places, best first, each knowing how far ahead it is of its best rival.
+std::vector<Look> rivals(std::vector<Look> looks) {
+  std::sort(looks.begin(), looks.end(), before);
+  std::vector<Look> places;
+  for (const Look& look : looks) {
+    const auto same = [&](const Look& other) { return same_place(other.T_a_b.mean, look.T_a_b.mean); };
+    if (std::none_of(places.begin(), places.end(), same)) places.push_back(look);
+  }
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double own = places[i].evidence.score;
+    const double rival = places.size() < 2 ? 0 : places[i == 0 ? 1 : 0].evidence.score;
+    places[i].evidence.uniqueness = own > 0 ? std::clamp(1 - rival / own, 0.0, 1.0) : 0;
+  }
+  return places;
+}
+
+void drop(Hypothesis& h, const std::string& why) {
+  h.earned = h.earned || h.standing == Standing::kAccepted;
+  h.standing = Standing::kDropped;
+  h.reason = "dropped: " + why;
+}
+
+void suspend(Hypothesis& h, const std::string& why) {
+  h.earned = h.earned || h.standing == Standing::kAccepted;
+  h.standing = Standing::kPending;
+  h.agreements = 0;
+  h.reason = why;
+}
+
+/// What a look on new ground adds. One that is all but certain counts twice, but no look decides alone.
+int weight_of(const Hypothesis& h, int needed) {
+  const int weight = h.probability_correct >= kCertain ? 2 : 1;
+  return h.agreements > 0 ? weight : std::min(weight, needed - 1);
+}
+
+std::string so_often(const Hypothesis& h, int needed) {
+  return (h.earned ? "agreed again " : "agreed on new ground ") + std::to_string(std::min(h.agreements, needed)) +
+         " of " + std::to_string(needed) + " times";
+}
+
+/// How many agreements it takes, by what a guess says of the place.
+int needed(const std::optional<UncertainPose>& guess, const SE3& T_a_b) {
+  if (!guess) return kAgreements;
+  if (!agrees(*guess, T_a_b)) return kAgreements + 1;
+  constexpr double kChanceOfOne = (1 - kAgrees) / kAgrees;  // that an agreement is of a wrong place
+  return chance_agreement(*guess) + kWrongGuess <= kChanceOfOne ? kAgreements - 1 : kAgreements;
+}
+
+/// The probability of a rival at T_rival of one at T, where the guess leaves only the latter.
+double discounted(double probability, const std::optional<UncertainPose>& guess, const SE3& T_rival, const SE3& T) {
+  if (!guess || agrees(*guess, T_rival) || !agrees(*guess, T)) return probability;
+  return kWrongGuess * probability / (1 - probability + kWrongGuess * probability);
+}
+
+/// `rival`: the probability of the likeliest other place, discounted.
+void judge(Hypothesis& h, const Look& look, const Decision& now, double rival, int needed) {
+  h.T_a_b = look.T_a_b;
+  h.evidence = look.evidence;
+  h.probability_correct = now.probability_correct;
+  h.contradictions = contradicts(look.evidence) ? h.contradictions + 1 : 0;
+  if (h.contradictions >= kContradictions) return drop(h, now.reason);
+  if (h.standing == Standing::kAccepted) {
+    if (rival >= kOverthrown) suspend(h, "another pose has become likely");
+    return;
+  }
+  const bool rivalled = rival >= kRivalled, agrees = h.probability_correct >= kAgrees && !rivalled;
+  h.reason = agrees ? so_often(h, needed) : rivalled ? "another pose may be as good" : now.reason;
+  if (h.earned && !agrees) h.agreements = 0;
+  if (!agrees || !(h.earned || on_new_ground(h, look.evidence))) return;
+  h.ground_m2 = std::max(h.ground_m2, look.evidence.agreeing_m2);
+  h.agreements += weight_of(h, needed);
+  h.reason = so_often(h, needed);
+  if (h.agreements >= needed) h.standing = Standing::kAccepted;
+}
+
+}  // namespace
+
+Hypothesis& PendingHypotheses::held_or_new(const SE3& T_a_b) {
+  const auto it = std::find_if(all_.begin(), all_.end(), [&](const Hypothesis& h) {
+    return h.standing != Standing::kDropped && same_place(h.T_a_b.mean, T_a_b);
+  });
+  if (it != all_.end()) return *it;
+  const auto again = std::find_if(all_.begin(), all_.end(),
+                                  [&](const Hypothesis& h) { return h.earned && same_place(h.T_a_b.mean, T_a_b); });
+  if (again == all_.end()) return all_.emplace_back();
+  again->standing = Standing::kPending;
+  again->agreements = again->contradictions = 0;
+  return *again;
+}
+
+void PendingHypotheses::take(std::vector<Look> looks, const std::optional<UncertainPose>& guess) {
+  const auto places = rivals(std::move(looks));
+  std::vector<Decision> decisions;
+  for (const Look& look : places) decisions.push_back(decide(look.evidence));
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const SE3& T = places[i].T_a_b.mean;
+    double rival = 0;
+    for (std::size_t j = 0; j < places.size(); ++j)
+      if (j != i) rival = std::max(rival, discounted(decisions[j].probability_correct, guess, places[j].T_a_b.mean, T));
+    judge(held_or_new(T), places[i], decisions[i], rival, needed(guess, T));
+  }
+  allow_one();
+  put_in_order();
+}
+
+void PendingHypotheses::allow_one() {
+  const auto accepted = [](const Hypothesis& h) { return h.standing == Standing::kAccepted; };
+  if (std::count_if(all_.begin(), all_.end(), accepted) < 2) return;
+  for (Hypothesis& h : all_)
+    if (accepted(h)) suspend(h, "two places agree, one of them must be wrong");
+}
+
+void PendingHypotheses::put_in_order() {
+  const auto rank = [](const Hypothesis& h) {
+    return std::pair(h.standing == Standing::kAccepted  ? 0
+                     : h.standing == Standing::kPending ? 1
+                                                        : 2,
+                     h.standing == Standing::kDropped ? 0 : -h.probability_correct);
+  };
+  std::stable_sort(all_.begin(), all_.end(), [&](const auto& x, const auto& y) { return rank(x) < rank(y); });
+  const auto dropped = [](const Hypothesis& h) { return h.standing == Standing::kDropped; };
+  auto forgotten = std::count_if(all_.begin(), all_.end(), dropped) - static_cast<std::ptrdiff_t>(kMostDropped);
+  std::size_t pending = 0;
+  std::erase_if(all_, [&](const Hypothesis& h) {
+    return dropped(h) ? forgotten-- > 0 : h.standing == Standing::kPending && ++pending > kMostPending;
+  });
+}
+
+std::vector<SE3> PendingHypotheses::places() const {
+  std::vector<SE3> out;
+  for (const Hypothesis& h : all_)
+    if (h.standing != Standing::kDropped) out.push_back(h.T_a_b.mean);
+  return out;
+}
+
+const Hypothesis* PendingHypotheses::accepted() const {
+  return !all_.empty() && all_.front().standing == Standing::kAccepted ? &all_.front() : nullptr;
+}
+
+}  // namespace cairn::matching

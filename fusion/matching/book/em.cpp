@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/matching/book/em.hpp"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "fusion/matching/features/sample.hpp"
+
+namespace cairn::matching {
+namespace {
+
+constexpr float kDensityCells = 5;
+constexpr int kIterations = 30, kGlances = 4, kMostCorrespondences = 8;
+constexpr std::size_t kGlanceVoxels = 1000;
+constexpr double kFirstSigmaM = 0.5, kSigmas = 3;
+const double kNoPartner = std::exp(-0.5 * 2 * 2);  // weight of a partner at 2σ
+
+std::vector<int> densities(const PointGrid& grid, const std::vector<Eigen::Vector3f>& at, float radius) {
+  std::vector<int> all;
+  all.reserve(at.size());
+  for (const Eigen::Vector3f& p : at) all.push_back(grid.count(p, radius));
+  return all;
+}
+
+double mean(const std::vector<int>& values) {
+  return values.empty() ? 0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+}  // namespace
+
+/// The dense map's density enters as its mean: while nothing is known of the pose, no voxel is nearest to another.
+Em::Em(const MapFeatures& a, const MapFeatures& b)
+    : VoxelMatcher(a, b), modes_(a, b), points_b_(centres_of(voxels_b()), static_cast<float>(4 * resolution())) {
+  const auto radius = kDensityCells * static_cast<float>(resolution());
+  auto some_a = sample(std::span<const Eigen::Vector3f>(points_a().points()), kMostSources);
+  auto some_b = sample(std::span<const Eigen::Vector3f>(points_b_.points()), kMostSources);
+  const auto of_a = densities(points_a(), some_a, radius), of_b = densities(points_b_, some_b, radius);
+  sparse_is_b_ = mean(of_b) <= mean(of_a);
+  sparse_ = std::move(sparse_is_b_ ? some_b : some_a);
+  const auto& sparse = sparse_is_b_ ? of_b : of_a;
+  const double dense = mean(sparse_is_b_ ? of_a : of_b);
+  const bool alike = std::lround(dense / std::max(1.0, mean(sparse))) <= 1;
+  for (const int d : sparse) {
+    const auto ratio = static_cast<int>(std::lround(dense / std::max(1, d)));
+    correspondences_.push_back(alike ? 1 : std::clamp(ratio, 1, kMostCorrespondences));
+  }
+}
+
+double Em::mean_correspondences() const { return mean(correspondences_); }
+
+std::optional<SE3> Em::step(const SE3& T, const UncertainPose& prior, double sigma, std::size_t stride) const {
+  const SE3 T_dense_sparse = sparse_is_b_ ? T : T.inverse();
+  const PointGrid& dense = sparse_is_b_ ? points_a() : points_b_;
+  const double gate = std::min(static_cast<double>(kGateM), kSigmas * sigma);
+  Matrix6 H = Matrix6::Zero();
+  Vector6 g = Vector6::Zero();
+  int pairs = 0;
+  std::vector<PointGrid::Neighbour> near;
+  for (std::size_t i = 0; i < sparse_.size(); i += stride) {
+    const Eigen::Vector3d x = sparse_[i].cast<double>();
+    const auto count = static_cast<std::size_t>(correspondences_[i]);
+    dense.nearest((T_dense_sparse * x).cast<float>(), static_cast<float>(gate), count, near);
+    double total = 0;
+    Eigen::Vector3d target = Eigen::Vector3d::Zero();
+    for (const auto& n : near) {
+      const double w = std::exp(-static_cast<double>(n.squared) / (2 * sigma * sigma));
+      target += w * dense.points()[static_cast<std::size_t>(n.index)].cast<double>();
+      total += w;
+    }
+    if (near.empty() || !(total > 0)) continue;
+    // In b's frame, so that the parameters are a right perturbation of T whichever map is the sparse one.
+    const Eigen::Vector3d in_b = sparse_is_b_ ? x : Eigen::Vector3d(target / total);
+    const Eigen::Vector3d in_a = sparse_is_b_ ? Eigen::Vector3d(target / total) : x;
+    const Eigen::Vector3d e = in_b - T.inverse() * in_a;
+    Eigen::Matrix<double, 3, 6> J;
+    J << Eigen::Matrix3d::Identity(), -hat(in_b);
+    const double belief = total / (total + kNoPartner);
+    H += belief * J.transpose() * J;
+    g += belief * J.transpose() * e;
+    ++pairs;
+  }
+  if (pairs < kMinPairs) return std::nullopt;
+  const Vector6 away = (prior.mean.inverse() * T).log();
+  const Matrix6 Jr = right_jacobian_inverse(away);
+  const Matrix6 P = prior.covariance.ldlt().solve(Matrix6::Identity());
+  H = H / (sigma * sigma) + Jr.transpose() * P * Jr;
+  g = g / (sigma * sigma) + Jr.transpose() * P * away;
+  return SE3::exp(H.ldlt().solve(-g));
+}
+
+SE3 Em::climb(SE3 T, const UncertainPose& prior, Budget& budget) const {
+  const double shrink = std::pow(resolution() / kFirstSigmaM, 1.0 / (kIterations - 5));
+  double sigma = kFirstSigmaM;
+  for (int i = 0; i < kIterations && budget.one_more(); ++i, sigma = std::max(resolution(), sigma * shrink)) {
+    const auto s = step(T, prior, sigma, 1);
+    if (!s) return T;
+    T = T * *s;
+    if (sigma <= resolution() && negligible(*s)) break;
+  }
+  return T;
+}
+
+SE3 Em::descend(const UncertainPose& prior, Budget& budget) const {
+  const std::size_t stride = std::max<std::size_t>(1, sparse_.size() / kGlanceVoxels);
+  SE3 best = prior.mean;
+  double most = score(best);
+  for (SE3 T : modes_.near(prior)) {
+    if (!budget.one_more()) return best;
+    for (int i = 0; i < kGlances; ++i)
+      if (const auto s = step(T, prior, kFirstSigmaM, stride)) T = T * *s;
+    if (const double s = score(T); s > most) {
+      most = s;
+      best = T;
+    }
+  }
+  return climb(best, prior, budget);
+}
+
+}  // namespace cairn::matching

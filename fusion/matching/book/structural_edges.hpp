@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <span>
+#include <vector>
+
+#include "fusion/matching/features/map_voxels.hpp"
+
+namespace cairn::matching {
+
+struct EdgeOptions {
+  double normal_radius_cells = 3.5;  ///< of the neighbourhood whose spread gives a voxel's normal
+  double min_angle_cost = 0.5;       ///< κ (4.4)
+  double trace_m = 0.5;              ///< d_T
+  int step_deg = 15;                 ///< δ of Alg. 2
+  int outlier_neighbours = 8;        ///< k of the statistical outlier removal
+};
+
+/// Where two surfaces meet, as the book's first level matches them.
+struct StructuralEdges {
+  std::vector<Voxel> voxels;
+  std::vector<Eigen::Vector3f> directions;   ///< τ, unit length, sign arbitrary (4.5)
+  std::vector<Eigen::Matrix3f> covariances;  ///< Σ_g = (Σ_p⁻¹ + Σ_τ⁻¹)⁻¹ (4.8), m²
+  double quality = 0;  ///< λ_τ = mean λ₃/(λ₁+λ₂+λ₃) (4.14), 1/3…1; 0 without edges
+};
+
+inline constexpr std::size_t kMostCandidates = 10'000;
+
+/// Unit normals by the spread of the occupied voxels within the radius; zero where there are fewer than five.
+[[nodiscard]] std::vector<Eigen::Vector3f> voxel_normals(std::span<const Voxel> voxels, double radius_cells);
+
+/// Alg. 2 (ch. 4): candidates whose normals differ from their neighbours' by more than κ on average (4.4); from each,
+/// walks of d_T along the surface in opposite directions, for all directions of the tangent plane; an edge is where
+/// two such walks enclose an angle of 80° to 100°; then statistical outlier removal (mean distance to k neighbours
+/// above the mean by one σ) and the covariances of what is left. Of more than kMostCandidates candidates, a fixed
+/// choice is traced: the rooms of the book have 3 to 4 thousand edges.
+[[nodiscard]] StructuralEdges structural_edges(std::span<const Voxel> voxels, double resolution_m,
+                                               const EdgeOptions& options = {});
+
+/// Σ_p = (1/p)·I (4.3) times (d/2)², so that it is in m².
+[[nodiscard]] Eigen::Matrix3f voxel_covariance(const Voxel& voxel, double resolution_m);
+
+}  // namespace cairn::matching

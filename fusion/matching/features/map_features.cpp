@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/matching/features/map_features.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cairn::matching {
+namespace {
+
+constexpr double kFineM = 0.2;
+
+/// 1, 2 or 4: a tile of 8 voxels then holds whole cells of both sizes.
+int voxels_per_fine_cell(double resolution_m) {
+  const double levels = std::floor(std::log2(kFineM / resolution_m) + 0.01);
+  return 1 << static_cast<int>(std::clamp(levels, 0.0, 2.0));
+}
+
+template <class Entropy>
+double mean_over(std::span<const Voxel> voxels, const Entropy& entropy) {
+  double sum = 0;
+  for (const Voxel& v : voxels) sum += entropy(static_cast<double>(v.occupancy));
+  return voxels.empty() ? 0 : sum / static_cast<double>(voxels.size());
+}
+
+double weighted_log(double p) { return p > 0 ? -p * std::log2(p) : 0; }
+
+}  // namespace
+
+MapFeatures::MapFeatures(const SemanticOcTree& map, int voxels_per_fine_cell)
+    : map_(&map),
+      fine_grid_(voxels_per_fine_cell, static_cast<float>(map.getResolution())),
+      coarse_grid_(2 * voxels_per_fine_cell, static_cast<float>(map.getResolution())) {}
+
+Result<MapFeatures> MapFeatures::build(const SemanticOcTree& map) {
+  const auto voxels = occupied_voxels(map);
+  if (!voxels) return voxels.error();
+  MapFeatures features(map, voxels_per_fine_cell(map.getResolution()));
+  for (auto from = voxels->begin(); from != voxels->end();) {
+    const TileKey tile = tile_of(*from);
+    const auto to = std::find_if(from, voxels->end(), [&](const Voxel& v) { return tile_of(v) != tile; });
+    features.replace(tile, {from, to});
+    from = to;
+  }
+  features.finish();
+  return features;
+}
+
+void MapFeatures::update(std::span<const TileKey> changed) {
+  for (const TileKey tile : changed) replace(tile, occupied_voxels(*map_, tile));
+  finish();
+}
+
+void MapFeatures::replace(TileKey tile, std::span<const Voxel> voxels) {
+  fine_grid_.replace_tile(tile, voxels);
+  coarse_grid_.replace_tile(tile, voxels);
+}
+
+void MapFeatures::finish() {
+  fine_grid_.refresh();
+  coarse_grid_.refresh();
+  fine_ = fine_grid_.surfels();
+  coarse_ = coarse_grid_.surfels();
+}
+
+double book_map_entropy(std::span<const Voxel> voxels) { return mean_over(voxels, weighted_log); }
+
+double binary_map_entropy(std::span<const Voxel> voxels) {
+  return mean_over(voxels, [](double p) { return weighted_log(p) + weighted_log(1 - p); });
+}
+
+}  // namespace cairn::matching

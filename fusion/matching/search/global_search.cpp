@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/matching/search/global_search.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "fusion/matching/search/fourier.hpp"
+
+namespace cairn::matching {
+namespace {
+
+constexpr int kHeadings = 120;
+constexpr float kPixelM = 0.4F, kLargestPixelM = 0.5F;
+constexpr int kSmallestImage = 64, kLargestImage = 256;
+constexpr double kAlike = 0.4;  // of the best agreement of directions, for a heading to be tried
+constexpr float kFacing = 1;    // weight of facing walls against the walls alone
+/// Clutter is seen less repeatably than walls, so that outdoors free space must count less than indoors.
+constexpr std::array kRoomWeights{0.16F, 0.7F};
+constexpr std::size_t kPeaksPerHeading = 10;
+constexpr double kPlacesApartM = 0.8, kPlacesApartRad = 0.079;
+
+/// How well the directions of walls agree under each heading.
+std::vector<double> agreement(const PlanView& a, const PlanView& b) {
+  const auto n = a.directions().size();
+  std::vector<double> all(kHeadings, 0.0);
+  for (std::size_t k = 0; k < all.size(); ++k)
+    for (std::size_t i = 0; i < n; ++i)
+      all[k] += static_cast<double>(a.directions()[(i + k * 360 / kHeadings) % n] * b.directions()[i]);
+  return all;
+}
+
+/// Where a plan is drawn: a's own place, or b's turned about its middle.
+struct Canvas {
+  float pixel_m;
+  int edge;
+};
+
+Canvas canvas_of(const PlanView& a, const PlanView& b) {
+  const float extent = (a.high() - a.low()).maxCoeff() + 2 * b.radius();
+  Canvas c{kPixelM, kSmallestImage};
+  while (c.edge < kLargestImage && extent > kLargestPixelM * static_cast<float>(c.edge - 4)) c.edge *= 2;
+  c.pixel_m = std::max(c.pixel_m, extent / static_cast<float>(c.edge - 4));
+  return c;
+}
+
+void dab(ComplexImage::Plane& plane, const Eigen::Vector2f& at, float value) {
+  const int x = static_cast<int>(at.x()), y = static_cast<int>(at.y());
+  const float u = at.x() - static_cast<float>(x), v = at.y() - static_cast<float>(y);
+  if (x < 0 || y < 0 || x + 1 >= plane.cols() || y + 1 >= plane.rows()) return;
+  plane(y, x) += value * (1 - u) * (1 - v);
+  plane(y, x + 1) += value * u * (1 - v);
+  plane(y + 1, x) += value * (1 - u) * v;
+  plane(y + 1, x + 1) += value * u * v;
+}
+
+/// The spectrum of the same image mirrored in space and conjugated: what a real image does not change.
+ComplexImage mirrored(const ComplexImage& s) {
+  const int n = s.edge();
+  ComplexImage out(n);
+  const auto turn = [n](const ComplexImage::Plane& from, ComplexImage::Plane& to, float sign) {
+    to(0, 0) = sign * from(0, 0);
+    to.row(0).tail(n - 1) = sign * from.row(0).tail(n - 1).reverse();
+    to.col(0).tail(n - 1) = sign * from.col(0).tail(n - 1).reverse();
+    to.bottomRightCorner(n - 1, n - 1) = sign * from.bottomRightCorner(n - 1, n - 1).reverse();
+  };
+  turn(s.re, out.re, 1);
+  turn(s.im, out.im, -1);
+  return out;
+}
+
+/// Spectra of what a plan shows.
+struct Drawing {
+  explicit Drawing(int edge) : walls(edge), room(edge), facing(edge) {}
+  ComplexImage walls, room;
+  ComplexImage facing;  // of x + i y
+};
+
+/// Two real images have shared one transform, as real and imaginary part.
+void part(ComplexImage& both, ComplexImage& second) {
+  const ComplexImage m = mirrored(both);
+  second.re = 0.5F * (both.im - m.im);
+  second.im = 0.5F * (m.re - both.re);
+  both.re = 0.5F * (both.re + m.re);
+  both.im = 0.5F * (both.im + m.im);
+}
+
+/// `corner`: what is drawn at pixel 1, after turning about `pivot`.
+Drawing draw(const PlanView& plan, const Canvas& canvas, const Eigen::Rotation2Df& turn, const Eigen::Vector2f& pivot,
+             const Eigen::Vector2f& corner) {
+  Drawing d(canvas.edge);
+  for (const PlanView::Column& c : plan.columns()) {
+    const Eigen::Vector2f at = (turn * (c.at - pivot) - corner) / canvas.pixel_m + Eigen::Vector2f::Ones();
+    if (!(at.minCoeff() >= 0)) continue;
+    if (c.open > 0) dab(d.walls.im, at, c.open);
+    if (c.mass == 0) continue;
+    dab(d.walls.re, at, c.mass);
+    const Eigen::Vector2f facing = turn * c.facing;
+    dab(d.facing.re, at, facing.x());
+    dab(d.facing.im, at, facing.y());
+  }
+  fourier(d.walls);
+  fourier(d.facing);
+  part(d.walls, d.room);
+  return d;
+}
+
+/// sum += a·conj(b)
+void add_product(const ComplexImage& a, const ComplexImage& b, ComplexImage& sum) {
+  sum.re += a.re * b.re + a.im * b.im;
+  sum.im += a.im * b.re - a.re * b.im;
+}
+
+/// Spectrum whose real part, in space, is how well walls and the ways they face agree for each shift of b, and whose
+/// imaginary part is how much of either map's walls then stands in the other's room.
+ComplexImage correlation(const Drawing& a, const Drawing& b) {
+  const int n = a.walls.edge();
+  ComplexImage agree(n), clash(n), faces(n);
+  add_product(a.facing, b.facing, faces);
+  const ComplexImage m = mirrored(faces);  // the real part of a complex correlation is what counts
+  agree.re = 0.5F * kFacing * (faces.re + m.re);
+  agree.im = 0.5F * kFacing * (faces.im + m.im);
+  add_product(a.walls, b.walls, agree);
+  add_product(a.walls, b.room, clash);
+  add_product(a.room, b.walls, clash);
+  agree.re -= clash.im;
+  agree.im += clash.re;
+  return agree;
+}
+
+struct Peak {
+  float score;
+  int x, y;
+};
+
+/// The highest local maxima of an image that continues at its opposite edges.
+std::vector<Peak> peaks_of(const ComplexImage::Plane& image) {
+  const int n = static_cast<int>(image.rows());
+  std::vector<Peak> best;
+  const auto higher = [](const Peak& p, const Peak& q) { return p.score > q.score; };
+  for (int y = 0; y < n; ++y)
+    for (int x = 0; x < n; ++x) {
+      const float score = image(y, x);
+      if (score <= 0 || (best.size() == kPeaksPerHeading && score <= best.back().score)) continue;
+      bool top = true;
+      for (int k = 0; k < 9 && top; ++k) top = image((y + k / 3 - 1 + n) % n, (x + k % 3 - 1 + n) % n) <= score;
+      if (!top) continue;
+      const Peak p{score, x, y};
+      best.insert(std::upper_bound(best.begin(), best.end(), p, higher), p);
+      if (best.size() > kPeaksPerHeading) best.pop_back();
+    }
+  return best;
+}
+
+std::vector<Placement> apart(std::vector<Placement> all, std::size_t most) {
+  std::stable_sort(all.begin(), all.end(), [](const auto& p, const auto& q) { return p.score > q.score; });
+  std::vector<Placement> kept;
+  for (const Placement& p : all) {
+    if (kept.size() == most) break;
+    const bool near = std::any_of(kept.begin(), kept.end(), [&](const Placement& k) {
+      return std::hypot(p.x_m - k.x_m, p.y_m - k.y_m) < kPlacesApartM &&
+             std::abs(std::remainder(p.yaw_rad - k.yaw_rad, 2 * M_PI)) < kPlacesApartRad;
+    });
+    if (!near) kept.push_back(p);
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::vector<Placement> sweep(const PlanView& a, const PlanView& b, std::size_t most, Budget& budget) {
+  const Canvas canvas = canvas_of(a, b);
+  const Eigen::Vector2f corner_b = Eigen::Vector2f::Constant(-b.radius());
+  const Drawing of_a = draw(a, canvas, Eigen::Rotation2Df(0), Eigen::Vector2f::Zero(), a.low());
+  const std::vector<double> alike = agreement(a, b);
+  const double least = kAlike * *std::max_element(alike.begin(), alike.end());
+  std::array<std::vector<Placement>, kRoomWeights.size()> found;
+  for (int k = 0; k < kHeadings; ++k) {
+    if (alike[static_cast<std::size_t>(k)] < least) continue;
+    if (!budget.one_more()) break;
+    const double yaw = 2 * M_PI * k / kHeadings;
+    ComplexImage c =
+        correlation(of_a, draw(b, canvas, Eigen::Rotation2Df(static_cast<float>(yaw)), b.middle(), corner_b));
+    inverse_fourier(c);
+    const int furthest = static_cast<int>((a.high() - a.low()).maxCoeff() / canvas.pixel_m) + 2;
+    const auto metres = [&](int shift, float low) {
+      const int wrapped = shift > furthest ? shift - canvas.edge : shift;
+      return static_cast<double>(low + b.radius() + canvas.pixel_m * static_cast<float>(wrapped));
+    };
+    for (std::size_t w = 0; w < kRoomWeights.size(); ++w)
+      for (const Peak& p : peaks_of(c.re - kRoomWeights[w] * c.im))
+        found[w].push_back({yaw, metres(p.x, a.low().x()), metres(p.y, a.low().y()), p.score});
+  }
+  for (auto& of_weight : found) of_weight = apart(std::move(of_weight), most / kRoomWeights.size());
+  std::vector<Placement> all;
+  for (std::size_t i = 0; i < most; ++i)
+    for (const auto& of_weight : found)
+      if (i < of_weight.size()) all.push_back(of_weight[i]);
+  return all;
+}
+
+namespace {
+
+constexpr float kBinM = 0.15F, kHighestM = 6;
+constexpr int kBins = 2 * static_cast<int>(kHighestM / kBinM) + 1;
+constexpr float kUprightVote = 0.25F;  // walls say little about height
+
+/// Votes for b's height in a.
+std::array<float, kBins> votes(const Placement& p, const PlanView& a, const PlanView& b,
+                               std::span<const Surfel> sample) {
+  std::array<float, kBins> all{};
+  const Eigen::Rotation2Df turn(static_cast<float>(p.yaw_rad));
+  const Eigen::Vector2f at(static_cast<float>(p.x_m), static_cast<float>(p.y_m));
+  for (const Surfel& s : sample) {
+    const bool level = is_level(s);
+    for (const PlanView::Height& h : a.heights(turn * (s.point.head<2>() - b.middle()) + at)) {
+      if (h.level != level) continue;
+      const float bin = (h.z - s.point.z() + kHighestM) / kBinM;
+      if (!(bin >= 0 && bin < kBins - 1)) continue;
+      const auto i = static_cast<std::size_t>(bin);
+      const float part = bin - static_cast<float>(i), weight = level ? 1 : kUprightVote;
+      all[i] += weight * (1 - part);
+      all[i + 1] += weight * part;
+    }
+  }
+  return all;
+}
+
+/// The two best, b's height in a.
+std::vector<double> heights_of(std::array<float, kBins> all) {
+  std::vector<double> best;
+  for (int k = 0; k < 2; ++k) {
+    const auto top = std::max_element(all.begin(), all.end());
+    if (*top <= 0) break;
+    const auto i = static_cast<int>(top - all.begin());
+    float sum = 0, moment = 0;
+    for (int j = std::max(0, i - 1); j <= std::min(kBins - 1, i + 1); ++j) {
+      sum += all[static_cast<std::size_t>(j)];
+      moment += all[static_cast<std::size_t>(j)] * static_cast<float>(j);
+    }
+    best.push_back(static_cast<double>(moment / sum * kBinM - kHighestM));
+    for (int j = std::max(0, i - 2); j <= std::min(kBins - 1, i + 2); ++j) all[static_cast<std::size_t>(j)] = 0;
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<SE3> stand_up(std::span<const Placement> placements, const PlanView& a, const PlanView& b,
+                          std::span<const Surfel> sample) {
+  std::vector<SE3> poses;
+  for (const Placement& p : placements) {
+    const Eigen::Quaterniond turn(Eigen::AngleAxisd(p.yaw_rad, Eigen::Vector3d::UnitZ()));
+    const Eigen::Vector3d middle(static_cast<double>(b.middle().x()), static_cast<double>(b.middle().y()), 0);
+    for (const double z : heights_of(votes(p, a, b, sample)))
+      poses.emplace_back(turn, Eigen::Vector3d(p.x_m, p.y_m, z) - turn * middle);
+  }
+  return poses;
+}
+
+}  // namespace cairn::matching

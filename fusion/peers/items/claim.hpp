@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fusion/peers/items/item.hpp"
+#include "hal/result.hpp"
+#include "hal/se3.hpp"
+
+namespace cairn::peers {
+
+/// Where a submap lies in its robot's odom frame. Its covariance is that of the motion since the submap before.
+struct Submap {
+  UncertainPose T_odom_submap;
+};
+
+/// What one robot found out about another: where the other's submap lies in its own.
+struct Edge {
+  std::uint16_t own_submap = 0;
+  RobotId other = 0;
+  Epoch other_epoch = 0;
+  std::uint16_t other_submap = 0;
+  UncertainPose T_own_other;
+  float probability = 0;  ///< that it is right, 0…1
+};
+
+/// Where the robot was put down, by a survey, a marked place or a GPS fix: its odom frame in a metric frame, z up, that
+/// the whole team shares. It may be wrong.
+struct Deployment {
+  UncertainPose T_site_odom;
+};
+
+/// Payloads of items. Poses as seven doubles (translation, quaternion x y z w with w ≥ 0), covariances as the 21 floats
+/// of their upper triangle, row by row.
+[[nodiscard]] std::vector<std::byte> encode(const Submap& submap);
+[[nodiscard]] std::vector<std::byte> encode(const Edge& edge);
+[[nodiscard]] std::vector<std::byte> encode(const Deployment& deployment);
+
+/// Exactly what encode() can have written, with numbers that a map allows: within 10⁶ m, unit quaternions, finite
+/// covariances with a positive diagonal, a deployment's positive definite. kTruncated or kMalformed otherwise.
+[[nodiscard]] Result<Submap> decode_submap(std::span<const std::byte> bytes);
+[[nodiscard]] Result<Edge> decode_edge(std::span<const std::byte> bytes);
+[[nodiscard]] Result<Deployment> decode_deployment(std::span<const std::byte> bytes);
+
+}  // namespace cairn::peers

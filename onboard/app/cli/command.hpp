@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+
+#include "hal/result.hpp"
+
+namespace CLI {
+class App;
+}
+
+namespace cairn::cli {
+
+/// Exit codes that scripts rely on.
+inline constexpr int kDone = 0, kFailed = 1, kWrongArguments = 2;
+
+/// What the command line asked for. A subcommand registers itself with `app` and, when it is the chosen one, leaves its
+/// work in `job`; main() runs it.
+///
+///     auto* sub = commands.app.add_subcommand("import", "foreign data → recording");
+///     auto options = std::make_shared<Options>();
+///     sub->add_option("kind", options->kind, "…")->required();
+///     sub->callback([&commands, options] { commands.job = [options] { return import(*options); }; });
+struct Commands {
+  CLI::App& app;
+  std::function<int()> job;
+};
+
+/// Parses the command line and runs the job that it asks for. Returns the program's exit code.
+int run_program(Commands& commands, int argc, char** argv);
+
+/// Says on stderr what failed and where. A faulty configuration counts as wrong arguments.
+int fail(const Error& error);
+
+/// One JSON object on stdout and nothing else. Bytes that are not UTF-8 are replaced: a file's name may hold any.
+int print(const nlohmann::ordered_json& object);
+
+}  // namespace cairn::cli

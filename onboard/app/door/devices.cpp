@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/door/devices.hpp"
+
+#include <Eigen/Core>
+
+#include "drivers/camera/v4l2_source.hpp"
+#include "drivers/drive/can/socketcan_link.hpp"
+#include "drivers/gpio/gpio_lines.hpp"
+#include "drivers/velodyne/transport/udp_source.hpp"
+
+namespace cairn {
+namespace {
+
+using recording::SourceEntry;
+
+SourceEntry mounted(std::string_view kind, std::string file, std::string model, const std::vector<double>& mount) {
+  SourceEntry entry{std::string(kind), std::string(kind), std::move(file), std::string(kind), std::move(model)};
+  entry.base_sensor_xyz_rpy = Eigen::Map<const Vector6>(mount.data());
+  return entry;
+}
+
+SourceEntry lidar_entry(const LidarProfile& lidar) {
+  SourceEntry entry = mounted(recording::kVelodyne, "lidar.pcap", lidar.driver.model, lidar.base_xyz_rpy);
+  entry.id = entry.frame = "lidar";
+  entry.data_port = static_cast<std::uint16_t>(lidar.driver.data_port);
+  entry.position_port = static_cast<std::uint16_t>(lidar.driver.position_port);
+  return entry;
+}
+
+SourceEntry unmounted(std::string_view kind, std::string file, std::string model) {
+  return {std::string(kind), std::string(kind), std::move(file), "base_link", std::move(model)};
+}
+
+template <class T, class Counters>
+Device device_of(std::string id, std::unique_ptr<T> source, Counters counters) {
+  const T* reader = source.get();
+  return {std::move(id), std::move(source), [reader, counters] { return counters(reader->counters()); }};
+}
+
+Result<Device> open_lidar(const LidarProfile& lidar, const SourceEntry& entry, SourceId id, const Clock& clock) {
+  auto source = velodyne::UdpSource::open(lidar.driver, id, clock);
+  if (!source) return source.error();
+  return device_of(entry.id, std::move(*source), [](const velodyne::UdpSource::Counters& c) {
+    return Losses{{"kernel_drops", c.kernel_drops},
+                  {"foreign", c.foreign},
+                  {"flooded", c.flooded},
+                  {"truncated", c.truncated},
+                  {"unstamped", c.unstamped}};
+  });
+}
+
+Result<Device> open_camera(const camera::CaptureConfig& capture, const SourceEntry& entry, SourceId id,
+                           const Clock& clock) {
+  auto source = camera::V4l2Source::open(capture, id, clock);
+  if (!source) return source.error();
+  return device_of(entry.id, std::move(*source), [](const camera::V4l2Source::Counters& c) {
+    return Losses{{"kernel_drops", c.lost},   {"corrupt", c.corrupt},   {"truncated", c.cut_off},
+                  {"unstamped", c.unstamped}, {"restarts", c.restarts}, {"unplugged", c.closed}};
+  });
+}
+
+Result<Device> open_can(const DriveProfile& drive, const SourceEntry& entry, SourceId id, const Clock& clock) {
+  auto link = drive::SocketCanLink::open(drive.driver.interface, id, clock);
+  if (!link) return link.error();
+  return device_of(entry.id, std::move(*link), [](const drive::SocketCanLink::Counters& c) {
+    return Losses{{"kernel_drops", c.kernel_drops}, {"unstamped", c.unstamped}, {"reopened", c.reopened}};
+  });
+}
+
+Result<Device> open_gpio(const GpioProfile& gpio, const SourceEntry& entry, SourceId id, const Clock& clock) {
+  auto lines = gpio::open_lines(gpio.driver, id, clock);
+  if (!lines) return lines.error();
+  return device_of(entry.id, std::move(*lines), [](const gpio::GpioLines::Counters& c) {
+    return Losses{{"unstamped", c.unstamped}};
+  });
+}
+
+}  // namespace
+
+std::vector<SourceEntry> devices_of(const RobotProfile& p) {
+  std::vector<SourceEntry> entries;
+  if (p.lidar.enabled) entries.push_back(lidar_entry(p.lidar));
+  if (p.camera.exists())
+    entries.push_back(
+        mounted(recording::kCamera, "camera/data.csv", p.camera.driver.capture.format, p.camera.base_xyz_rpy));
+  if (p.thermal.exists())
+    entries.push_back(mounted(recording::kThermal, "thermal/data.csv", p.thermal.driver.model, p.thermal.base_xyz_rpy));
+  if (p.depth.exists()) entries.push_back(mounted(recording::kDepth, "depth/data.csv", "", p.depth.base_xyz_rpy));
+  if (p.drive.exists()) entries.push_back(unmounted(recording::kDrive, "drive.log", p.drive.driver.protocol));
+  if (p.gpio.exists()) entries.push_back(unmounted(recording::kGpio, "gpio.csv", ""));
+  return entries;
+}
+
+Result<Device> open_device(const RobotProfile& p, const SourceEntry& entry, SourceId id, const Clock& clock) {
+  if (entry.kind == recording::kVelodyne) return open_lidar(p.lidar, entry, id, clock);
+  if (entry.kind == recording::kCamera) return open_camera(p.camera.driver.capture, entry, id, clock);
+  if (entry.kind == recording::kThermal) return open_camera(p.thermal.driver.capture, entry, id, clock);
+  if (entry.kind == recording::kDepth) return open_camera(p.depth.driver.capture, entry, id, clock);
+  if (entry.kind == recording::kDrive) return open_can(p.drive, entry, id, clock);
+  return open_gpio(p.gpio, entry, id, clock);
+}
+
+Result<std::vector<Device>> open_devices_of(const RobotProfile& profile, const Clock& clock) {
+  std::vector<Device> devices;
+  for (const SourceEntry& entry : devices_of(profile)) {
+    auto device = open_device(profile, entry, static_cast<SourceId>(devices.size()), clock);
+    if (!device) return at(entry.id, device.error());
+    devices.push_back(std::move(*device));
+  }
+  return devices;
+}
+
+}  // namespace cairn

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/door/door.hpp"
+
+#include <algorithm>
+
+#include "drivers/recording/formats/scan_file.hpp"
+#include "drivers/recording/recording_reader.hpp"
+#include "drivers/velodyne/lidar.hpp"
+#include "onboard/app/door/played_source.hpp"
+
+namespace cairn {
+namespace {
+
+using recording::Recording;
+using recording::SourceEntry;
+
+Result<std::unique_ptr<ScanDecoder>> velodyne_decoder(const velodyne::Config& config, SourceId id, Duration utc_offset,
+                                                      Monitor& monitor) {
+  auto lidar = velodyne::Lidar::create(config, id, monitor);
+  if (!lidar) return lidar.error();
+  (*lidar)->set_utc_offset(utc_offset);
+  return std::unique_ptr<ScanDecoder>(std::move(*lidar));
+}
+
+/// What the recording says of its sensor goes before what the profile says: it knows what was mounted that day.
+void take_over(const SourceEntry& entry, LidarProfile& lidar) {
+  if (!entry.model.empty() && entry.kind == recording::kVelodyne) lidar.driver.model = entry.model;
+  lidar.driver.data_port = entry.data_port;
+  lidar.driver.position_port = entry.position_port;
+  if (!entry.base_sensor_xyz_rpy) return;
+  const Vector6& v = *entry.base_sensor_xyz_rpy;
+  lidar.base_xyz_rpy.assign(v.begin(), v.end());
+}
+
+/// Null for a source that holds no scans.
+Result<std::unique_ptr<ScanDecoder>> decoder_for(const SourceEntry& entry, SourceId id, Duration utc_offset,
+                                                 RobotProfile& profile, Monitor& monitor) {
+  if (entry.kind == recording::kVelodyne) {
+    take_over(entry, profile.lidar);
+    return velodyne_decoder(profile.lidar.driver, id, utc_offset, monitor);
+  }
+  if (entry.kind != recording::kScans) return std::unique_ptr<ScanDecoder>();
+  take_over(entry, profile.lidar);
+  return std::unique_ptr<ScanDecoder>(std::make_unique<recording::ScanFileDecoder>(entry.deskewed));
+}
+
+/// A recorded source whose file cannot be opened: the others go on without it.
+class UnreadableSource final : public Source {
+ public:
+  explicit UnreadableSource(Error error) : error_(std::move(error)) {}
+  Result<Poll> next(Packet& /*packet*/, Duration /*timeout*/) override {
+    if (std::exchange(said_, true)) return Poll::kEnd;
+    return error_;
+  }
+
+ private:
+  Error error_;
+  bool said_ = false;
+};
+
+bool is_used(const SourceEntry& entry) { return !recording::is_picture_kind(entry.kind); }
+
+Result<Input> open_live(const RobotProfile& profile, const SourceEntry& entry, SourceId id, const Clock& clock) {
+  auto device = open_device(profile, entry, id, clock);
+  if (!device) return at(entry.id, device.error());
+  Input input{entry, std::move(device->source), {}, nullptr, nullptr, std::move(device->losses)};
+  input.can = dynamic_cast<drive::CanLink*>(input.source.get());
+  input.lines = dynamic_cast<gpio::GpioLines*>(input.source.get());
+  return input;
+}
+
+/// A recording's sources, without decoders.
+Result<Door> open_sources(const std::filesystem::path& folder, RobotProfile& profile) {
+  auto recorded = recording::load_recording(folder);
+  if (!recorded) return recorded.error();
+  profile.name = recorded->robot;
+  Door door;
+  for (std::size_t i = 0; i < recorded->sources.size(); ++i) {
+    auto source = recording::open_recorded_source(folder, *recorded, i);
+    if (!source) source = std::make_unique<UnreadableSource>(source.error());
+    door.inputs.push_back({recorded->sources[i], std::move(*source), {}, nullptr, nullptr, {}});
+  }
+  door.recording = std::move(*recorded);
+  return door;
+}
+
+Result<void> add_decoders(Door& door, RobotProfile& profile, Monitor& monitor) {
+  const Duration utc_offset{door.recording.realtime_offset_ns};
+  for (std::size_t i = 0; i < door.inputs.size(); ++i) {
+    auto decoder = decoder_for(door.inputs[i].entry, static_cast<SourceId>(i), utc_offset, profile, monitor);
+    if (!decoder) return decoder.error();
+    door.inputs[i].scans = std::move(*decoder);
+  }
+  return {};
+}
+
+}  // namespace
+
+Result<Door> open_devices(const RobotProfile& profile, Devices which, const Clock& clock, Monitor& monitor) {
+  if (!profile.lidar.enabled)
+    return Error{Errc::kInvalidConfig,
+                 "this robot has no LiDAR, and odometry needs one",
+                 profile.name,
+                 {},
+                 "its other sensors can be recorded: cairn record"};
+  Door door;
+  const Duration utc_offset = LiveClock::realtime_offset();
+  door.recording.robot = profile.name;
+  door.recording.realtime_offset_ns = utc_offset.count();
+  for (const SourceEntry& entry : devices_of(profile)) {
+    if (which == Devices::kUsed && !is_used(entry)) continue;
+    const auto id = static_cast<SourceId>(door.inputs.size());
+    auto input = open_live(profile, entry, id, clock);
+    if (!input) return input.error();
+    RobotProfile unchanged = profile;
+    auto decoder = decoder_for(entry, id, utc_offset, unchanged, monitor);
+    if (!decoder) return decoder.error();
+    input->scans = std::move(*decoder);
+    door.inputs.push_back(std::move(*input));
+    door.recording.sources.push_back(entry);
+  }
+  return door;
+}
+
+Result<Door> open_recording(const std::filesystem::path& folder, RobotProfile& profile, Monitor& monitor) {
+  auto door = open_sources(folder, profile);
+  if (!door) return door;
+  if (const auto decoded = add_decoders(*door, profile, monitor); !decoded) return decoded.error();
+  if (const auto log = folder / "schedule.log"; std::filesystem::exists(log)) {
+    auto schedule = scheduler::load_schedule_log(log);
+    if (!schedule)
+      monitor.event({}, "schedule", to_string(schedule.error()));
+    else
+      door->schedule = std::move(*schedule);
+  }
+  return door;
+}
+
+Result<Door> play_recording(const std::filesystem::path& folder, RobotProfile& profile, const Clock& clock,
+                            Monitor& monitor) {
+  auto door = open_sources(folder, profile);
+  if (!door) return door;
+  constexpr Duration kStartIn = std::chrono::milliseconds(500);
+  Time first = Time::max();
+  std::vector<PlayedSource*> played;
+  for (Input& input : door->inputs) {
+    auto source = std::make_unique<PlayedSource>(std::move(input.source), clock);
+    first = std::min(first, source->first_arrival());
+    played.push_back(source.get());
+    input.source = std::move(source);
+  }
+  const Duration shift = first != Time::max() ? clock.now() + kStartIn - first : Duration{};
+  for (PlayedSource* source : played) source->set_shift(shift);
+  door->recording.time_shift_ns += shift.count();
+  door->recording.realtime_offset_ns -= shift.count();  // a packet's time of day is what it was
+  if (const auto decoded = add_decoders(*door, profile, monitor); !decoded) return decoded.error();
+  return door;
+}
+
+}  // namespace cairn

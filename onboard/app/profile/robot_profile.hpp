@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "hal/config/config.hpp"
+#include "hal/result.hpp"
+#include "onboard/app/profile/schedule_profile.hpp"
+#include "onboard/app/profile/sensor_profiles.hpp"
+#include "onboard/app/profile/team_profile.hpp"
+#include "onboard/app/restart/restart.hpp"
+#include "onboard/robot.hpp"
+#include "onboard/safety/failsafe_config.hpp"
+#include "onboard/safety/overload.hpp"
+
+namespace cairn {
+
+/// Everything that is said about one robot: config/husky.yaml and its like.
+struct RobotProfile {
+  std::string name = "robot";
+  LidarProfile lidar;
+  CameraProfile camera;
+  ThermalProfile thermal;
+  DepthProfile depth;
+  DriveProfile drive;
+  GpioProfile gpio;
+  OdometryConfig odometry;
+  MappingConfig mapping;
+  FailsafeConfig failsafe;
+  OverloadConfig overload;
+  RestartProfile restart;
+  TeamProfile team;
+  double odometry_deadline_s = 0.08;  ///< live: no further refinement of a pose this long after its last packet
+  int threads = 1;
+  ScheduleProfile schedule;
+
+  [[nodiscard]] RobotConfig robot() const;
+};
+
+void declare(config::Section& section, RobotProfile& profile);
+
+/// Defaults where `path` is empty; otherwise the file, with every fault reported at once.
+Result<RobotProfile> load_profile(const std::filesystem::path& path);
+/// The effective values as YAML, as they are kept with every run.
+[[nodiscard]] std::string to_yaml(RobotProfile profile);
+
+}  // namespace cairn

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <functional>
+#include <optional>
+
+#include "hal/time.hpp"
+
+namespace cairn {
+
+/// Where time comes from and how packets are waited for.
+enum class Pace {
+  kLive,      ///< devices, on the machine's clock
+  kRecorded,  ///< a recording, as slowly as it was made
+  kMaximum,   ///< a recording, as fast as the machine can
+};
+
+/// What the command line says of one run.
+struct RunOptions {
+  std::filesystem::path config;     ///< empty: the defaults
+  std::filesystem::path recording;  ///< empty: live hardware
+  std::filesystem::path out;
+  std::filesystem::path record;     ///< live: where to keep the packets and the schedule; empty: nowhere
+  std::filesystem::path schedule;   ///< of another live run, instead of the recording's own schedule.log
+  std::filesystem::path state;      ///< live: where the map is kept for a restart; empty: nowhere
+  bool peers = false;               ///< takes part in the team; a recording is played then as if it were the devices
+  std::filesystem::path live_view;  ///< live: the local socket for `cairn top`; empty: none
+  Pace pace = Pace::kRecorded;
+  bool reference = false;  ///< at real speed: run an empty task beside the control task, to know what the machine costs
+  std::optional<int> threads;     ///< instead of the profile's
+  std::optional<double> seconds;  ///< ends the run when so much of the robot's time has passed
+  std::function<bool()> stop;     ///< live: asked about every 20 ms whether the run is to end; empty: never
+  std::function<void(Time, std::size_t scans)> progress;  ///< after every scan, on odometry's thread; may be empty
+
+  /// On the machine's clock, and never the same twice.
+  [[nodiscard]] bool live() const { return recording.empty() || peers; }
+};
+
+}  // namespace cairn

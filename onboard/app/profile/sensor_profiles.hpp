@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "drivers/camera/config.hpp"
+#include "drivers/depth/config.hpp"
+#include "drivers/drive/chassis/config.hpp"
+#include "drivers/gpio/config.hpp"
+#include "drivers/thermal/config.hpp"
+#include "drivers/velodyne/config.hpp"
+#include "hal/config/config.hpp"
+
+namespace cairn {
+
+/// How a LiDAR is mounted and spoken to.
+struct LidarProfile {
+  bool enabled = true;
+  velodyne::Config driver;
+  std::vector<double> base_xyz_rpy{0, 0, 0, 0, 0, 0};  ///< T_base_lidar: x y z [m], roll pitch yaw [rad], fixed axes
+};
+
+/// A camera of any kind and its mount. It exists when its device is named.
+template <class Driver>
+struct MountedCamera {
+  Driver driver;
+  std::vector<double> base_xyz_rpy{0, 0, 0, 0, 0, 0};  ///< T_base_camera, as T_base_lidar
+  [[nodiscard]] bool exists() const { return !driver.capture.device.empty(); }
+};
+using CameraProfile = MountedCamera<camera::Config>;
+using ThermalProfile = MountedCamera<thermal::Config>;
+using DepthProfile = MountedCamera<depth::Config>;
+
+/// The drive on its CAN bus. It exists when its interface is named.
+struct DriveProfile {
+  DriveProfile() { driver.interface.clear(); }
+  drive::Config driver;
+  [[nodiscard]] bool exists() const { return !driver.interface.empty(); }
+};
+
+/// The GPIO lines. They exist when one of them is named.
+struct GpioProfile {
+  gpio::Config driver;
+  [[nodiscard]] bool exists() const {
+    return !driver.estop_line.empty() || !driver.trigger_line.empty() || !driver.pps_line.empty();
+  }
+};
+
+void declare(config::Section& section, LidarProfile& profile);
+void declare(config::Section& section, CameraProfile& profile);
+void declare(config::Section& section, ThermalProfile& profile);
+void declare(config::Section& section, DepthProfile& profile);
+void declare(config::Section& section, DriveProfile& profile);
+void declare(config::Section& section, GpioProfile& profile);
+
+}  // namespace cairn

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/restart/restart.hpp"
+
+#include <algorithm>
+#include <string_view>
+
+#include "hal/files/file.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr std::uint64_t kMaxBootId = 128;
+
+/// Empty: nothing speaks against it.
+std::string_view objection(const Generation& saved, const RestartProfile& profile, double resolution_m, Time now) {
+  const SavedState& state = saved.state;
+  if (state.boot.empty() || state.boot != boot_id()) return "the machine was started since";
+  if (state.stamp > now || now - state.stamp > from_seconds(profile.within_s)) return "it is too old";
+  if (saved.map->getResolution() != resolution_m) return "it has another resolution";
+  if (saved.newest_epoch != state.epoch) return "a newer one was begun";
+  if (saved.scans.empty()) return "no scans were saved with it";
+  return {};
+}
+
+}  // namespace
+
+void declare(config::Section& s, RestartProfile& p) {
+  s.number("save_map_every_s", p.save_map_every_s, {1, 3600}, "s", "with --state: between two saved generations");
+  s.number("within_s", p.within_s, {0, 3600}, "s",
+           "with --state: a core that starts again so long after its last pose goes on in the saved map; it must not "
+           "have been carried away meanwhile. 0: never");
+}
+
+std::string boot_id() {
+  // A file of /proc has no size: read_file() would find it empty.
+  std::string id;
+  if (std::FILE* file = std::fopen("/proc/sys/kernel/random/boot_id", "re")) {
+    id.resize(kMaxBootId);
+    id.resize(std::fread(id.data(), 1, id.size(), file));
+    std::fclose(file);
+  }
+  id.resize(std::min(id.size(), id.find('\n')));
+  return id;
+}
+
+Before look_back(Generations& generations, const RestartProfile& profile, double resolution_m, Time now,
+                 Monitor& monitor) {
+  Before before;
+  auto saved = generations.load(now);
+  if (!saved) return before;
+  before.epoch = saved->newest_epoch;
+  const std::string_view why_not = objection(*saved, profile, resolution_m, now);
+  if (why_not.empty())
+    before.resumed = std::move(*saved);
+  else
+    monitor.event(now, "restart", "begins anew, not in the saved map: " + std::string(why_not));
+  return before;
+}
+
+Resume resume(const Generation& saved) {
+  return {*saved.map, saved.map_stamp, saved.scans, saved.state.T_odom_base, saved.state.twist, saved.state.stamp};
+}
+
+Result<void> keep_with_recording(const std::filesystem::path& recording, const Generation& generation,
+                                 Monitor& monitor) {
+  Generations folder(recording / kResumeFolder, monitor);
+  SavedState of_map = generation.state;
+  of_map.stamp = generation.map_stamp;
+  if (auto saved = folder.save(*generation.map, of_map); !saved) return saved;
+  if (auto saved = folder.save_state(generation.state); !saved) return saved;
+  return folder.save_scans({generation.state.epoch, generation.scans});
+}
+
+std::optional<Generation> resumed_in_recording(const std::filesystem::path& recording, Monitor& monitor) {
+  if (!std::filesystem::is_directory(recording / kResumeFolder)) return std::nullopt;
+  auto saved = Generations(recording / kResumeFolder, monitor).load({});
+  if (!saved || saved->scans.empty()) {
+    monitor.event({}, "restart", "the recording's resume folder is damaged: not the same result");
+    return std::nullopt;
+  }
+  return saved;
+}
+
+}  // namespace cairn

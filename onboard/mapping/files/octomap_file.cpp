@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/mapping/files/octomap_file.hpp"
+
+#include <array>
+#include <charconv>
+#include <sstream>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "hal/bytes.hpp"
+
+namespace cairn {
+namespace {
+
+using Tree = Result<std::unique_ptr<SemanticOcTree>>;
+
+constexpr std::string_view kFirstLineOt = "# Octomap OcTree file";
+constexpr std::string_view kFirstLineBt = "# Octomap OcTree binary file";
+constexpr std::size_t kMaxHeaderBytes = 4096;
+constexpr double kMinResolution = 1e-4, kMaxResolution = 100.0;
+
+struct Header {
+  std::string id;
+  std::uint64_t size = 0;
+  double resolution = 0.0;
+  std::size_t data_offset = 0;
+};
+
+std::string_view as_text(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+Error fault(Errc code, std::string_view cause, std::uint64_t offset, std::string detail = {}) {
+  return {code, cause, {}, offset, std::move(detail)};
+}
+
+/// The value of a header line such as "res 0.1"; the whole value must be a number.
+template <class T>
+bool parse_number(std::string_view text, T& value) {
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  return error == std::errc{} && end == text.data() + text.size();
+}
+
+Result<void> parse_line(std::string_view line, std::size_t offset, Header& header) {
+  const std::size_t space = line.find(' ');
+  const std::string_view key = line.substr(0, space);
+  const std::string_view value = space == line.npos ? std::string_view{} : line.substr(space + 1);
+  if (key == "id") {
+    header.id = value;
+  } else if (key == "size") {
+    if (!parse_number(value, header.size)) return fault(Errc::kMalformed, "`size` is not a number", offset);
+  } else if (key == "res") {
+    if (!parse_number(value, header.resolution)) return fault(Errc::kMalformed, "`res` is not a number", offset);
+  } else if (!line.empty() && line.front() != '#') {
+    return fault(Errc::kMalformed, "unknown header line", offset, std::string(key.substr(0, 32)));
+  }
+  return {};
+}
+
+Result<void> check(const Header& header) {
+  if (!(header.resolution >= kMinResolution && header.resolution <= kMaxResolution))
+    return fault(Errc::kMalformed, "the resolution is missing or senseless", 0,
+                 std::to_string(header.resolution) + " m");
+  if (header.id != "OcTree" && header.id != "ColorOcTree")
+    return fault(Errc::kUnsupported, "the tree type is not supported", 0, header.id.substr(0, 64));
+  return {};
+}
+
+Result<Header> parse_header(std::span<const std::byte> bytes) {
+  const std::string_view text = as_text(bytes.first(std::min(bytes.size(), kMaxHeaderBytes)));
+  Header header;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = text.find('\n', begin);
+    if (end == text.npos) break;
+    std::string_view line = text.substr(begin, end - begin);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    header.data_offset = end + 1;
+    if (line == "data") {
+      if (const auto checked = check(header); !checked) return checked.error();
+      return header;
+    }
+    if (const auto parsed = parse_line(line, begin, header); !parsed) return parsed.error();
+    begin = end + 1;
+  }
+  return fault(bytes.size() < kMaxHeaderBytes ? Errc::kTruncated : Errc::kMalformed, "the header has no line `data`",
+               text.size());
+}
+
+/// Runs `next(tree, builder, reader)` for every node after the header, and checks what must hold for both formats.
+template <class Next>
+Tree decode(std::span<const std::byte> bytes, const MapLimits& limits, Next next) {
+  const auto header = parse_header(bytes);
+  if (!header) return header.error();
+  auto tree = std::make_unique<SemanticOcTree>(header->resolution);
+  TreeBuilder builder(*tree, limits);
+  ByteReader reader(bytes.subspan(header->data_offset));
+  while (header->size > 0 && !builder.done()) {
+    const std::uint64_t offset = header->data_offset + reader.offset();
+    if (builder.nodes() >= header->size)
+      return fault(Errc::kMalformed, "more nodes than the header announces", offset, std::to_string(header->size));
+    if (Result<void> given = next(*header, *tree, builder, reader); !given) {
+      Error error = given.error();
+      error.offset = offset;
+      return error;
+    }
+  }
+  if (builder.nodes() != header->size)
+    return fault(Errc::kMalformed, "fewer nodes than the header announces", header->data_offset + reader.offset(),
+                 std::to_string(builder.nodes()) + " of " + std::to_string(header->size));
+  if (reader.remaining() != 0)
+    return fault(Errc::kMalformed, "bytes follow the last node", header->data_offset + reader.offset());
+  return tree;
+}
+
+const Error kTruncated{Errc::kTruncated, "the file ends inside the tree", {}, {}, {}};
+
+Result<void> next_ot(const Header& header, SemanticOcTree&, TreeBuilder& builder, ByteReader& reader) {
+  const auto log_odds = reader.read<float>();
+  const bool colour_there = header.id != "ColorOcTree" || reader.read_bytes(3).has_value();
+  const auto children = reader.read<std::uint8_t>();
+  if (!log_odds || !colour_there || !children) return kTruncated;
+  return *children == 0 ? builder.leaf(*log_odds) : builder.inner(*children);
+}
+
+/// One bit pair per child: 0 unknown, 1 free, 2 occupied, 3 inner.
+unsigned kind_of(std::uint16_t pairs, unsigned child) { return (pairs >> (2 * child)) & 3U; }
+
+class BtNodes {
+ public:
+  Result<void> operator()(const Header&, SemanticOcTree& tree, TreeBuilder& builder, ByteReader& reader) {
+    const unsigned depth = builder.depth();
+    const unsigned kind = depth == 0 ? 3 : kind_of(pairs_[depth - 1], builder.child_index());
+    if (kind == 1) return builder.leaf(tree.sensor_model().min);
+    if (kind == 2) return builder.leaf(tree.sensor_model().max);
+    const auto pairs = reader.read<std::uint16_t>();
+    if (!pairs) return kTruncated;
+    unsigned children = 0;
+    for (unsigned i = 0; i < SemanticNode::kChildren; ++i) children |= (kind_of(*pairs, i) != 0 ? 1U : 0U) << i;
+    if (depth < pairs_.size()) pairs_[depth] = *pairs;  // deeper than that, the builder refuses
+    return builder.inner(static_cast<std::uint8_t>(children));
+  }
+
+ private:
+  std::array<std::uint16_t, SemanticOcTree::kDepth> pairs_{};  // of the open inner node at each depth
+};
+
+std::vector<std::byte> header_bytes(std::string_view first_line, const SemanticOcTree& tree) {
+  std::ostringstream out;  // as OctoMap does: `res` gets six digits
+  out << first_line << "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\nid "
+      << tree.getTreeType() << "\nsize " << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
+  const std::string text = std::move(out).str();
+  const auto bytes = std::as_bytes(std::span(text));
+  return {bytes.begin(), bytes.end()};
+}
+
+// These two recurse, but never deeper than the tree: 16 levels.
+void append_ot(std::vector<std::byte>& out, const SemanticNode& node) {
+  const SemanticNode* block = node.block();
+  unsigned children = 0;
+  for (unsigned i = 0; i < SemanticNode::kChildren && block != nullptr; ++i)
+    children |= (block[i].present() ? 1U : 0U) << i;
+  append_le(out, node.getLogOdds());
+  append_le(out, static_cast<std::uint8_t>(children));
+  for (unsigned i = 0; i < SemanticNode::kChildren; ++i)
+    if ((children >> i & 1) != 0) append_ot(out, block[i]);
+}
+
+void append_bt(std::vector<std::byte>& out, const SemanticOcTree& tree, const SemanticNode& node) {
+  const SemanticNode* block = node.block();
+  unsigned pairs = 0;
+  for (unsigned i = 0; i < SemanticNode::kChildren && block != nullptr; ++i) {
+    const unsigned leaf = tree.isNodeOccupied(block[i]) ? 2 : 1;
+    pairs |= (!block[i].present() ? 0 : block[i].block() != nullptr ? 3 : leaf) << (2 * i);
+  }
+  append_le(out, static_cast<std::uint16_t>(pairs));
+  for (unsigned i = 0; i < SemanticNode::kChildren; ++i)
+    if (kind_of(static_cast<std::uint16_t>(pairs), i) == 3) append_bt(out, tree, block[i]);
+}
+
+bool starts_with_line(std::span<const std::byte> bytes, std::string_view line) {
+  return as_text(bytes).starts_with(line);
+}
+
+}  // namespace
+
+Tree decode_ot(std::span<const std::byte> bytes, const MapLimits& limits) {
+  if (!is_ot(bytes)) return fault(Errc::kMalformed, "not an OctoMap .ot file", 0);
+  return decode(bytes, limits, next_ot);
+}
+
+Tree decode_bt(std::span<const std::byte> bytes, const MapLimits& limits) {
+  if (!is_bt(bytes)) return fault(Errc::kMalformed, "not an OctoMap .bt file", 0);
+  return decode(bytes, limits, BtNodes{});
+}
+
+std::vector<std::byte> encode_ot(const SemanticOcTree& tree) {
+  std::vector<std::byte> out = header_bytes(kFirstLineOt, tree);
+  if (tree.getRoot() != nullptr) append_ot(out, *tree.getRoot());
+  return out;
+}
+
+std::vector<std::byte> encode_bt(const SemanticOcTree& tree) {
+  SemanticOcTree likely(tree);
+  likely.toMaxLikelihood();
+  likely.prune();
+  std::vector<std::byte> out = header_bytes(kFirstLineBt, likely);
+  if (likely.getRoot() != nullptr) append_bt(out, likely, *likely.getRoot());
+  return out;
+}
+
+bool is_ot(std::span<const std::byte> bytes) { return starts_with_line(bytes, kFirstLineOt); }
+bool is_bt(std::span<const std::byte> bytes) { return starts_with_line(bytes, kFirstLineBt); }
+
+}  // namespace cairn

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "hal/result.hpp"
+#include "onboard/mapping/tree/semantic_octree.hpp"
+#include "onboard/mapping/tree/tree_builder.hpp"
+
+namespace cairn {
+
+// OctoMap's two formats. The readers are ours, because OctoMap's recurse without a limit on hostile bytes; they return
+// the canonical tree with the leaves of the file (inner nodes are computed, whatever the file says), and default sensor
+// model. An error names the byte offset and the cause.
+
+/// .ot: full probabilities. Trees of type OcTree, and ColorOcTree without its colours.
+Result<std::unique_ptr<SemanticOcTree>> decode_ot(std::span<const std::byte> bytes, const MapLimits& limits = {});
+/// .bt: free or occupied only; a free leaf gets the lower clamping value, an occupied one the upper.
+Result<std::unique_ptr<SemanticOcTree>> decode_bt(std::span<const std::byte> bytes, const MapLimits& limits = {});
+
+/// The bytes that octomap::OcTree::write() gives for the same tree.
+[[nodiscard]] std::vector<std::byte> encode_ot(const SemanticOcTree& tree);
+/// The bytes that octomap::OcTree::writeBinary() gives for the same tree: its maximum likelihood, pruned.
+[[nodiscard]] std::vector<std::byte> encode_bt(const SemanticOcTree& tree);
+
+/// Whether the bytes claim to be of that format, by their first line.
+[[nodiscard]] bool is_ot(std::span<const std::byte> bytes);
+[[nodiscard]] bool is_bt(std::span<const std::byte> bytes);
+
+}  // namespace cairn

@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <octomap/octomap_types.h>
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hal/result.hpp"
+#include "onboard/mapping/insert/footprint.hpp"
+#include "onboard/mapping/insert/ray_march.hpp"
+#include "onboard/mapping/tree/semantic_octree.hpp"
+
+namespace cairn {
+
+/// Turns a scan into hits and rays, exactly as OctoMap's computeDiscreteUpdate() does: points become the centres of
+/// their voxels, each voxel counts once, and beams longer than the maximal range become free space up to it.
+class ScanRays {
+ public:
+  /// `max_range` in metres; negative: no limit.
+  ScanRays(double resolution, double max_range)
+      : resolution_(resolution), resolution_factor_(1. / resolution), max_range_(max_range) {}
+
+  struct Counts {
+    std::size_t not_finite = 0, outside_map = 0;
+  };
+
+  /// Resets `footprint` to the box of the scan, marks the hits as occupied, and keeps the rays for march(). Errors: the
+  /// origin is outside of the map; the rays are too long for the time a scan may take.
+  Result<Counts> prepare(std::span<const Eigen::Vector3f> points_map, const Eigen::Vector3f& origin_map,
+                         Footprint& footprint);
+
+  [[nodiscard]] std::size_t ray_count() const { return targets_.size(); }
+
+  /// Marks the free voxels of rays first to last − 1. Several threads may call it, each with a footprint of its own
+  /// over the same grid.
+  void march(std::size_t first, std::size_t last, MarchRays march_rays, Footprint& footprint) const;
+
+  static constexpr std::uint64_t kMaxSteps = 200'000'000;  ///< voxels along all rays of one scan
+
+ private:
+  struct Target {
+    octomap::point3d end;
+    VoxelKey key;
+  };
+
+  [[nodiscard]] bool key_of(double coordinate, int& key) const;
+  [[nodiscard]] bool key_of(const octomap::point3d& point, VoxelKey& key) const;
+  [[nodiscard]] float centre_of(int key) const { return static_cast<float>(exact_centre_of(key)); }
+  [[nodiscard]] double exact_centre_of(int key) const { return (static_cast<double>(key - 32768) + 0.5) * resolution_; }
+  void add_point(const VoxelKey& key);
+  [[nodiscard]] std::uint64_t steps_of_rays() const;
+  [[nodiscard]] BrickGrid grid() const;
+  [[nodiscard]] Ray ray_to(const Target& target, const BrickGrid& grid) const;
+
+  double resolution_, resolution_factor_, max_range_;
+  octomap::point3d origin_;
+  VoxelKey origin_key_{};
+  std::vector<Target> hits_;
+  std::vector<Target> targets_;  // of the rays to march
+};
+
+}  // namespace cairn

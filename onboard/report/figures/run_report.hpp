@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hal/monitor.hpp"
+#include "hal/se3.hpp"
+#include "hal/time.hpp"
+#include "onboard/report/figures/map_measures.hpp"
+#include "onboard/report/figures/trajectory_error.hpp"
+#include "onboard/report/pictures/map_picture.hpp"
+#include "onboard/scheduler/task_spec.hpp"
+#include "onboard/scheduler/task_stats.hpp"
+
+namespace cairn {
+
+/// Where the robot believed to be. The covariance is that of the right perturbation of T_odom_base (hal/se3.hpp),
+/// accumulated since the first pose; zero where nothing is claimed.
+struct PoseEstimate {
+  Time stamp{};
+  UncertainPose T_odom_base;
+};
+
+struct TickStats {
+  std::uint64_t count = 0, missed = 0;
+  Duration max_lateness{};
+};
+
+/// One fixed-rate task of the run.
+struct TaskFigures {
+  scheduler::TaskSpec spec;
+  scheduler::TaskStats stats;
+};
+
+struct OdometryStats {
+  std::uint64_t degenerate_scans = 0;  ///< some direction was not observable
+  std::uint64_t lost_scans = 0;        ///< registration refused; the motion was predicted
+  double mean_iterations = 0;
+};
+
+/// One robot of the team, as this one saw it.
+struct PeerStats {
+  std::uint64_t tx_bytes = 0, rx_bytes = 0, tiles = 0;
+  double age_p99_s = 0;
+  UncertainPose T_map_peer;
+  bool accepted = false;
+  std::string reason;
+};
+
+/// The team's map, as this robot has it.
+struct TeamStats {
+  std::uint64_t id = 0, anchor = 0;          ///< this robot's; the one whose first odom frame is the team's
+  std::map<std::uint64_t, SE3> T_team_odom;  ///< of the robots that are in it, by now
+  std::vector<std::string> merged_with;      ///< their names, without this one's
+  std::uint64_t tiles = 0;                   ///< that this robot said
+  std::string sha256;                        ///< over team.cairn and team.tum: the same on every robot of the team
+};
+
+/// All that a run leaves in report.json and report.html. The run fills it in and hands it to write_report().
+struct RunReport {
+  std::string robot, profile;
+  std::string source;   ///< the recording, or "live"
+  std::string version;  ///< of the program
+  std::string started;  ///< UTC as text; metadata only
+
+  double distance_m = 0;  ///< length of the estimated trajectory
+  double duration_s = 0;  ///< on the robot's time line
+  std::uint64_t scans = 0, lost_packets = 0;
+  TickStats ticks;  ///< of the control task
+  std::vector<TaskFigures> tasks;
+  std::string mode;                                         ///< at the end
+  std::string mode_cause;                                   ///< the fault's code; empty: none
+  std::vector<std::pair<std::string, std::uint64_t>> shed;  ///< scans mapped at each level of shedding
+  OdometryStats odometry;
+  double peak_rss_mb = 0;
+  std::uint64_t control_thread_allocations = 0;
+
+  const Monitor* monitor = nullptr;  ///< stages and events; not owned, may be null, must outlive the report
+  Time start{};                      ///< events and series are shown relative to this
+  std::vector<PoseEstimate> trajectory;
+  std::vector<StampedPose> ground_truth;  ///< T_world_base; empty where there is none
+
+  MapSummary map;
+  std::optional<std::uint64_t> map_file_bytes;
+  std::optional<MapPicture> picture;  ///< from above
+
+  std::map<std::string, PeerStats> peers;
+  std::optional<TeamStats> team;  ///< of a robot that took part in one
+  std::string effective_config;   ///< YAML
+  std::string output_sha256;      ///< over the files that the run left behind
+};
+
+/// Highest resident set size of this process so far, in MiB (getrusage).
+[[nodiscard]] double peak_rss_mb();
+
+}  // namespace cairn

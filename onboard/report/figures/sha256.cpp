@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/report/figures/sha256.hpp"
+
+#include <fmt/format.h>
+#include <openssl/evp.h>
+
+#include <array>
+#include <cstdlib>
+#include <fstream>
+#include <vector>
+
+namespace cairn {
+namespace {
+
+// OpenSSL refuses here only when memory is exhausted or its own installation is broken.
+void must(bool ok) {
+  if (!ok) std::abort();
+}
+
+}  // namespace
+
+struct Sha256::Context {
+  EVP_MD_CTX* evp = EVP_MD_CTX_new();
+  Context() = default;
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+  ~Context() { EVP_MD_CTX_free(evp); }
+};
+
+Sha256::Sha256() : context_(std::make_unique<Context>()) {
+  must(context_->evp != nullptr && EVP_DigestInit_ex(context_->evp, EVP_sha256(), nullptr) == 1);
+}
+
+Sha256::~Sha256() = default;
+
+void Sha256::update(std::span<const std::byte> bytes) {
+  must(EVP_DigestUpdate(context_->evp, bytes.data(), bytes.size()) == 1);
+}
+
+std::string Sha256::finish() {
+  std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
+  unsigned size = 0;
+  must(EVP_DigestFinal_ex(context_->evp, digest.data(), &size) == 1);
+  std::string hex;
+  for (unsigned i = 0; i < size; ++i) hex += fmt::format("{:02x}", digest[i]);
+  return hex;
+}
+
+Result<std::string> sha256_of_files(std::span<const std::filesystem::path> files) {
+  Sha256 sum;
+  std::vector<char> buffer(1 << 16);
+  for (const auto& path : files) {
+    std::ifstream file(path, std::ios::binary);
+    if (!file) return Error{Errc::kNotFound, "cannot open the file", path.string(), {}, {}};
+    while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || file.gcount() > 0)
+      sum.update(std::as_bytes(std::span(buffer).first(static_cast<std::size_t>(file.gcount()))));
+    if (file.bad()) return Error{Errc::kIo, "cannot read the file", path.string(), {}, {}};
+  }
+  return sum.finish();
+}
+
+}  // namespace cairn

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/report/json/budgets.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include "hal/config/yaml_document.hpp"
+#include "hal/files/file.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr std::uint64_t kMaxBytes = 1U << 20U;
+constexpr int kMaxDepth = 8;
+
+/// Walks a budget file, collecting limits and faults.
+class BudgetReader {
+ public:
+  explicit BudgetReader(std::string_view file) : file_(file) {}
+
+  void group(const YAML::Node& node, const std::string& prefix, int depth) {
+    if (!node.IsMap() || depth > kMaxDepth) return fault(node, prefix, "must be a mapping of fields to limits");
+    for (const auto& entry : node) {
+      if (!entry.first.IsScalar()) {
+        fault(entry.first, prefix, "a field must be plain text");
+        continue;
+      }
+      const std::string path = prefix.empty() ? entry.first.Scalar() : prefix + "." + entry.first.Scalar();
+      if (entry.second.IsScalar())
+        limit(entry.second, path);
+      else
+        group(entry.second, path, depth + 1);
+    }
+  }
+
+  std::vector<BudgetLimit> limits;
+  std::string faults;
+
+ private:
+  void limit(const YAML::Node& node, const std::string& path) {
+    double value = 0;
+    if (!YAML::convert<double>::decode(node, value) || !std::isfinite(value))
+      return fault(node, path, "a limit must be a number");
+    if (std::any_of(limits.begin(), limits.end(), [&](const BudgetLimit& l) { return l.field == path; }))
+      return fault(node, path, "is given twice");
+    limits.push_back({path, value, node.Mark().line + 1});
+  }
+  void fault(const YAML::Node& node, const std::string& path, const char* what) {
+    faults += fmt::format("{}:{}: {}: {}\n", file_, node.Mark().line + 1, path, what);
+  }
+
+  std::string_view file_;
+};
+
+std::optional<double> number_at(const nlohmann::ordered_json& report, std::string_view path) {
+  const nlohmann::ordered_json* at = &report;
+  while (!path.empty()) {
+    const std::size_t dot = std::min(path.find('.'), path.size());
+    const auto found = at->is_object() ? at->find(std::string(path.substr(0, dot))) : at->end();
+    if (!at->is_object() || found == at->end()) return std::nullopt;
+    at = &*found;
+    path.remove_prefix(std::min(dot + 1, path.size()));
+  }
+  return at->is_number() ? std::optional(at->get<double>()) : std::nullopt;
+}
+
+}  // namespace
+
+Result<std::vector<BudgetLimit>> parse_budgets(std::string_view yaml, std::string_view file_name) {
+  BudgetReader reader(file_name);
+  try {
+    reader.group(parse_yaml_document(yaml), "", 0);
+  } catch (const YAML::Exception& e) {
+    reader.faults += fmt::format("{}:{}: {}\n", file_name, e.mark.line + 1, e.msg);
+  }
+  if (reader.faults.empty() && reader.limits.empty()) reader.faults = fmt::format("{}: holds no limit\n", file_name);
+  if (!reader.faults.empty())
+    return Error{Errc::kInvalidConfig, "the budgets are not usable", std::string(file_name), {}, "\n" + reader.faults};
+  return std::move(reader.limits);
+}
+
+Result<std::vector<BudgetLimit>> load_budgets(const std::filesystem::path& file) {
+  const auto bytes = read_file(file, kMaxBytes);
+  if (!bytes) return bytes.error();
+  return parse_budgets({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file.string());
+}
+
+Result<std::vector<BudgetVerdict>> check_budgets(const std::vector<BudgetLimit>& limits,
+                                                 const nlohmann::ordered_json& report) {
+  std::vector<BudgetVerdict> verdicts;
+  std::string faults;
+  for (const BudgetLimit& limit : limits) {
+    if (const auto measured = number_at(report, limit.field))
+      verdicts.push_back({limit, *measured});
+    else
+      faults += fmt::format("line {}: {}: no such number in report.json\n", limit.line, limit.field);
+  }
+  if (!faults.empty())
+    return Error{Errc::kInvalidConfig, "budgets that cannot be checked on this run", {}, {}, "\n" + faults};
+  return verdicts;
+}
+
+std::string to_table(const std::vector<BudgetVerdict>& verdicts) {
+  std::size_t width = 5;
+  for (const BudgetVerdict& v : verdicts) width = std::max(width, v.limit.field.size());
+  std::string table = fmt::format("{:<{}}  {:>12}  {:>12}\n", "field", width, "at most", "measured");
+  for (const BudgetVerdict& v : verdicts)
+    table += fmt::format("{:<{}}  {:>12.6g}  {:>12.6g}  {}\n", v.limit.field, width, v.limit.at_most, v.measured,
+                         v.kept() ? "kept" : "EXCEEDED");
+  return table;
+}
+
+bool all_kept(const std::vector<BudgetVerdict>& verdicts) {
+  return std::all_of(verdicts.begin(), verdicts.end(), [](const BudgetVerdict& v) { return v.kept(); });
+}
+
+}  // namespace cairn

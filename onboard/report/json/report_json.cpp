@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/report/json/report_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+#include "onboard/report/figures/pose_error.hpp"
+
+namespace cairn {
+namespace {
+
+template <class T>
+Json or_null(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+Json numbers(const auto& values) {
+  Json list = Json::array();
+  for (Eigen::Index row = 0; row < values.rows(); ++row)
+    for (Eigen::Index column = 0; column < values.cols(); ++column) list.push_back(values(row, column));
+  return list;
+}
+
+void add_percentiles(Json& stage, const std::string& prefix, const Histogram& times) {
+  stage[prefix + "mean_ms"] = to_milliseconds(times.mean());
+  stage[prefix + "p50_ms"] = to_milliseconds(times.percentile(0.5));
+  stage[prefix + "p99_ms"] = to_milliseconds(times.percentile(0.99));
+  stage[prefix + "p999_ms"] = to_milliseconds(times.percentile(0.999));
+  stage[prefix + "max_ms"] = to_milliseconds(times.max());
+}
+
+Json stage_json(const StageStats& stats) {
+  Json stage{{"count", stats.wall.count()}};
+  add_percentiles(stage, "", stats.wall);
+  stage["budget_ms"] = stats.budget > Duration{} ? Json(to_milliseconds(stats.budget)) : Json(nullptr);
+  stage["overruns"] = stats.overruns.get();
+  add_percentiles(stage, "cpu_", stats.cpu);
+  return stage;
+}
+
+Json stages_json(const Monitor* monitor) {
+  Json stages = Json::object();
+  if (monitor != nullptr)
+    for (const StageStats& s : monitor->stages()) stages[s.name] = stage_json(s);
+  return stages;
+}
+
+double ratio(std::uint64_t part, std::uint64_t whole) {
+  return whole == 0 ? 0 : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+Json task_json(const TaskFigures& task) {
+  const scheduler::TaskStats& s = task.stats;
+  Json json{{"count", s.ticks.get()},
+            {"rate_hz", task.spec.rate_hz},
+            {"deadline_ms", to_milliseconds(task.spec.deadline())},
+            {"budget_ms", task.spec.soft_ms},
+            {"slips", s.slips.get()},
+            {"missed", s.misses.get()},
+            {"miss_ratio", ratio(s.misses, s.ticks)},
+            {"slip_ratio", ratio(s.slips, s.ticks + s.slips)},
+            {"soft_overruns", s.soft_overruns.get()},
+            {"hard_overruns", s.hard_overruns.get()},
+            {"demotions", s.demotions.get()},
+            {"allocations", s.allocations.get()},
+            {"major_faults", s.major_faults.get()},
+            {"minor_faults", s.minor_faults.get()},
+            {"involuntary_switches", s.involuntary_switches.get()}};
+  add_percentiles(json, "response_", s.response);
+  add_percentiles(json, "wake_", s.wake);
+  add_percentiles(json, "execution_", s.execution);
+  add_percentiles(json, "cpu_", s.cpu);
+  return json;
+}
+
+Json shed_json(const RunReport& report) {
+  Json shed = Json::object();
+  for (const auto& [level, scans] : report.shed) shed[level] = scans;
+  return shed;
+}
+
+Json tasks_json(const RunReport& report) {
+  Json tasks = Json::object();
+  for (const TaskFigures& task : report.tasks) tasks[task.spec.name] = task_json(task);
+  return tasks;
+}
+
+Json events_json(const RunReport& report) {
+  Json events = Json::array();
+  if (report.monitor == nullptr) return events;
+  for (const Event& e : report.monitor->events())
+    events.push_back({{"first_s", to_seconds(e.first - report.start)},
+                      {"last_s", to_seconds(e.last - report.start)},
+                      {"stage", e.stage},
+                      {"what", e.what},
+                      {"count", e.count}});
+  return events;
+}
+
+Json peers_json(const RunReport& report) {
+  Json peers = Json::object();
+  for (const auto& [name, p] : report.peers)
+    peers[name] = {{"tx_bytes", p.tx_bytes},
+                   {"rx_bytes", p.rx_bytes},
+                   {"tiles", p.tiles},
+                   {"age_p99_s", p.age_p99_s},
+                   {"T_map_peer", numbers(p.T_map_peer.mean.matrix())},
+                   {"covariance", numbers(p.T_map_peer.covariance)},
+                   {"accepted", p.accepted},
+                   {"reason", p.reason}};
+  return peers;
+}
+
+Json team_json(const RunReport& report) {
+  if (!report.team) return nullptr;
+  const TeamStats& t = *report.team;
+  Json poses = Json::object();
+  for (const auto& [robot, pose] : t.T_team_odom) poses[std::to_string(robot)] = numbers(pose.matrix());
+  return {{"id", t.id},       {"anchor", t.anchor}, {"T_team_odom", poses}, {"merged_with", t.merged_with},
+          {"tiles", t.tiles}, {"sha256", t.sha256}};
+}
+
+Json ground_truth_json(const RunReport& report) {
+  if (report.ground_truth.empty()) return nullptr;
+  std::vector<StampedPose> means;
+  for (const PoseEstimate& p : report.trajectory) means.push_back({p.stamp, p.T_odom_base.mean});
+  const TrajectoryErrorOptions options;
+  const auto error = trajectory_error(means, report.ground_truth, options);
+  if (!error) return {{"error", to_string(error.error())}};
+  Json json = to_json(*error);
+  const auto inside = share_inside_3_sigma(pose_errors(report.trajectory, report.ground_truth, options.max_gap));
+  for (std::size_t i = 0; const char* axis : {"x", "y", "z", "roll", "pitch", "yaw"})
+    json["inside_3_sigma"][axis] = or_null(inside[i++]);
+  return json;
+}
+
+Json map_json(const RunReport& report) {
+  const MapSummary& map = report.map;
+  return {{"resolution_m", map.resolution_m},
+          {"occupied", map.occupied},
+          {"free", map.free},
+          {"labelled", map.labelled},
+          {"bytes", map.memory_bytes},
+          {"file_bytes", or_null(report.map_file_bytes)},
+          {"nodes", map.nodes},
+          {"mean_entropy_occupancy", or_null(map.mean_entropy_occupancy)}};
+}
+
+}  // namespace
+
+Json to_json(const TrajectoryError& e) {
+  const auto of = [](const std::optional<RelativeError>& r, double RelativeError::*member) {
+    return r ? Json((*r).*member) : Json(nullptr);
+  };
+  return {{"ate_rmse_m", e.ate_rmse_m},
+          {"rpe_trans_percent", of(e.segments, &RelativeError::trans_percent)},
+          {"rpe_rot_deg_per_m", of(e.segments, &RelativeError::rot_deg_per_m)},
+          {"final_error_percent", or_null(e.final_error_percent)},
+          {"length_m", e.length_m},
+          {"duration_s", e.duration_s},
+          {"final_error_m", e.final_error_m},
+          {"ate_percent", e.final_error_percent ? Json(100 * e.ate_rmse_m / e.length_m) : Json(nullptr)},
+          {"ate_max_m", e.ate_max_m},
+          {"ate_first_rmse_m", e.ate_first_rmse_m},
+          {"ate_se3_rmse_m", e.ate_se3_rmse_m},
+          {"step_trans_percent", of(e.steps, &RelativeError::trans_percent)},
+          {"step_rot_deg_per_m", of(e.steps, &RelativeError::rot_deg_per_m)},
+          {"segments", e.segments ? Json(e.segments->segments) : Json(0)},
+          {"matched", e.matched},
+          {"unmatched", e.unmatched}};
+}
+
+Json to_json(const MapSummary& map) {
+  return {{"resolution_m", map.resolution_m},
+          {"occupied", map.occupied},
+          {"free", map.free},
+          {"labelled", map.labelled},
+          {"nodes", map.nodes},
+          {"leaves", map.leaves},
+          {"memory_bytes", map.memory_bytes},
+          {"known_volume_m3", map.known_volume_m3()},
+          {"min_m", numbers(map.min_m)},
+          {"max_m", numbers(map.max_m)},
+          {"mean_entropy_occupancy", or_null(map.mean_entropy_occupancy)},
+          {"mean_entropy_book", or_null(map.mean_entropy_book)},
+          {"mean_entropy_known", or_null(map.mean_entropy_known)}};
+}
+
+Json to_json(const MapComparison& c) {
+  return {{"same", c.same},
+          {"disagreeing", c.disagreeing},
+          {"only_a", c.only_a},
+          {"only_b", c.only_b},
+          {"iou_occupied", or_null(c.iou_occupied())},
+          {"occupied_a", c.occupied_a},
+          {"occupied_b", c.occupied_b},
+          {"occupied_both", c.occupied_both},
+          {"free_a", c.free_a},
+          {"free_b", c.free_b},
+          {"differing_log_odds", c.differing_log_odds}};
+}
+
+Json to_json(const MapError& e) {
+  return {{"accuracy_mean_m", e.mean_m},
+          {"accuracy_rmse_m", e.rmse_m},
+          {"precision", or_null(e.precision())},
+          {"recall", or_null(e.recall())},
+          {"occupied", e.occupied},
+          {"correct", e.correct},
+          {"true_occupied", e.true_occupied},
+          {"found", e.found},
+          {"contradicted", e.contradicted},
+          {"unseen", e.unseen}};
+}
+
+Json to_json(const RunReport& report) {
+  return {{"robot", report.robot},
+          {"profile", report.profile},
+          {"source", report.source},
+          {"version", report.version},
+          {"started", report.started},
+          {"distance_m", report.distance_m},
+          {"duration_s", report.duration_s},
+          {"scans", report.scans},
+          {"lost_packets", report.lost_packets},
+          {"stages", stages_json(report.monitor)},
+          {"ticks",
+           {{"count", report.ticks.count},
+            {"missed", report.ticks.missed},
+            {"max_lateness_us", 1e-3 * static_cast<double>(report.ticks.max_lateness.count())}}},
+          {"tasks", tasks_json(report)},
+          {"mode", report.mode},
+          {"mode_cause", report.mode_cause},
+          {"shed", shed_json(report)},
+          {"odometry",
+           {{"degenerate_scans", report.odometry.degenerate_scans},
+            {"lost_scans", report.odometry.lost_scans},
+            {"mean_iterations", report.odometry.mean_iterations}}},
+          {"ground_truth", ground_truth_json(report)},
+          {"map", map_json(report)},
+          {"memory", {{"peak_rss_mb", report.peak_rss_mb}}},
+          {"allocations", {{"control_thread", report.control_thread_allocations}}},
+          {"peers", peers_json(report)},
+          {"team", team_json(report)},
+          {"events", events_json(report)},
+          {"dropped_events", report.monitor != nullptr ? report.monitor->dropped_events() : 0},
+          {"output_sha256", report.output_sha256}};
+}
+
+std::string to_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
+
+}  // namespace cairn

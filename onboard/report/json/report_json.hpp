@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "onboard/report/figures/map_error.hpp"
+#include "onboard/report/figures/run_report.hpp"
+
+namespace cairn {
+
+/// Objects with their members in the order they are written down, so that a report reads from general to particular.
+using Json = nlohmann::ordered_json;
+
+/// Field names are fixed (interface.md): scripts rely on them. What is not known is null.
+[[nodiscard]] Json to_json(const TrajectoryError& error);
+[[nodiscard]] Json to_json(const MapSummary& map);
+[[nodiscard]] Json to_json(const MapComparison& comparison);
+[[nodiscard]] Json to_json(const MapError& error);
+/// The content of report.json.
+[[nodiscard]] Json to_json(const RunReport& report);
+
+/// Text of a JSON value. Bytes that are not UTF-8 are replaced: file names and messages may hold any.
+[[nodiscard]] std::string to_text(const Json& json);
+
+}  // namespace cairn

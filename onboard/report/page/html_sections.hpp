@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "onboard/report/figures/pose_error.hpp"
+#include "onboard/report/figures/run_report.hpp"
+
+namespace cairn::html {
+
+/// What more than one section needs.
+struct Figures {
+  std::optional<TrajectoryError> error;  ///< none without ground truth
+  std::vector<PoseError> pose_errors;
+};
+
+// Each gives one part of the page, or nothing where there is nothing to show.
+[[nodiscard]] std::string header(const RunReport& report);
+[[nodiscard]] std::string tiles(const RunReport& report, const Figures& figures);
+/// What an operator should look at first: overruns, losses, claims that do not hold.
+[[nodiscard]] std::string notes(const RunReport& report, const Figures& figures);
+[[nodiscard]] std::string map_section(const RunReport& report, const std::string& svg);
+[[nodiscard]] std::string accuracy_section(const RunReport& report, const Figures& figures);
+[[nodiscard]] std::string timing_section(const RunReport& report);
+[[nodiscard]] std::string schedule_section(const RunReport& report);
+[[nodiscard]] std::string events_section(const RunReport& report);
+[[nodiscard]] std::string peers_section(const RunReport& report);
+[[nodiscard]] std::string details_section(const RunReport& report);
+
+}  // namespace cairn::html

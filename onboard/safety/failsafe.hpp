@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "hal/drive.hpp"
+#include "hal/time.hpp"
+#include "onboard/safety/failsafe_config.hpp"
+#include "onboard/safety/failsafe_state.hpp"
+
+namespace cairn {
+
+/// What the failsafe watches for silence.
+enum class Watched : std::uint8_t { kLidar, kCamera, kThermal, kDepth, kFeedback };
+inline constexpr std::size_t kWatched = 5;
+
+/// The last good piece of a source: a scan of half a turn at least, a picture, a set of wheel readings.
+struct Seen {
+  Time last{};
+  std::uint64_t count = 0;  ///< of good pieces so far
+};
+
+/// The e-stop as drivers/gpio's EStop shows it.
+struct EStopView {
+  bool released = false;  ///< EStop::released(): the contact is closed now
+  bool lost = false;      ///< its level cannot be read, or is too old
+  bool latched = true;    ///< EStop::stopped()
+};
+
+/// What the robot carries; what it does not cannot fail.
+struct Fitted {
+  std::array<bool, kWatched> watched{};
+  bool drive = false, estop = false;
+};
+
+struct FailsafeInputs {
+  Time now{};
+  std::array<Seen, kWatched> seen{};
+  FaultSet faults;    ///< found elsewhere and active now: any but those that follow from what is below and above
+  DriveStatus drive;  ///< where one is fitted
+  EStopView estop;    ///< likewise
+  std::optional<std::uint32_t> rearm;  ///< the operator's request, with FailsafeDecision::epoch as he saw it
+};
+
+struct FailsafeDecision {
+  Mode mode = Mode::kStop;
+  std::optional<Fault>
+      cause;                 ///< of the mode; of a stop: the one that began it; none: normal, never armed, or asked for
+  FaultSet active;           ///< everything that is wrong now
+  FaultSet raised, ended;    ///< since the step before: one event each
+  double max_speed_m_s = 0;  ///< infinite in normal mode
+  std::uint32_t epoch = 0;   ///< to be given with the next re-arm request
+  /// For one step: the request is granted; arm e-stop and drive now. Motion is allowed from the first step on in which
+  /// neither is latched; when one refuses, the robot stays stopped.
+  bool arm = false;
+};
+
+/// Decides what the robot may do: one pure state machine for the whole robot, stepped by the safety task. No clock, no
+/// memory, no device; a step takes bounded time. It is never the only path: drive::Guard, gpio::EStop and the motor
+/// controllers' watchdogs stop by themselves.
+class Failsafe {
+ public:
+  /// A robot with a drive starts stopped, as if never armed.
+  Failsafe(const FailsafeConfig& config, const Fitted& fitted);
+
+  const FailsafeDecision& step(const FailsafeInputs& in);
+  [[nodiscard]] const FailsafeDecision& decision() const { return decision_; }
+  [[nodiscard]] const FaultPolicy& policy() const { return policy_; }
+
+ private:
+  struct Limits {
+    Duration late = Duration::max(), lost = Duration::max();
+    std::optional<Fault> when_late, when_lost;
+    std::uint64_t recover = 1;
+  };
+  struct Watch {
+    FaultSet active;
+    std::uint64_t count = 0;          ///< of the newest piece
+    std::uint64_t missing_count = 0;  ///< when the source was last found missing
+    Time at{};                        ///< of the newest piece, or of the first step
+  };
+  [[nodiscard]] FaultSet missing(const FailsafeInputs& in);
+  FaultSet watch(const Limits& limits, const Seen& seen, Watch& watch) const;
+  [[nodiscard]] FaultSet of_guards(const FailsafeInputs& in) const;
+  [[nodiscard]] FaultSet latched_guards(const FailsafeInputs& in) const;
+  void decide(FaultSet active, FaultSet latched);
+
+  Fitted fitted_;
+  FaultPolicy policy_;
+  std::array<Limits, kWatched> limits_;
+  std::array<Watch, kWatched> watch_{};
+  double degraded_speed_m_s_;
+  Latch latch_;
+  bool started_ = false;
+  Time now_{};
+  FailsafeDecision decision_;
+};
+
+/// What a drive's own status says, in the codes of the fault table; none for kNone, and for stops that are nobody's
+/// fault (never armed, requested).
+[[nodiscard]] std::optional<Fault> fault_of(DriveCause cause);
+
+/// The command as the mode allows it: slower on the same curve, or zero.
+[[nodiscard]] DriveCommand limited(const DriveCommand& command, const FailsafeDecision& decision);
+
+}  // namespace cairn

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "hal/config/config.hpp"
+#include "onboard/safety/fault.hpp"
+
+namespace cairn {
+
+/// Section `failsafe` of a robot profile: after how long a source counts as missing, and what each fault leads to.
+/// Both may be made stricter than the defaults say is safe, never milder: the bounds are part of the declaration.
+struct FailsafeConfig {
+  FailsafeConfig();
+
+  double lidar_late_ms = 150;      ///< a scan and a half at 10 Hz
+  double lidar_silent_ms = 500;    ///< five scans
+  int lidar_recover_scans = 2;     ///< good scans in a row that end lidar_late and lidar_silent
+  double camera_silent_ms = 200;   ///< three frames at 15 Hz
+  double thermal_silent_ms = 334;  ///< three frames at 9 Hz
+  double depth_silent_ms = 200;
+  double feedback_late_ms = 100;  ///< as drive::Guard, which decides by itself as well
+  double feedback_lost_ms = 250;
+  double degraded_speed_m_s = 0.5;  ///< cap in Mode::kDegraded
+
+  std::array<std::string, kFaults> action;  ///< by Fault: normal, degraded, hold or stop
+
+  /// What the fault leads to. An action that is no mode, or milder than is safe, counts as the safe one.
+  [[nodiscard]] Mode mode(Fault fault) const;
+};
+
+void declare(config::Section& section, FailsafeConfig& config);
+/// Faults between keys, all in one Error.
+[[nodiscard]] Result<void> check(const FailsafeConfig& config);
+
+}  // namespace cairn

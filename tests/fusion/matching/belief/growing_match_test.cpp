@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/matching/belief/growing_match.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "fusion/matching/default_matcher.hpp"
+#include "tests/support/map_pairs.hpp"
+
+namespace cairn::matching {
+namespace {
+
+/// Two robots' maps at several times: each robot has gone further along its stretch.
+struct Growth {
+  explicit Growth(support::Scene s) : scene(std::move(s)) {}
+  support::Scene scene;
+  GrowingMatch match{};
+  SE3 T_a_b{};
+
+  void look(const support::Stretch& a, const support::Stretch& b) {
+    const auto pair = support::two_robots(scene, a, b, 3, 2.0, 0.1, 8);
+    T_a_b = pair.T_a_b;
+    const auto of_a = MapFeatures::build(*pair.a), of_b = MapFeatures::build(*pair.b);
+    ASSERT_TRUE(of_a && of_b);
+    Budget budget = Budget::steps(kAmpleSteps);
+    match.update(*of_a, *of_b, budget);
+  }
+  [[nodiscard]] double off(const Hypothesis& h) const {
+    return (h.T_a_b.mean.inverse() * T_a_b).log().head<3>().norm();
+  }
+};
+
+TEST(GrowingMatch, MergesInTheLobbyAndNotAtOnce) {
+  Growth lobby(support::lobby());
+  int looks = 0;
+  for (const double to : {1.4, 1.8, 2.2, 2.6, 3.0}) {
+    lobby.look({0, to, 4 + 4 * (looks + 1)}, {0.5, 0.5 + to, 4 + 4 * (looks + 1)});
+    if (++looks == 1) {
+      EXPECT_EQ(lobby.match.hypotheses().accepted(), nullptr);
+    }
+  }
+  ASSERT_NE(lobby.match.hypotheses().accepted(), nullptr) << lobby.match.hypotheses().all()[0].reason;
+  EXPECT_LT(lobby.off(*lobby.match.hypotheses().accepted()), 0.05);
+}
+
+TEST(GrowingMatch, AbstainsInACorridorWithoutEnds) {
+  Growth corridor(support::endless_corridor());
+  for (const double to : {0.3, 0.6, 0.9}) {
+    corridor.look({0, to, 4}, {0.1, 0.1 + to, 4});
+    EXPECT_EQ(corridor.match.hypotheses().accepted(), nullptr);
+  }
+}
+
+/// The same voxels, seen by a robot that leans to its left.
+SemanticOcTree leaning(const SemanticOcTree& map, double rad) {
+  SemanticOcTree turned(map.getResolution());
+  const Eigen::AngleAxisf turn(static_cast<float>(rad), Eigen::Vector3f::UnitX());
+  const auto voxels = occupied_voxels(map);
+  for (const Voxel& v : voxels.value()) {
+    const Eigen::Vector3f p = turn * v.centre;
+    turned.setNodeValue(octomap::point3d(p.x(), p.y(), p.z()), 2.0F, true);
+  }
+  turned.canonicalise();
+  return turned;
+}
+
+TEST(DefaultMatcher, ASearchWithoutAGuessFindsNoPoseThatLeans) {
+  const auto pair = support::two_robots(support::lobby(), {0, 2, 8}, {0.5, 2.5, 8}, 3, 2.0, 0.1, 8);
+  const auto a = MapFeatures::build(*pair.a);
+  ASSERT_TRUE(a);
+  for (const double rad : {0.0, 0.2}) {
+    const SemanticOcTree map_b = leaning(*pair.b, rad);
+    const auto b = MapFeatures::build(map_b);
+    ASSERT_TRUE(b);
+    Budget budget = Budget::steps(kAmpleSteps);
+    const auto looks = DefaultMatcher(*a, *b).look_around({}, {}, 8, budget);
+    EXPECT_TRUE(rad > 0 || !looks.empty());
+    for (const Look& look : looks) EXPECT_LT(std::acos(look.T_a_b.mean.rotation()(2, 2)), 0.121) << rad;
+  }
+}
+
+/// Two rooms alike, door to door with a hall whose far end alone says which side is which.
+support::Scene twin_rooms() {
+  support::Scene s{"twins", {}, {}};
+  s.world.box({0, 0, 0}, {24, 6, 3});
+  for (const double x : {0.0, 12.0}) {
+    s.world.box({x + 11.9, 0, 0}, {x + 12.1, 2.2, 3}).box({x + 11.9, 3.8, 0}, {x + 12.1, 6, 3});
+    s.world.box({x + 2, 0, 0}, {x + 4, 0.8, 1}).box({x + 7, 4.8, 0}, {x + 8, 6, 2});
+  }
+  s.ride.curve = [](double phi) { return Eigen::Vector2d(2 + 4 * phi, 3); };
+  return s;
+}
+
+TEST(GrowingMatch, TwoRoomsAlikeAreNotTakenForEachOther) {
+  Growth twins(twin_rooms());
+  for (const double to : {1.0, 1.6}) {  // a has seen both rooms, b is in the second one
+    twins.look({0, 4.8, 20}, {3.2, 3.2 + to, 8});
+    const Hypothesis* accepted = twins.match.hypotheses().accepted();
+    if (accepted != nullptr) {
+      EXPECT_LT(twins.off(*accepted), 0.3);
+    }
+  }
+}
+
+}  // namespace
+}  // namespace cairn::matching

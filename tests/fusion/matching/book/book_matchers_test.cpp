@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gtest/gtest.h>
+
+#include "fusion/matching/book/em.hpp"
+#include "fusion/matching/book/methods.hpp"
+#include "fusion/matching/book/oicp.hpp"
+#include "fusion/matching/book/pmm.hpp"
+#include "tests/fusion/matching/featured_pair.hpp"
+
+namespace cairn::matching {
+namespace {
+
+class BookMatchers : public testing::TestWithParam<std::string_view> {
+ protected:
+  static const FeaturedPair& corridor() {
+    static const FeaturedPair made(
+        support::two_robots(support::corridor(), {0, 1.6, 10}, {0.6, 2.2, 10}, 3, 0.75, 0.2));
+    return made;
+  }
+  [[nodiscard]] double error(const SE3& T) const { return (T.inverse() * pair.T_a_b).translation().norm(); }
+  const support::MapPair& pair = corridor().pair;
+  const MapFeatures &a = corridor().a, &b = corridor().b;
+};
+
+TEST_P(BookMatchers, ComesNearerFromNearby) {
+  const auto matcher = make_any_matcher(GetParam(), a, b);
+  ASSERT_TRUE(matcher);
+  const SE3 start = pair.T_a_b * SE3::from_xyz_rpy((Vector6() << 0.15, -0.25, 0.05, 0, 0, 0.04).finished());
+  Budget budget = Budget::steps(kAmpleSteps), again = Budget::steps(kAmpleSteps);
+  const UncertainPose initial{start, default_prior_covariance()};
+  const auto r = (*matcher)->match(initial, budget);
+  ASSERT_TRUE(r);
+  EXPECT_LT(error(r->T_a_b.mean), 0.85 * error(start));
+  EXPECT_GT(r->overlap, 0.3);
+  EXPECT_GT(r->iterations, 1);
+  EXPECT_EQ((*matcher)->match(initial, again)->T_a_b.mean.matrix(), r->T_a_b.mean.matrix());
+}
+
+TEST_P(BookMatchers, OneStepIsAResult) {
+  const auto matcher = make_any_matcher(GetParam(), a, b);
+  Budget budget = Budget::steps(1);
+  const auto r = (*matcher)->match(UncertainPose{pair.T_a_b, default_prior_covariance()}, budget);
+  ASSERT_TRUE(r);
+  EXPECT_EQ(r->iterations, 1);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, BookMatchers, testing::Values("oicp", "pmm", "em", "icp", "p2plane"),
+                         [](const auto& p) { return std::string(p.param); });
+
+TEST(Em, PairsFallAsTheSparseMapFills) {
+  const support::Scene scene = support::corridor();
+  const auto dense = support::two_robots(scene, {0, 3, 20}, {0, 3, 20}, 1, 0.75, 0.2);
+  double before = 1e9;
+  for (const int scans : {1, 4, 20}) {
+    const auto sparse = support::two_robots(scene, {0, 3, scans}, {0, 3, scans}, 5, 0.75, 0.2);
+    const auto a = MapFeatures::build(*dense.a), b = MapFeatures::build(*sparse.b);
+    ASSERT_TRUE(a && b);
+    const double pairs = Em(*a, *b).mean_correspondences();
+    EXPECT_GE(pairs, 1);
+    EXPECT_LE(pairs, before);
+    before = pairs;
+  }
+}
+
+TEST(Em, APriorOutweighsMapsThatDoNotHoldOneDirection) {
+  const support::Scene scene = support::endless_corridor();
+  const auto pair = support::two_robots(scene, {0, 0.4, 4}, {0.1, 0.5, 4}, 1, 0.7, 0.2);
+  const auto a = MapFeatures::build(*pair.a), b = MapFeatures::build(*pair.b);
+  ASSERT_TRUE(a && b);
+  UncertainPose prior{pair.T_a_b, 1e-6 * Matrix6::Identity()};
+  Budget budget = Budget::steps(kAmpleSteps);
+  const auto r = Em(*a, *b).match(prior, budget);
+  ASSERT_TRUE(r);
+  EXPECT_LT((r->T_a_b.mean.inverse() * pair.T_a_b).translation().norm(), 0.05);
+}
+
+}  // namespace
+}  // namespace cairn::matching

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/matching/evidence/evidence.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+#include "fusion/matching/evidence/acceptance.hpp"
+#include "fusion/matching/evidence/judge.hpp"
+#include "fusion/matching/evidence/match_covariance.hpp"
+#include "fusion/matching/features/map_features.hpp"
+#include "fusion/matching/matcher.hpp"
+#include "tests/support/map_pairs.hpp"
+
+namespace cairn::matching {
+namespace {
+
+struct Pair {
+  explicit Pair(const support::Scene& scene, const support::Stretch& of_a, const support::Stretch& of_b)
+      : maps(support::two_robots(scene, of_a, of_b, 5)),
+        features_a(*MapFeatures::build(*maps.a)),
+        features_b(*MapFeatures::build(*maps.b)),
+        a(party_of(features_a)),
+        b(party_of(features_b)),
+        nearest(features_a.fine(), 0.2F, 0.8F),
+        nearest_b(features_b.fine(), 0.2F, 0.8F) {}
+  [[nodiscard]] Evidence weigh(const SE3& T_a_b) const { return matching::weigh({a, nearest}, {b, nearest_b}, T_a_b); }
+  support::MapPair maps;
+  MapFeatures features_a, features_b;
+  Party a, b;
+  NearestGrid nearest, nearest_b;
+};
+
+SE3 moved(const SE3& T, double x, double y, double yaw) {
+  return T * SE3::from_xyz_rpy((Vector6() << x, y, 0, 0, 0, yaw).finished());
+}
+
+TEST(Evidence, TheTruthAgreesAndOtherPosesContradict) {
+  const Pair p(support::lobby(), {0, 2.5, 12}, {1.2, 3.6, 12});
+  const Evidence truth = p.weigh(p.maps.T_a_b);
+  EXPECT_GT(truth.structure_inliers, 0.8);
+  EXPECT_LT(truth.conflict + truth.reverse_conflict, 0.05);
+  EXPECT_GT(truth.overlap, 0.3);
+  EXPECT_GT(truth.weakest_translation, 0.05);
+  const double best = score(p.a, p.nearest, p.b, p.maps.T_a_b);
+  for (const auto& [x, y, yaw] : {std::array{3.0, 0.0, 0.0}, {0.0, 2.0, 0.0}, {0.0, 0.0, 0.3}, {-5.0, 4.0, 1.5}}) {
+    const SE3 wrong = moved(p.maps.T_a_b, x, y, yaw);
+    EXPECT_LT(score(p.a, p.nearest, p.b, wrong), best - 0.2);
+    const Evidence e = p.weigh(wrong);
+    EXPECT_GT(e.conflict + e.reverse_conflict, truth.conflict + truth.reverse_conflict);
+    EXPECT_FALSE(decide(e).accepted);
+  }
+}
+
+TEST(Evidence, ConflictIsSeenFromBothMaps) {
+  const Pair p(support::lobby(), {0, 2.5, 12}, {1.2, 3.6, 12});
+  const SE3 wrong = moved(p.maps.T_a_b, 0.4, 0.3, 0);
+  const Evidence a = p.weigh(wrong), b = matching::weigh({p.b, p.nearest_b}, {p.a, p.nearest}, wrong.inverse());
+  EXPECT_GT(a.reverse_conflict, a.conflict) << "what is beside its partner counts on that side";
+  EXPECT_GE(a.reverse_conflict, b.conflict);
+  EXPECT_GE(b.reverse_conflict, a.conflict);
+}
+
+TEST(Evidence, NothingInCommonIsNoEvidence) {
+  const Pair p(support::corridor(), {0, 1, 4}, {0, 1, 4});
+  const Evidence e = p.weigh(moved(p.maps.T_a_b, 500, 0, 0));
+  EXPECT_EQ(e.overlap, 0);
+  EXPECT_EQ(e.inlier_ratio, 0);
+  EXPECT_EQ(e.structure_pairs, 0);
+  EXPECT_FALSE(decide(e).accepted);
+}
+
+TEST(Covariance, IsLargeWhereNothingHolds) {
+  const Pair p(support::endless_corridor(), {0, 0.5, 6}, {0.1, 0.6, 6});
+  const Matrix6 prior = default_prior_covariance();
+  const Matrix6 C = covariance(p.a, p.nearest, p.b, p.maps.T_a_b, prior);
+  // Along the corridor, which is the x axis of the world.
+  const SE3 T_b_world = SE3::from_xyz_rpy((Vector6() << 0, 0, 0, 0, 0, 2.0).finished()) *
+                        support::pose_on(support::endless_corridor().ride, 0.1).inverse();
+  const Eigen::Vector3d along = T_b_world.rotation().col(0), across = T_b_world.rotation().col(1);
+  const Eigen::Matrix3d position = C.topLeftCorner<3, 3>();
+  EXPECT_GT(std::sqrt(along.dot(position * along)), 0.2);
+  EXPECT_LT(std::sqrt(across.dot(position * across)), 0.03);
+  EXPECT_LT(p.weigh(p.maps.T_a_b).weakest_translation, 0.02);
+  EXPECT_FALSE(decide(p.weigh(p.maps.T_a_b)).accepted);
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6>(C).eigenvalues()[0], 0);
+  EXPECT_GE(Eigen::SelfAdjointEigenSolver<Matrix6>(prior - C).eigenvalues()[0], -1e-9);  // never above the prior
+}
+
+TEST(BookThreshold, IsTheTableOfTheBook) {
+  EXPECT_EQ(book_threshold(0.1), 0.80);
+  EXPECT_NEAR(book_threshold(0.2), 0.80, 1e-12);
+  EXPECT_NEAR(book_threshold(0.4), 0.70, 1e-12);
+  EXPECT_NEAR(book_threshold(0.6), 0.60, 1e-12);
+  EXPECT_EQ(book_threshold(0.9), 0.60);
+}
+
+}  // namespace
+}  // namespace cairn::matching

@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/matching/features/nearest_grid.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <random>
+
+namespace cairn::matching {
+namespace {
+
+std::vector<Surfel> random_surfels(int n, float extent) {
+  std::mt19937 random(3);
+  std::uniform_real_distribution<float> at(-extent, extent);
+  std::vector<Surfel> surfels(static_cast<std::size_t>(n));
+  for (Surfel& s : surfels) s.point = {at(random), at(random), at(random)};
+  return surfels;
+}
+
+TEST(NearestGrid, IsNearestUpToTheSizeOfACell) {
+  const float cell = 0.2F, gate = 0.6F;
+  const auto surfels = random_surfels(2000, 4);
+  const NearestGrid grid(surfels, cell, 1.2F);
+  const float slack = cell * std::sqrt(3.0F);
+  std::mt19937 random(4);
+  std::uniform_real_distribution<float> at(-5, 5);
+  int found = 0;
+  for (int i = 0; i < 5000; ++i) {
+    const Eigen::Vector3f q(at(random), at(random), at(random));
+    float nearest = std::numeric_limits<float>::infinity();
+    for (const Surfel& s : surfels) nearest = std::min(nearest, (s.point - q).norm());
+    const int k = grid.nearest(q, gate);
+    if (k == NearestGrid::kNone) {
+      EXPECT_GT(nearest + slack, gate);
+      continue;
+    }
+    ++found;
+    const float distance = (surfels[static_cast<std::size_t>(k)].point - q).norm();
+    EXPECT_LT(distance, gate);
+    EXPECT_LE(distance, nearest + slack);
+  }
+  EXPECT_GT(found, 1000);
+}
+
+TEST(NearestGrid, AnyFloatIsSafeAndAnEmptyMapHasNoNeighbours) {
+  const auto surfels = random_surfels(10, 1);
+  const NearestGrid grid(surfels, 0.2F, 0.6F), empty({}, 0.2F, 0.6F);
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1e30F})
+    EXPECT_EQ(grid.nearest({0, bad, 0}, 0.5F), NearestGrid::kNone);
+  EXPECT_EQ(empty.nearest({0, 0, 0}, 0.5F), NearestGrid::kNone);
+}
+
+}  // namespace
+}  // namespace cairn::matching

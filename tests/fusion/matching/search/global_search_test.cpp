@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "fusion/matching/search/global_search.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "fusion/matching/evidence/judge.hpp"
+#include "fusion/matching/features/sample.hpp"
+#include "fusion/matching/matcher.hpp"
+#include "tests/support/map_pairs.hpp"
+
+namespace cairn::matching {
+namespace {
+
+class OfOffice : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    pair = new support::MapPair(support::two_robots(support::office(), {0, 2.2, 14}, {1.0, 3.2, 14}, 3, -2.4));
+    a = new Party(party_of(*MapFeatures::build(*pair->a)));
+    b = new Party(party_of(*MapFeatures::build(*pair->b)));
+  }
+  static void TearDownTestSuite() {
+    delete b;
+    delete a;
+    delete pair;
+  }
+  /// Off from the truth at the middle of b's walls, m.
+  static double off(const SE3& T, const PlanView& of_b) {
+    const Eigen::Vector3d middle(of_b.middle().cast<double>().x(), of_b.middle().cast<double>().y(), 0);
+    return (T * middle - pair->T_a_b * middle).norm();
+  }
+  static support::MapPair* pair;
+  static Party *a, *b;
+};
+support::MapPair* OfOffice::pair = nullptr;
+Party* OfOffice::a = nullptr;
+Party* OfOffice::b = nullptr;
+
+TEST_F(OfOffice, TheTruthIsAmongTheFirstPlacements) {
+  const PlanView of_a(a->surfels, *pair->a), of_b(b->surfels, *pair->b);
+  Budget budget = Budget::steps(kAmpleSteps);
+  const auto placements = sweep(of_a, of_b, 400, budget);
+  ASSERT_GT(placements.size(), 20U);
+  EXPECT_LE(placements.size(), 400U);
+  const auto poses =
+      stand_up(std::span(placements).first(20), of_a, of_b, sample(std::span<const Surfel>(b->surfels), 600));
+  double least = 1e9;
+  for (const SE3& T : poses)
+    if (rotation_angle(T.inverse() * pair->T_a_b) < 0.08) least = std::min(least, off(T, of_b));
+  EXPECT_LT(least, 0.8);
+}
+
+TEST_F(OfOffice, EveryHeadingIsAStep) {
+  const PlanView of_a(a->surfels, *pair->a), of_b(b->surfels, *pair->b);
+  for (const int steps : {1, 5}) {
+    Budget budget = Budget::steps(steps);
+    const auto placements = sweep(of_a, of_b, 400, budget);
+    EXPECT_LE(budget.spent(), steps);
+    EXPECT_FALSE(placements.empty());
+  }
+}
+
+TEST_F(OfOffice, APlanKnowsWallsRoomAndHeights) {
+  const PlanView plan(a->surfels, *pair->a);
+  float walls = 0, room = 0, facing = 0;
+  for (const PlanView::Column& c : plan.columns()) {
+    walls += c.mass;
+    room += c.open;
+    facing += c.facing.norm();
+    EXPECT_LE(c.facing.norm(), c.mass * 1.001F);
+    EXPECT_LE(c.open, 1);
+  }
+  EXPECT_GT(walls, 50);
+  EXPECT_GT(room, walls);
+  EXPECT_GT(facing, 0.3F * walls);  // most walls were seen from one side
+  EXPECT_FALSE(plan.heights(a->structure.front().point.head<2>()).empty());
+  EXPECT_TRUE(plan.heights({1e30F, 0}).empty());
+  EXPECT_TRUE(plan.heights({std::numeric_limits<float>::quiet_NaN(), 0}).empty());
+}
+
+TEST(PlanView, OfNothingIsEmptyAndOfFarThingsBounded) {
+  const SemanticOcTree empty(0.1);
+  const PlanView none({}, empty);
+  EXPECT_TRUE(none.columns().empty());
+  std::vector<Surfel> far(2);
+  far[1].point = {6000, -6000, 0};
+  const PlanView wide(far, empty);
+  EXPECT_EQ(wide.columns().size(), 2U);
+  Budget budget = Budget::steps(3);
+  EXPECT_LE(sweep(wide, none, 10, budget).size(), 10U);
+}
+
+}  // namespace
+}  // namespace cairn::matching

@@ -1,9 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-// Any bytes are either an .ot map or an error.
-#include "tests/fuzz/map_fuzz.hpp"
-
-extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
-  const auto tree = cairn::decode_ot(cairn::as_bytes(data, size), cairn::kFuzzLimits);
-  if (tree) cairn::check_accepted(**tree);
-  return 0;
-}

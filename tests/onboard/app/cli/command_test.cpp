@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/cli/command.hpp"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+namespace cairn::cli {
+namespace {
+
+TEST(Command, AFileNameThatIsNotUtf8IsPrintedAsValidJson) {
+  testing::internal::CaptureStdout();
+  EXPECT_EQ(print({{"out", "/tmp/caf\xE9"}, {"n", 1}}), kDone);
+  const auto object = nlohmann::json::parse(testing::internal::GetCapturedStdout());
+  EXPECT_EQ(object["out"], "/tmp/caf\uFFFD");
+  EXPECT_EQ(object["n"], 1);
+}
+
+TEST(Command, OnlyAFaultyConfigurationCountsAsWrongArguments) {
+  testing::internal::CaptureStderr();
+  EXPECT_EQ(fail({Errc::kInvalidConfig, "no such key", "robot.yaml", {}, {}}), kWrongArguments);
+  EXPECT_EQ(fail({Errc::kIo, "cannot be read", "map.cairn", {}, {}}), kFailed);
+  const std::string text = testing::internal::GetCapturedStderr();
+  EXPECT_NE(text.find("robot.yaml"), std::string::npos);
+  EXPECT_NE(text.find("map.cairn"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cairn::cli

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/profile/robot_profile.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+
+#include "tests/support/temporary_folder.hpp"
+
+namespace cairn {
+namespace {
+
+TEST(RobotProfile, EveryProfileInConfigIsValid) {
+  int profiles = 0;
+  for (const auto& file : std::filesystem::directory_iterator(CAIRN_SOURCE_DIR "/config")) {
+    if (file.path().extension() != ".yaml") continue;
+    const auto profile = load_profile(file.path());
+    EXPECT_TRUE(profile) << to_string(profile.error());
+    ++profiles;
+  }
+  EXPECT_GT(profiles, 0);
+}
+
+TEST(RobotProfile, TheWrittenProfileReadsBackAsItself) {
+  RobotProfile profile;
+  profile.name = "x";
+  profile.lidar.base_xyz_rpy = {0.1, 0.2, 0.3, 0.4, 0.5, 0.6};
+  profile.mapping.resolution_m = 0.2;
+  const std::string yaml = to_yaml(profile);
+  RobotProfile again;
+  config::Section section;
+  declare(section, again);
+  ASSERT_TRUE(config::parse(yaml, "written", section)) << yaml;
+  EXPECT_EQ(to_yaml(again), yaml);
+  EXPECT_NEAR((again.robot().T_base_lidar.translation() - Eigen::Vector3d(0.1, 0.2, 0.3)).norm(), 0, 1e-15);
+}
+
+Result<RobotProfile> loaded(const std::string& yaml) {
+  const support::TemporaryFolder folder;
+  std::ofstream(folder / "robot.yaml") << yaml;
+  return load_profile(folder / "robot.yaml");
+}
+
+TEST(RobotProfile, ADeploymentIsAPoseWithItsUncertainty) {
+  EXPECT_FALSE(loaded("team: {id: 1}")->team.deployment.T_site_odom());
+  const auto profile = loaded("team: {id: 1, deployment: {x_m: 3, yaw_deg: 90, sigma_m: 0.5, sigma_deg: 10}}");
+  ASSERT_TRUE(profile) << to_string(profile.error());
+  const auto T_site_odom = profile->team.deployment.T_site_odom();
+  ASSERT_TRUE(T_site_odom);
+  EXPECT_NEAR((T_site_odom->mean * Eigen::Vector3d(1, 0, 0) - Eigen::Vector3d(3, 1, 0)).norm(), 0, 1e-12);
+  EXPECT_NEAR(T_site_odom->covariance(0, 0), 0.25, 1e-12);
+  EXPECT_NEAR(std::sqrt(T_site_odom->covariance(5, 5)), 0.1745, 1e-4);
+  EXPECT_LT(T_site_odom->covariance(3, 3), T_site_odom->covariance(5, 5));
+}
+
+TEST(RobotProfile, ADeploymentThatSaysTooLittleIsRefused) {
+  for (const char* yaml :
+       {"team: {id: 1, deployment: {x_m: 3}}", "team: {deployment: {x_m: 3, sigma_m: 1}}",
+        "team: {id: 1, deployment: {sigma_m: 0.0001}}", "team: {id: 1, deployment: {sigma_m: -1}}"}) {
+    const auto profile = loaded(yaml);
+    ASSERT_FALSE(profile) << yaml;
+    EXPECT_EQ(profile.error().code, Errc::kInvalidConfig);
+    EXPECT_NE(to_string(profile.error()).find("robot.yaml"), std::string::npos);
+    EXPECT_NE(to_string(profile.error()).find("deployment"), std::string::npos) << to_string(profile.error());
+  }
+}
+
+TEST(RobotProfile, WithoutAFileTheDefaultsHold) {
+  const auto profile = load_profile({});
+  ASSERT_TRUE(profile);
+  EXPECT_EQ(to_yaml(*profile), to_yaml(RobotProfile{}));
+}
+
+}  // namespace
+}  // namespace cairn

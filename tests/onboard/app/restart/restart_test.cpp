@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/restart/restart.hpp"
+
+#include <gtest/gtest.h>
+
+#include "onboard/app/tasks/saving_task.hpp"
+#include "tests/onboard/mapping/random_maps.hpp"
+#include "tests/onboard/mapping/tree_compare.hpp"
+#include "tests/support/temporary_folder.hpp"
+
+namespace cairn {
+namespace {
+
+using namespace std::chrono_literals;
+
+Time at(double seconds) { return Time{from_seconds(seconds)}; }
+
+/// A saved map of epoch 3, of ten seconds into this boot.
+class RestartTest : public testing::Test {
+ protected:
+  RestartTest() {
+    state.epoch = 3;
+    state.boot = boot_id();
+    state.stamp = at(10);
+  }
+  void save() {
+    Generations generations(folder.path(), *monitor);
+    ASSERT_TRUE(generations.save(*random_map<SemanticOcTree>(1, 20), state));
+    ASSERT_TRUE(generations.save_state(state));
+    ASSERT_TRUE(generations.save_scans({state.epoch, {PlacedScan{state.stamp, {}, {{1, 2, 3}}}}}));
+  }
+  Before look(double now_s, double resolution_m = 0.1) {
+    Generations generations(folder.path(), *monitor);
+    return look_back(generations, RestartProfile{}, resolution_m, at(now_s), *monitor);
+  }
+  [[nodiscard]] std::string said() const {
+    return monitor->events().empty() ? std::string() : monitor->events().back().what;
+  }
+
+  support::TemporaryFolder folder;
+  std::unique_ptr<Monitor> monitor = std::make_unique<Monitor>();
+  SavedState state;
+};
+
+TEST_F(RestartTest, GoesOnInTheMapOfAMomentAgo) {
+  save();
+  const Before before = look(11);
+  ASSERT_TRUE(before.resumed);
+  EXPECT_EQ(before.epoch, 3U);
+  EXPECT_EQ(before.resumed->scans.size(), 1U);
+  EXPECT_EQ(said(), "");
+}
+
+TEST_F(RestartTest, AnEmptyFolderIsNoEvent) {
+  const Before before = look(11);
+  EXPECT_FALSE(before.resumed);
+  EXPECT_EQ(before.epoch, 0U);
+  EXPECT_EQ(said(), "");
+}
+
+TEST_F(RestartTest, BeginsAnewAndSaysWhy) {
+  save();
+  EXPECT_FALSE(look(10 + RestartProfile{}.within_s + 1).resumed);
+  EXPECT_NE(said().find("too old"), std::string::npos);
+  EXPECT_FALSE(look(9).resumed) << "from the future";
+  EXPECT_FALSE(look(11, 0.2).resumed);
+  EXPECT_NE(said().find("resolution"), std::string::npos);
+  state.boot = "another";
+  save();
+  const Before before = look(11);
+  EXPECT_FALSE(before.resumed);
+  EXPECT_EQ(before.epoch, 3U) << "the next map must not take its number";
+  EXPECT_NE(said().find("machine was started"), std::string::npos);
+}
+
+TEST_F(RestartTest, AMapWhosePoseIsOfANewerEpochIsNotGoneOnIn) {
+  save();
+  state.epoch = 4;
+  Generations generations(folder.path(), *monitor);
+  ASSERT_TRUE(generations.load({}));
+  ASSERT_TRUE(generations.save_state(state));
+  const Before before = look(11);
+  EXPECT_FALSE(before.resumed);
+  EXPECT_EQ(before.epoch, 4U);
+}
+
+TEST_F(RestartTest, WhatIsKeptWithARecordingIsFoundThere) {
+  save();
+  const Before before = look(11);
+  ASSERT_TRUE(before.resumed);
+  const support::TemporaryFolder recording;
+  EXPECT_FALSE(resumed_in_recording(recording.path(), *monitor));
+  ASSERT_TRUE(keep_with_recording(recording.path(), *before.resumed, *monitor));
+  const auto found = resumed_in_recording(recording.path(), *monitor);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(differing_nodes(*found->map, *before.resumed->map), 0U);
+  EXPECT_EQ(found->map_stamp, before.resumed->map_stamp);
+  EXPECT_EQ(found->state.stamp, before.resumed->state.stamp);
+  EXPECT_EQ(found->scans.front().points_base, before.resumed->scans.front().points_base);
+}
+
+LocatedScan located(int number, std::uint32_t epoch) {
+  LocatedScan scan;
+  scan.stamp = at(0.1 * number);
+  scan.epoch = epoch;
+  scan.T_odom_base.mean = SE3::from_xyz_rpy((Vector6() << 0.1 * number, 0, 0, 0, 0, 0).finished());
+  scan.points_base = {{1, 2, 3}, {1, 2, 3.001F}, {4, 5, 6}};
+  return scan;
+}
+
+/// Mapping and saving in turns, without threads.
+class SavingTest : public RestartTest {
+ protected:
+  void drive(int from, int to, std::uint32_t epoch, const SemanticOcTree& map) {
+    for (int i = from; i < to; ++i) {
+      copier.mapped(located(i, epoch));
+      for (int k = 0; k < 9; ++k) copier.idle(at(0.1 * i + 0.01 * k), map);
+      in.pose.publish({at(0.1 * i), located(i, epoch).T_odom_base, Vector6::Zero(), epoch});
+      task.save(at(0.1 * i));
+    }
+  }
+  ToSave in;
+  Generations generations{folder.path(), *monitor};
+  MapCopier copier{{}, 1s, {}, in};
+  SavingTask task{generations, in, 5, boot_id(), *monitor};
+};
+
+TEST_F(SavingTest, AfterADriveMapPoseAndScansAreThere) {
+  const auto map = random_map<SemanticOcTree>(2, 500);
+  drive(0, 35, 1, *map);
+  EXPECT_EQ(task.maps_saved(), 4U);
+  const Before before = look(3.5);
+  ASSERT_TRUE(before.resumed) << said();
+  EXPECT_EQ(before.epoch, 6U);
+  EXPECT_EQ(differing_nodes(*before.resumed->map, *map), 0U);
+  EXPECT_EQ(before.resumed->state.stamp, at(3.4));
+  EXPECT_GE(before.resumed->map_stamp, at(3.0));
+  // The first eight, and then one every 0.4 m; each thinned.
+  EXPECT_EQ(before.resumed->scans.size(), 8U + 5U);
+  EXPECT_EQ(before.resumed->scans.front().points_base.size(), 2U);
+}
+
+TEST_F(SavingTest, ANewEpochForgetsTheScansAndTheHalfCopyOfTheOld) {
+  const auto large = random_map<SemanticOcTree>(2, 200'000), small = random_map<SemanticOcTree>(3, 30);
+  copier.mapped(located(0, 1));
+  copier.idle(at(0), *large);
+  drive(1, 40, 2, *small);
+  const Before before = look(4);
+  ASSERT_TRUE(before.resumed) << said();
+  EXPECT_EQ(before.epoch, 7U);
+  EXPECT_EQ(differing_nodes(*before.resumed->map, *small), 0U);
+  EXPECT_EQ(before.resumed->scans.front().stamp, at(0.1));
+}
+
+TEST_F(SavingTest, AMapWithoutItsPoseFileHasAPoseOfItsOwn) {
+  const auto map = random_map<SemanticOcTree>(2, 50);
+  drive(2, 5, 1, *map);
+  std::filesystem::remove(folder / Generations::kStateFile);
+  const Before before = look(1);
+  ASSERT_TRUE(before.resumed) << said();
+  const SavedState& found = before.resumed->state;
+  EXPECT_GT(found.T_odom_base.mean.translation().x(), 0.1);
+  EXPECT_NEAR(found.T_odom_base.mean.translation().x(), to_seconds(found.stamp), 1e-9);
+}
+
+TEST_F(SavingTest, ALostScanMovesNothing) {
+  const auto map = random_map<SemanticOcTree>(2, 50);
+  drive(0, 5, 1, *map);
+  TrackPoint lost{at(0.6), {}, Vector6::Zero(), 1};
+  lost.lost = true;
+  in.pose.publish(lost);
+  task.save(at(0.6));
+  EXPECT_EQ(look(1).resumed->state.stamp, at(0.4));
+}
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/mapping/files/point_file.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <set>
+#include <string>
+#include <tuple>
+
+#include "tests/onboard/mapping/random_maps.hpp"
+
+namespace cairn {
+namespace {
+
+std::string text_of(std::span<const std::byte> bytes) {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
+TEST(OccupiedVoxelCentres, AreWhatSearchFinds) {
+  const auto tree = random_map<SemanticOcTree>(1, 2000);  // with a pruned occupied leaf
+  const auto points = occupied_voxel_centres(*tree);
+  ASSERT_TRUE(points);
+  std::set<std::tuple<int, int, int>> keys;
+  for (const Eigen::Vector3f& p : *points) {
+    const auto key = tree->coordToKey(octomap::point3d(p.x(), p.y(), p.z()));
+    EXPECT_TRUE(keys.insert({key[0], key[1], key[2]}).second) << "twice";
+    EXPECT_TRUE(tree->isNodeOccupied(tree->search(key)));
+    EXPECT_EQ(tree->keyToCoord(key), octomap::point3d(p.x(), p.y(), p.z())) << "not a centre";
+  }
+  SemanticOcTree expanded(*tree);
+  const auto pruned = tree->search(octomap::OcTreeKey(32768, 32768, 32768));
+  ASSERT_NE(pruned, nullptr);
+  std::size_t expected = 0;
+  for (auto leaf = tree->begin_leafs(); leaf != tree->end_leafs(); ++leaf)
+    if (tree->isNodeOccupied(*leaf)) expected += std::size_t{1} << (3 * (16 - leaf.getDepth()));
+  EXPECT_EQ(points->size(), expected);
+  EXPECT_GT(expected, 512U);
+}
+
+TEST(OccupiedVoxelCentres, AreBounded) {
+  EXPECT_EQ(occupied_voxel_centres(*random_map<SemanticOcTree>(1, 10), 100).error().code, Errc::kLimit);
+  EXPECT_TRUE(occupied_voxel_centres(SemanticOcTree(0.1))->empty());
+}
+
+TEST(PointFiles, CarryTheFloatsAfterAHeaderThatCountsThem) {
+  const std::vector<Eigen::Vector3f> points{{1, 2, 3}, {-4, 5.5F, 6}};
+  const std::string floats(reinterpret_cast<const char*>(points.data()), 24);
+  const std::string ply = text_of(encode_ply(points));
+  EXPECT_TRUE(ply.starts_with("ply\nformat binary_little_endian 1.0\n"));
+  EXPECT_NE(ply.find("\nelement vertex 2\n"), ply.npos);
+  EXPECT_TRUE(ply.ends_with("end_header\n" + floats));
+  const std::string pcd = text_of(encode_pcd(points));
+  EXPECT_NE(pcd.find("\nWIDTH 2\n"), pcd.npos);
+  EXPECT_NE(pcd.find("\nPOINTS 2\n"), pcd.npos);
+  EXPECT_TRUE(pcd.ends_with("DATA binary\n" + floats));
+}
+
+}  // namespace
+}  // namespace cairn

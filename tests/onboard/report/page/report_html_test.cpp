@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/report/page/report_html.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <set>
+
+#include "tests/onboard/report/sample_report.hpp"
+
+namespace cairn {
+namespace {
+
+using testing::HasSubstr;
+using testing::Not;
+
+/// Empty when every element is closed in the right order and every attribute's value is quoted.
+std::string structure_fault(const std::string& page) {
+  static const std::set<std::string> kVoid{"!doctype", "meta", "br"};
+  std::vector<std::string> open;
+  for (std::size_t at = page.find('<'); at != std::string::npos; at = page.find('<', at)) {
+    const std::size_t end = page.find('>', at);
+    if (end == std::string::npos) return "a tag does not end";
+    const std::string tag = page.substr(at + 1, end - at - 1);
+    const std::string name = tag.substr(0, tag.find_first_of(" \n"));
+    at = name == "style" ? page.find("</style", end) : end;
+    if (std::count(tag.begin(), tag.end(), '"') % 2 != 0) return "a quote is open in <" + tag;
+    if (tag.find('<') != std::string::npos) return "a tag within a tag: <" + tag;
+    if (name[0] == '/') {
+      if (open.empty() || open.back() != name.substr(1)) return "<" + tag + "> closes nothing";
+      open.pop_back();
+    } else if (tag.back() != '/' && kVoid.count(name) == 0) {
+      open.push_back(name);
+    }
+  }
+  return open.empty() ? "" : "<" + open.back() + "> stays open";
+}
+
+TEST(ReportHtml, IsOneWellFormedPageOfAllParts) {
+  const auto run = sample_run(200);
+  const std::string page = to_html(run->report).value();
+  EXPECT_EQ(structure_fault(page), "");
+  for (const char* part :
+       {"Worth a look", "data:image/png;base64,iVBORw0KGgo", "class=\"trajectory\"", "class=\"truth\"", "Accuracy",
+        "Timing", "class=\"bars\"", "Schedule", "hold: lidar_silent", "nothing 560, peer tiles 40", "Events and faults",
+        "3 packets lost", "Peers", "robot_3", "max_range_m", "9f86d081884c7d65"})
+    EXPECT_THAT(page, HasSubstr(part));
+}
+
+TEST(ReportHtml, LoadsNothingAndRunsNothing) {
+  const std::string page = to_html(sample_run(50)->report).value();
+  for (const char* foreign : {"http:", "https:", "//cdn", "<script", "<link", "@import", "url(", "<iframe", " onload"})
+    EXPECT_THAT(page, Not(HasSubstr(foreign)));
+  EXPECT_THAT(page, HasSubstr("default-src 'none'"));
+}
+
+TEST(ReportHtml, EscapesEveryTextFromOutside) {
+  const auto run = sample_run(50, 0.4, true);
+  const std::string page = to_html(run->report).value();
+  EXPECT_THAT(page, Not(HasSubstr("<script")));
+  EXPECT_THAT(page, Not(HasSubstr("alert(\"")));
+  EXPECT_EQ(page.find('\x01'), std::string::npos);
+  EXPECT_EQ(structure_fault(page), "");
+}
+
+TEST(ReportHtml, OfARunThatDidNothingIsStillAPage) {
+  const std::string page = to_html(RunReport{}).value();
+  EXPECT_EQ(structure_fault(page), "");
+  EXPECT_THAT(page, HasSubstr("Nothing to report"));
+  EXPECT_THAT(page, Not(HasSubstr("nan")));
+  EXPECT_THAT(page, Not(HasSubstr("Accuracy")));
+}
+
+TEST(ReportHtml, OfOnePoseOrALostTrajectoryIsStillAPage) {
+  auto run = sample_run(1);
+  EXPECT_EQ(structure_fault(to_html(run->report).value()), "");
+  run->report.trajectory[0].T_odom_base.mean = SE3(Eigen::Quaterniond::Identity(), {NAN, 0, 0});
+  EXPECT_EQ(structure_fault(to_html(run->report).value()), "");
+}
+
+/// The row of a task, tags left out.
+std::string row_of(const std::string& page, const std::string& task) {
+  const std::size_t begin = page.find("<tr><td class=\"l\">" + task + "</td>", page.find("<h2>Schedule"));
+  std::string text;
+  bool tag = false;
+  for (const char c : page.substr(begin, page.find("</tr>", begin) - begin)) {
+    if (c == '<') text += text.empty() || text.back() == ' ' ? "" : " ";
+    tag = c == '<' || (tag && c != '>');
+    if (!tag && c != '>') text += c;
+  }
+  return text;
+}
+
+TEST(ReportHtml, ShowsEveryTaskAgainstItsDeadline) {
+  RunReport report;
+  TaskFigures& task = report.tasks.emplace_back();
+  task.spec.name = "drive", task.spec.rate_hz = 500, task.spec.deadline_ms = 2;
+  for (int i = 0; i < 1000; ++i) task.stats.response.record(std::chrono::milliseconds(i == 999 ? 3 : 1));
+  task.stats.wake.record(std::chrono::microseconds(500));
+  task.stats.ticks = 1000, task.stats.misses = 1, task.stats.slips = 4, task.stats.soft_overruns = 5;
+  task.stats.hard_overruns = 6, task.stats.demotions = 7, task.stats.allocations = 8, task.stats.major_faults = 9;
+  task.stats.minor_faults = 10, task.stats.involuntary_switches = 11;
+  const std::string page = to_html(report).value();
+  EXPECT_THAT(row_of(page, "drive"),
+              testing::MatchesRegex(" ?drive 500 1.{1,8}000 1.0. 1.0. 1.0. 3.0. 2.00 0.50. 1 4 5 6 7 8 9 10 11 ?"));
+  EXPECT_THAT(page, HasSubstr("<td class=\"bad\">3.0")) << "above the deadline";
+  EXPECT_THAT(page, Not(HasSubstr("<td class=\"bad\">1.0")));
+}
+
+TEST(ReportHtml, PointsOutModeDemotionsAndWhatWasShed) {
+  RunReport report;
+  report.mode = "normal";
+  report.tasks.emplace_back().spec.name = "mapping";
+  report.shed = {{"nothing", 7}, {"peer tiles", 0}};
+  EXPECT_THAT(to_html(report).value(), HasSubstr("Nothing to report"));
+  report.mode = "stop", report.mode_cause = "estop_open";
+  report.tasks.back().stats.demotions = 2;
+  report.shed[1].second = 3;
+  const std::string page = to_html(report).value();
+  for (const char* note : {"ended in mode <b>stop</b>: estop_open", "<b>mapping</b> kept overrunning its hard budget",
+                           "demoted 2 times", "3 scans were mapped while work was shed"})
+    EXPECT_THAT(page, HasSubstr(note));
+}
+
+TEST(ReportHtml, InVirtualTimeTasksHaveNoResponse) {
+  RunReport report;
+  report.tasks.emplace_back().spec.name = "drive";
+  report.tasks.back().stats.ticks = 12;
+  const std::string page = to_html(report).value();
+  EXPECT_THAT(row_of(page, "drive"), HasSubstr("12 – – – –"));
+  EXPECT_THAT(page, HasSubstr("virtual time"));
+}
+
+TEST(ReportHtml, PointsOutClaimsThatDoNotHold) {
+  auto run = sample_run(300);
+  EXPECT_THAT(to_html(run->report).value(), Not(HasSubstr("claimed covariance is too small")));
+  for (PoseEstimate& p : run->report.trajectory) p.T_odom_base.covariance *= 1e-4;
+  EXPECT_THAT(to_html(run->report).value(), HasSubstr("claimed covariance is too small along x"));
+}
+
+TEST(ReportHtml, StaysSmallForALongRun) {
+  auto run = sample_run(600);
+  const std::size_t small = to_html(run->report)->size();
+  run->report.trajectory.clear();
+  run->report.ground_truth.clear();
+  sample::drive(run->report, 20'000, 6e-4);
+  EXPECT_LT(to_html(run->report)->size(), small + 600'000);
+}
+
+}  // namespace
+}  // namespace cairn

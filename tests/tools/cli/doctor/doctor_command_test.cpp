@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/doctor/doctor_command.hpp"
+
+#include <gmock/gmock.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "drivers/recording/formats/scan_file.hpp"
+#include "drivers/recording/recording_writer.hpp"
+#include "tests/support/sample_view.hpp"
+#include "tests/tools/cli/run_command.hpp"
+#include "tools/cli/doctor/peer.hpp"
+
+namespace cairn::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+Outcome doctor(std::vector<std::string> arguments) {
+  arguments.insert(arguments.begin(), "doctor");
+  return run(add_doctor_command, std::move(arguments));
+}
+
+void put(const fs::path& file, const std::string& text) {
+  fs::create_directories(file.parent_path());
+  std::ofstream(file) << text << '\n';
+}
+
+void put_can(const fs::path& root, const std::string& name, const std::string& state, int queue) {
+  const fs::path folder = root / "sys/class/net" / name;
+  put(folder / "type", "280");
+  put(folder / "operstate", state);
+  put(folder / "tx_queue_len", std::to_string(queue));
+}
+
+TEST(DoctorCommand, AnEmptyComputerHasNothingPluggedIn) {
+  const TemporaryFolder folder;
+  const Outcome o = doctor({"--root", folder / ""});
+  EXPECT_EQ(o.exit_code, kDone);
+  EXPECT_THAT(o.out, HasSubstr("ok: cameras: none plugged in"));
+  EXPECT_THAT(o.out, HasSubstr("ok: CAN: no interface"));
+  EXPECT_THAT(o.out, HasSubstr("ok: GPIO: no chip"));
+  EXPECT_THAT(o.out, HasSubstr("PREEMPT_RT"));
+}
+
+TEST(DoctorCommand, EveryFaultHasItsRemedy) {
+  const TemporaryFolder folder;
+  const fs::path root = folder / "";
+  put_can(root, "can0", "down", 10);
+  put_can(root, "can1", "up", 1000);
+  put_can(root, "can2", "up", 16);
+  put(root / "sys/class/net/eth0/type", "1");
+  put(root / "sys/class/video4linux/video3/name", "PureThermal (fw:v1.3.0)");
+  put(root / "sys/class/video4linux/video4/index", "1");
+  put(root / "sys/devices/system/cpu/cpu0/cpufreq/scaling_governor", "powersave");
+  put(root / "proc/sys/net/core/rmem_max", "212992");
+  const Outcome o = doctor({"--root", root.string()});
+  EXPECT_EQ(o.exit_code, kFailed);
+  EXPECT_THAT(o.out, HasSubstr("problem: can0: CAN interface, down → sudo ip link set can0 type can bitrate 500000"));
+  EXPECT_THAT(o.out, HasSubstr("note: can1"));
+  EXPECT_THAT(o.out, HasSubstr("sudo ip link set can1 txqueuelen 16"));
+  EXPECT_THAT(o.out, HasSubstr("ok: can2: CAN interface, up"));
+  EXPECT_THAT(o.out, Not(HasSubstr("eth0")));
+  EXPECT_THAT(o.out,
+              HasSubstr("problem: /dev/video3: PureThermal (fw:v1.3.0), which this user may not open → sudo cp"));
+  EXPECT_THAT(o.out, Not(HasSubstr("video4")));
+  EXPECT_THAT(o.out, HasSubstr("cpupower frequency-set -g performance"));
+  EXPECT_THAT(o.out, HasSubstr("net.core.rmem_max=4194304"));
+}
+
+TEST(DoctorCommand, DevicesOfAProfileAreOpenedAndListenedTo) {
+  const TemporaryFolder folder;
+  put(folder / "robot.yaml",
+      "lidar: {enabled: false}\ncamera: {capture: {device: /dev/nothing}}\ndrive: {interface: nocan7}");
+  const Outcome o = doctor({"--config", folder / "robot.yaml", "--root", folder / "", "--seconds", "0.01", "--json"});
+  EXPECT_EQ(o.exit_code, kFailed);
+  const auto json = o.json();
+  EXPECT_EQ(json["problems"], 2);
+  EXPECT_EQ(json["findings"][0]["level"], "ok");
+  EXPECT_THAT(json["findings"][1]["what"].get<std::string>(), HasSubstr("camera: /dev/nothing"));
+  EXPECT_THAT(json["findings"][2]["what"].get<std::string>(), HasSubstr("drive: "));
+  for (const std::size_t i : {1U, 2U}) EXPECT_NE(json["findings"][i]["remedy"], "");
+}
+
+TEST(DoctorCommand, AFaultyProfileIsAProblemWithItsLine) {
+  const TemporaryFolder folder;
+  put(folder / "robot.yaml", "camera: {captuer: 1}");
+  const Outcome o = doctor({"--config", folder / "robot.yaml", "--root", folder / ""});
+  EXPECT_EQ(o.exit_code, kFailed);
+  EXPECT_THAT(o.out, HasSubstr("robot.yaml:1: camera.captuer"));
+}
+
+TEST(DoctorCommand, DamageOfARecordingIsNamed) {
+  const TemporaryFolder folder;
+  recording::Recording r;
+  r.robot = "robot_1";
+  r.sources = {{"sweeps", "scans", "data.csv", "base_link", ""},
+               {"gpio", "gpio", "gpio.csv", "base_link", ""},
+               {"drive", "drive", "drive.log", "base_link", "cia402"}};
+  auto writer = recording::RecordingWriter::create(folder / "r", r).value();
+  Packet p;
+  PointCloud cloud;
+  cloud.push_back({1, 2, 3}, 10, 0, 0, ReturnType::kStrongest);
+  p.bytes = recording::encode_scan(cloud, true);
+  p.channel = 1;
+  ASSERT_TRUE(writer.write(p));
+  ASSERT_TRUE(writer.close());
+  std::ofstream(folder / "r/gpio.csv", std::ios::app) << "nonsense\n";
+  const Outcome o = doctor({"--recording", folder / "r"});
+  EXPECT_EQ(o.exit_code, kFailed);
+  EXPECT_THAT(o.out, HasSubstr("ok: sweeps: 1 packets, none lost"));
+  EXPECT_THAT(o.out, HasSubstr("problem: drive: the recording holds nothing of it"));
+  EXPECT_THAT(o.out, HasSubstr("gpio.csv"));
+  EXPECT_EQ(doctor({"--recording", folder / "nowhere"}).exit_code, kFailed);
+}
+
+TEST(DoctorCommand, SaysWhyAPeerHasNotMergedByWhatARunLeft) {
+  const TemporaryFolder folder;
+  put(folder / "report.json", R"json({"peers": {
+    "robot_2": {"accepted": true, "reason": "merged", "tiles": 12},
+    "robot_3": {"accepted": false, "reason": "another pose may be as good (overlap 0.86, 9 m²)", "tiles": 7},
+    "robot_4": 5}})json");
+  const Outcome all = doctor({"--peer", "all", "--run", folder / ""});
+  EXPECT_EQ(all.exit_code, kFailed);
+  EXPECT_THAT(all.out, HasSubstr("ok: robot_2: merged (12 tiles)"));
+  EXPECT_THAT(
+      all.out,
+      HasSubstr(
+          "problem: robot_3 is not merged: another pose may be as good (overlap 0.86, 9 m²) (7 tiles) → ambiguous"));
+  EXPECT_EQ(doctor({"--peer", "robot_2", "--run", folder / ""}).exit_code, kDone);
+  EXPECT_THAT(doctor({"--peer", "robot_9", "--run", folder / ""}).out, HasSubstr("robot_9: never heard of → start"));
+}
+
+TEST(DoctorCommand, ADeploymentThatTheMapsContradictIsNamed) {
+  const TemporaryFolder folder;
+  put(folder / "report.json", R"json({"peers": {
+    "robot_2": {"accepted": true, "reason": "merged; the deployments of the two contradict that by 3.6 m", "tiles": 12},
+    "robot_3": {"accepted": false, "reason": "dropped; the maps contradict the deployments of the two"}}})json");
+  const Outcome merged = doctor({"--peer", "robot_2", "--run", folder / ""});
+  EXPECT_EQ(merged.exit_code, kDone);
+  EXPECT_THAT(merged.out, HasSubstr("note: robot_2: merged; the deployments of the two contradict that by 3.6 m"));
+  EXPECT_THAT(merged.out, HasSubstr("team.deployment"));
+  EXPECT_THAT(doctor({"--peer", "robot_3", "--run", folder / ""}).out, HasSubstr("→ correct team.deployment"));
+}
+
+TEST(DoctorCommand, SaysWhereThereIsNothingToBeHeardOfAPeer) {
+  const TemporaryFolder folder;
+  EXPECT_THAT(doctor({"--peer", "x", "--live-view", folder / "no.sock"}).out, HasSubstr("no.sock"));
+  EXPECT_THAT(doctor({"--peer", "x", "--run", folder / "none"}).out, HasSubstr("report.json"));
+  put(folder / "report.json", "[1, 2");
+  EXPECT_THAT(doctor({"--peer", "x", "--run", folder / ""}).out, HasSubstr("not the report of a run"));
+  EXPECT_THAT(doctor({"--peer", "x", "--recording", folder / "none"}).out, HasSubstr("problem"));
+}
+
+TEST(DoctorCommand, AClockThatDiffersIsANote) {
+  const auto findings = judge_peers(support::sample_view().peers, "robot_3");
+  ASSERT_EQ(findings.size(), 2U);
+  EXPECT_THAT(findings[0].remedy, HasSubstr("radio"));
+  EXPECT_THAT(findings[1].what, HasSubstr("clock differs by -7.5 s"));
+}
+
+}  // namespace
+}  // namespace cairn::cli

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/doctor/doctor_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "onboard/report/json/report_json.hpp"
+#include "tools/cli/doctor/machine.hpp"
+#include "tools/cli/doctor/peer.hpp"
+#include "tools/cli/doctor/robot.hpp"
+
+namespace cairn::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using Level = Finding::Level;
+
+struct DoctorArguments {
+  fs::path config, recording, root = "/";
+  std::string peer;
+  fs::path run, live_view;
+  double seconds = 1;
+  bool json = false;
+};
+
+Findings examine(const DoctorArguments& options) {
+  if (!options.peer.empty()) return examine_peer({options.peer, options.recording, options.run, options.live_view});
+  Findings all;
+  const auto add = [&all](Findings more) { std::move(more.begin(), more.end(), std::back_inserter(all)); };
+  if (!options.recording.empty()) {
+    add(examine_recording(options.recording));
+    if (options.config.empty()) return all;
+  }
+  if (!options.config.empty()) add(examine_profile(options.config, from_seconds(options.seconds)));
+  add(examine_cameras(options.root));
+  add(examine_can(options.root));
+  add(examine_gpio(options.root));
+  add(examine_real_time(options.root));
+  return all;
+}
+
+const char* name_of(Level level) {
+  switch (level) {
+    case Level::kOk:
+      return "ok";
+    case Level::kNote:
+      return "note";
+    case Level::kProblem:
+      return "problem";
+  }
+  return "unknown";
+}
+
+void print_lines(const Findings& findings) {
+  for (const Finding& f : findings) {
+    std::cout << name_of(f.level) << ": " << f.what;
+    if (!f.remedy.empty()) std::cout << " → " << f.remedy;
+    std::cout << '\n';
+  }
+}
+
+Json to_json(const Findings& findings) {
+  Json list = Json::array();
+  for (const Finding& f : findings)
+    list.push_back({{"level", name_of(f.level)}, {"what", f.what}, {"remedy", f.remedy}});
+  return list;
+}
+
+int diagnose(const DoctorArguments& options) {
+  const Findings findings = examine(options);
+  const auto problems =
+      std::count_if(findings.begin(), findings.end(), [](const Finding& f) { return f.level == Level::kProblem; });
+  if (options.json)
+    print({{"problems", problems}, {"findings", to_json(findings)}});
+  else
+    print_lines(findings);
+  return problems == 0 ? kDone : kFailed;
+}
+
+}  // namespace
+
+void add_doctor_command(Commands& commands) {
+  auto* sub = commands.app.add_subcommand("doctor", "what is wrong, in one line each, and the remedy");
+  auto o = std::make_shared<DoctorArguments>();
+  sub->add_option("--config", o->config, "robot profile: opens each of its devices and listens to it");
+  sub->add_option("--recording", o->recording, "recording: looks for damage, losses and silence");
+  sub->add_option(
+      "--peer", o->peer,
+      "why this robot of the team (or all) has not merged: by the core that runs, or by --run or --recording");
+  sub->add_option("--run", o->run, "with --peer: the folder that a run left");
+  sub->add_option("--live-view", o->live_view, "with --peer: where the core serves its live view")
+      ->default_val("/run/cairn/live.sock");
+  sub->add_option("--seconds", o->seconds, "how long to listen to each device")->check(CLI::Range(0.01, 3600.0));
+  sub->add_option("--root", o->root, "another root with proc, sys and dev, such as a robot's mounted disk");
+  sub->add_flag("--json", o->json, "one JSON object on stdout");
+  sub->callback([&commands, o] { commands.job = [o] { return diagnose(*o); }; });
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/inspect/inspect_command.hpp"
+
+#include <CLI/CLI.hpp>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "tools/cli/inspect/inspect.hpp"
+
+namespace cairn::cli {
+namespace {
+
+struct InspectArguments {
+  InspectOptions inspect;
+  bool json = false;
+};
+
+int run(const InspectArguments& options) {
+  const auto found = inspect(options.inspect);
+  if (!found) return fail(found.error());
+  if (options.json) return print(*found);
+  std::cout << to_plain_text(*found);
+  return kDone;
+}
+
+}  // namespace
+
+void add_inspect_command(Commands& commands) {
+  auto* sub = commands.app.add_subcommand("inspect", "what is in a capture, recording, map, trajectory or point cloud");
+  auto o = std::make_shared<InspectArguments>();
+  sub->add_option("path", o->inspect.path, "file or folder")->required();
+  sub->add_option("--model", o->inspect.model, "sensor model, instead of what the packets or the recording say");
+  sub->add_option("--out", o->inspect.out, "write one scan as PCD: x y z intensity ring time return_type");
+  sub->add_option("--scan", o->inspect.scan, "which scan, counted from 0; default: the first complete one");
+  sub->add_flag("--json", o->json, "one JSON object on stdout");
+  sub->callback([&commands, o] { commands.job = [o] { return run(*o); }; });
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/map/evaluate_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "drivers/recording/formats/trajectory_file.hpp"
+#include "onboard/mapping/files/map_file.hpp"
+#include "onboard/report/figures/map_error.hpp"
+#include "onboard/report/figures/trajectory_error.hpp"
+#include "onboard/report/json/report_json.hpp"
+
+namespace cairn::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  fs::path estimate, truth;
+  std::string align = "se3";
+  double max_gap_s = to_seconds(TrajectoryErrorOptions{}.max_gap);
+  std::vector<double> pose;  // x y z roll pitch yaw of the map in the true map's frame
+  fs::path trajectory, true_trajectory;
+  double tolerance_m = 0;
+  bool json = false;
+};
+
+/// A folder stands for the file of that name in it.
+fs::path file_in(const fs::path& path, const char* name) {
+  std::error_code ignored;
+  return fs::is_directory(path, ignored) ? path / name : path;
+}
+
+Result<std::vector<StampedPose>> read_poses(const fs::path& path, const char* name) {
+  const fs::path file = file_in(path, name);
+  auto poses = recording::read_tum(file);
+  if (!poses) return at(file.string(), poses.error());
+  return poses;
+}
+
+int evaluate_trajectory(const Options& options) {
+  const auto estimate = read_poses(options.estimate, "trajectory.tum");
+  if (!estimate) return fail(estimate.error());
+  const auto truth = read_poses(options.truth, "ground_truth.tum");
+  if (!truth) return fail(truth.error());
+  const Alignment alignment = alignment_from(options.align).value_or(Alignment::kSe3);
+  const auto error = trajectory_error(*estimate, *truth, {alignment, from_seconds(options.max_gap_s)});
+  if (!error) return fail(at(options.estimate.string(), error.error()));
+  if (options.json) {
+    Json json = to_json(*error);
+    json["align"] = options.align;
+    return print(json);
+  }
+  const auto& e = *error;
+  std::cout << fmt::format("{} poses over {:.2f} m and {:.2f} s ({} without ground truth)\n", e.matched, e.length_m,
+                           e.duration_s, e.unmatched);
+  std::cout << fmt::format("ATE           {:.4f} m RMS, {:.4f} m at most (aligned: {})\n", e.ate_rmse_m, e.ate_max_m,
+                           options.align);
+  std::cout << fmt::format("              {:.4f} m first poses aligned, {:.4f} m least squares\n", e.ate_first_rmse_m,
+                           e.ate_se3_rmse_m);
+  std::cout << fmt::format("at the end    {:.4f} m", e.final_error_m);
+  if (e.final_error_percent) std::cout << fmt::format(", {:.3f} % of the length", *e.final_error_percent);
+  std::cout << '\n';
+  if (e.segments)
+    std::cout << fmt::format("per segment   {:.3f} %, {:.5f} °/m over {} segments\n", e.segments->trans_percent,
+                             e.segments->rot_deg_per_m, e.segments->segments);
+  if (e.steps)
+    std::cout << fmt::format("pose to pose  {:.3f} %, {:.5f} °/m\n", e.steps->trans_percent, e.steps->rot_deg_per_m);
+  return kDone;
+}
+
+/// Where the map's frame lies in the true map's: as given, or by the first common pose of two trajectories.
+Result<SE3> T_truth_map(const Options& options) {
+  if (!options.pose.empty()) return SE3::from_xyz_rpy(Eigen::Map<const Vector6>(options.pose.data()));
+  if (options.trajectory.empty()) return SE3();
+  const auto estimate = read_poses(options.trajectory, "trajectory.tum");
+  if (!estimate) return estimate.error();
+  const auto truth = read_poses(options.true_trajectory, "ground_truth.tum");
+  if (!truth) return truth.error();
+  const auto matched = match_by_time(*estimate, *truth, from_seconds(options.max_gap_s));
+  if (matched.empty())
+    return Error{Errc::kMalformed, "both trajectories have no common time", options.trajectory.string(), {}, {}};
+  return align(matched, Alignment::kFirst);
+}
+
+int evaluate_map(const Options& options) {
+  const fs::path file = file_in(options.estimate, "map.cairn"), true_file = file_in(options.truth, "world.ot");
+  const auto map = load_map(file), truth = load_map(true_file);
+  if (!map) return fail(at(file.string(), map.error()));
+  if (!truth) return fail(at(true_file.string(), truth.error()));
+  const auto T = T_truth_map(options);
+  if (!T) return fail(T.error());
+  const auto error = map_error(**map, **truth, {*T, options.tolerance_m});
+  if (!error) return fail(at(file.string(), error.error()));
+  if (options.json) return print(to_json(*error));
+  std::cout << fmt::format("accuracy   {:.4f} m mean, {:.4f} m RMS from {} occupied voxels to the true ones\n",
+                           error->mean_m, error->rmse_m, error->occupied);
+  if (const auto p = error->precision()) std::cout << fmt::format("precision  {:.4f}\n", *p);
+  if (const auto r = error->recall()) std::cout << fmt::format("recall     {:.4f} of what was seen\n", *r);
+  std::cout << fmt::format("true map   {} occupied voxels: {} found, {} called free, {} never seen\n",
+                           error->true_occupied, error->found, error->contradicted, error->unseen);
+  return kDone;
+}
+
+void add(Commands& commands, CLI::App* sub, const std::shared_ptr<Options>& options, int (*job)(const Options&)) {
+  sub->add_flag("--json", options->json, "one JSON object on stdout");
+  sub->callback([&commands, options, job] { commands.job = [options, job] { return job(*options); }; });
+}
+
+void add_trajectory(Commands& commands, CLI::App& evaluate, const std::shared_ptr<Options>& options) {
+  CLI::App* sub = evaluate.add_subcommand("trajectory", "position and heading errors of a trajectory");
+  sub->add_option("estimate", options->estimate, "TUM file, or the folder of a run")->required();
+  sub->add_option("--ground-truth", options->truth, "TUM file, or the folder of a recording")->required();
+  sub->add_option("--align", options->align,
+                  "before absolute errors are taken: first (first poses), se3 (least squares, evo's -a), none")
+      ->check(CLI::IsMember({"first", "se3", "none"}))
+      ->capture_default_str();
+  sub->add_option("--max-gap", options->max_gap_s, "the ground truth is interpolated over gaps of at most this, s")
+      ->check(CLI::Range(0.0, 1e6))
+      ->capture_default_str();
+  add(commands, sub, options, evaluate_trajectory);
+}
+
+void add_map(Commands& commands, CLI::App& evaluate, const std::shared_ptr<Options>& options) {
+  CLI::App* sub = evaluate.add_subcommand("map", "how well the occupied voxels of a map lie on the true ones");
+  sub->add_option("estimate", options->estimate, "map, or the folder of a run")->required();
+  sub->add_option("--ground-truth", options->truth, "true map, or the folder of a recording")->required();
+  CLI::Option* pose =
+      sub->add_option("--pose", options->pose, "x,y,z,roll,pitch,yaw of the map in the true map, m and rad")
+          ->delimiter(',')
+          ->expected(6);
+  CLI::Option* from = sub->add_option("--trajectory", options->trajectory,
+                                      "the run's trajectory: its first pose and the true one give the pose")
+                          ->excludes(pose);
+  CLI::Option* to = sub->add_option("--ground-truth-trajectory", options->true_trajectory, "the true trajectory");
+  from->needs(to);
+  to->needs(from);
+  sub->add_option("--tolerance", options->tolerance_m, "how far a voxel may be off, m; default: a voxel's diagonal")
+      ->check(CLI::PositiveNumber);
+  add(commands, sub, options, evaluate_map);
+}
+
+}  // namespace
+
+void add_evaluate_command(Commands& commands) {
+  CLI::App& evaluate = *commands.app.add_subcommand("evaluate", "errors against ground truth");
+  evaluate.require_subcommand(1);
+  const auto options = std::make_shared<Options>();
+  add_trajectory(commands, evaluate, options);
+  add_map(commands, evaluate, options);
+}
+
+}  // namespace cairn::cli

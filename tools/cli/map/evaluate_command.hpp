@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "onboard/app/cli/command.hpp"
+
+namespace cairn::cli {
+
+/// `cairn evaluate trajectory|map ESTIMATE --ground-truth TRUTH`: errors against ground truth.
+void add_evaluate_command(Commands& commands);
+
+}  // namespace cairn::cli

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/map/map_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <system_error>
+
+#include "drivers/recording/formats/trajectory_file.hpp"
+#include "hal/files/file.hpp"
+#include "onboard/mapping/files/map_file.hpp"
+#include "onboard/report/figures/map_measures.hpp"
+#include "onboard/report/figures/trajectory_error.hpp"
+#include "onboard/report/json/report_json.hpp"
+#include "onboard/report/pictures/map_paint.hpp"
+#include "onboard/report/pictures/map_picture.hpp"
+#include "tools/cli/map/map_check_command.hpp"
+#include "tools/cli/map/save_map.hpp"
+
+namespace cairn::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Options {
+  fs::path file, other, out, trajectory, ground_truth;
+  std::string view = "top";
+  std::optional<double> height_min_m, height_max_m;
+  double pixels_per_m = 0;
+  bool json = false;
+};
+
+int wrong(const std::string& message) {
+  std::cerr << "cairn: " << message << '\n';
+  return kWrongArguments;
+}
+
+/// The content decides, not the name; load_map() has verified the checksums of such a file.
+bool has_checksums(const fs::path& path) {
+  std::array<char, 64> head{};
+  std::ifstream(path, std::ios::binary).read(head.data(), head.size());
+  return is_cairn(std::as_bytes(std::span(head)));
+}
+
+Json info_json(const Options& options, const SemanticOcTree& map, const MapSummary& summary) {
+  std::error_code ignored;
+  Json json = {{"file", options.file.string()},
+               {"file_bytes", fs::file_size(options.file, ignored)},
+               {"checksum", has_checksums(options.file) ? "ok" : "none"}};
+  json.update(to_json(summary));
+  json["sensor_model"] = {{"hit", map.getProbHit()},
+                          {"miss", map.getProbMiss()},
+                          {"clamping_min", map.getClampingThresMin()},
+                          {"clamping_max", map.getClampingThresMax()},
+                          {"occupancy_threshold", map.getOccupancyThres()}};
+  return json;
+}
+
+std::string info_text(const Json& json, const MapSummary& summary) {
+  const Eigen::Vector3d size = summary.max_m - summary.min_m;
+  std::string text = fmt::format(
+      "{}\n  resolution    {} m\n  occupied      {} voxels, {} labelled\n  free          {} voxels\n"
+      "  known volume  {:.1f} m³ in a box of {:.1f} × {:.1f} × {:.1f} m from ({:.1f}, {:.1f}, {:.1f})\n"
+      "  nodes         {}, {} of them leaves\n  size          {:.2f} MiB in memory, {:.2f} MiB in the file\n"
+      "  checksum      {}\n",
+      json["file"].get<std::string>(), summary.resolution_m, summary.occupied, summary.labelled, summary.free,
+      summary.known_volume_m3(), size.x(), size.y(), size.z(), summary.min_m.x(), summary.min_m.y(), summary.min_m.z(),
+      summary.nodes, summary.leaves, static_cast<double>(summary.memory_bytes) / 0x1p20,
+      json["file_bytes"].get<double>() / 0x1p20, json["checksum"] == "ok" ? "correct" : "this format has none");
+  if (summary.mean_entropy_occupancy)
+    text += fmt::format("  mean entropy  {:.4f} bit over occupied voxels ({:.4f} as −p log2 p), {:.4f} over all\n",
+                        *summary.mean_entropy_occupancy, *summary.mean_entropy_book, *summary.mean_entropy_known);
+  return text;
+}
+
+int info(const Options& options) {
+  const auto map = load_map(options.file);
+  if (!map) return fail(at(options.file.string(), map.error()));
+  const MapSummary summary = summarise(**map);
+  const Json json = info_json(options, **map, summary);
+  if (options.json) return print(json);
+  std::cout << info_text(json, summary);
+  return kDone;
+}
+
+int compare_maps(const Options& options) {
+  const auto a = load_map(options.file), b = load_map(options.other);
+  if (!a) return fail(at(options.file.string(), a.error()));
+  if (!b) return fail(at(options.other.string(), b.error()));
+  const auto c = compare(**a, **b);
+  if (!c) return fail(at(options.other.string(), c.error()));
+  const MapSummary summary_a = summarise(**a), summary_b = summarise(**b);
+  if (options.json) {
+    Json json = to_json(*c);
+    const auto add = [&](const char* name, const std::optional<double>& v) {
+      json[name] = v ? Json(*v) : Json(nullptr);
+    };
+    add("mean_entropy_occupancy", summary_a.mean_entropy_occupancy);
+    add("mean_entropy_occupancy_b", summary_b.mean_entropy_occupancy);
+    add("mean_entropy_book", summary_a.mean_entropy_book);
+    add("mean_entropy_book_b", summary_b.mean_entropy_book);
+    // Maps carry no label evidence yet.
+    for (const char* name : {"label_agreement", "miou", "mean_entropy_label"}) json[name] = nullptr;
+    return print(json);
+  }
+  std::cout << fmt::format(
+      "same         {} voxels ({} of them with other log-odds)\ndisagreeing  {}\nonly a       {}\nonly b       {}\n"
+      "occupied     {} in a, {} in b, {} in both\nfree         {} in a, {} in b\n",
+      c->same, c->differing_log_odds < c->disagreeing ? 0 : c->differing_log_odds - c->disagreeing, c->disagreeing,
+      c->only_a, c->only_b, c->occupied_a, c->occupied_b, c->occupied_both, c->free_a, c->free_b);
+  if (const auto iou = c->iou_occupied()) std::cout << fmt::format("occupied IoU {:.4f}\n", *iou);
+  return kDone;
+}
+
+MapPath projected(MapView view, const std::vector<StampedPose>& poses, bool dashed) {
+  MapPath path{{}, dashed};
+  for (const StampedPose& p : poses) path.points.push_back(project(view, p.pose.translation()));
+  return path;
+}
+
+/// The trajectory and, under it, the ground truth in the trajectory's frame. Empty names are left out.
+Result<std::vector<MapPath>> read_paths(const Options& options, MapView view) {
+  std::vector<MapPath> paths;
+  std::vector<StampedPose> trajectory, truth;
+  if (!options.trajectory.empty()) {
+    auto read = recording::read_tum(options.trajectory);
+    if (!read) return at(options.trajectory.string(), read.error());
+    trajectory = std::move(*read);
+  }
+  if (!options.ground_truth.empty()) {
+    auto read = recording::read_tum(options.ground_truth);
+    if (!read) return at(options.ground_truth.string(), read.error());
+    truth = std::move(*read);
+    if (!trajectory.empty()) truth = truth_in_estimate_frame(trajectory, truth, TrajectoryErrorOptions{}.max_gap);
+    paths.push_back(projected(view, truth, true));
+  }
+  if (!trajectory.empty()) paths.insert(paths.begin(), projected(view, trajectory, false));
+  return paths;
+}
+
+int render(const Options& options) {
+  const auto view = map_view_from(options.view);
+  if (!view) return wrong("--view " + options.view + ": choose top, side or front");
+  const auto map = load_map(options.file);
+  if (!map) return fail(at(options.file.string(), map.error()));
+  const auto picture = look_at(**map, {*view, options.height_min_m, options.height_max_m});
+  if (!picture) return fail(at(options.file.string(), picture.error()));
+  auto paths = read_paths(options, *view);
+  if (!paths) return fail(paths.error());
+  const auto image = draw_map(*picture, {options.pixels_per_m, std::move(*paths)});
+  if (!image) return fail(at(options.out.string(), image.error()));
+  const auto png = encode_png(*image);
+  if (!png) return fail(at(options.out.string(), png.error()));
+  if (const auto written = write_file_atomic(options.out, *png); !written) return fail(written.error());
+  Json json{{"out", options.out.string()}};
+  json["width"] = image->width();
+  json["height"] = image->height();
+  json["pixels_per_m"] = pixels_per_metre(*picture, {options.pixels_per_m, {}});
+  json["cut_above_m"] = picture->cut_m ? Json(*picture->cut_m) : Json(nullptr);
+  if (options.json) return print(json);
+  std::cout << fmt::format("{}: {} × {} pixels\n", options.out.string(), image->width(), image->height());
+  if (picture->cut_m)
+    std::cout << fmt::format("cut open at z = {:.2f} m, below a ceiling; --height-max shows it\n", *picture->cut_m);
+  return kDone;
+}
+
+int export_map(const Options& options) {
+  if (const auto named = check_map_name(options.out); !named) return fail(named.error());
+  const auto map = load_map(options.file);
+  if (!map) return fail(at(options.file.string(), map.error()));
+  if (const auto saved = save_map(**map, options.out); !saved) return fail(saved.error());
+  std::error_code ignored;
+  const auto bytes = fs::file_size(options.out, ignored);
+  if (options.json) return print({{"out", options.out.string()}, {"bytes", bytes}});
+  std::cout << fmt::format("{}: {} bytes\n", options.out.string(), bytes);
+  return kDone;
+}
+
+CLI::App* add(Commands& commands, CLI::App& map, const std::string& name, const std::string& description,
+              const std::shared_ptr<Options>& options, int (*job)(const Options&)) {
+  CLI::App* sub = map.add_subcommand(name, description);
+  sub->add_option("file", options->file, ".cairn, .ot or .bt")->required();
+  sub->add_flag("--json", options->json, "one JSON object on stdout");
+  sub->callback([&commands, options, job] { commands.job = [options, job] { return job(*options); }; });
+  return sub;
+}
+
+}  // namespace
+
+void add_map_command(Commands& commands) {
+  CLI::App& map = *commands.app.add_subcommand(
+      "map", "what is in a map, how two differ, whether the parts of one agree, a picture, other formats");
+  map.require_subcommand(1);
+  const auto options = std::make_shared<Options>();
+  add(commands, map, "info", "counts, size, volume, entropy and sensor model", options, info);
+  CLI::App* two =
+      add(commands, map, "compare", "two maps of one frame and resolution, voxel by voxel", options, compare_maps);
+  two->add_option("other", options->other, "the second map")->required();
+  add_map_check_command(commands, map);
+  CLI::App* picture = add(commands, map, "render", "a PNG of the map", options, render);
+  picture->add_option("--out", options->out, "file to write")->required();
+  picture->add_option("--view", options->view, "top, side or front")->capture_default_str();
+  picture->add_option("--height-min", options->height_min_m, "leave out what is lower, m");
+  picture->add_option("--height-max", options->height_max_m,
+                      "leave out what is higher, m; without it, a view from above is cut open below a ceiling");
+  picture->add_option("--trajectory", options->trajectory, "path to draw over the map (TUM)");
+  picture->add_option("--ground-truth", options->ground_truth,
+                      "path to draw dashed (TUM); moved into the trajectory's frame where one is given");
+  picture
+      ->add_option("--scale", options->pixels_per_m, "pixels per metre; chosen from the size of the map if not given")
+      ->check(CLI::PositiveNumber);
+  CLI::App* other = add(commands, map, "export", "the map in another format", options, export_map);
+  other->add_option("--out", options->out, "file to write: .cairn, .ot, .bt, .ply or .pcd")->required();
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/recording/faults_command.hpp"
+
+#include <fmt/format.h>
+
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "drivers/recording/faulty_source.hpp"
+#include "drivers/recording/recording_reader.hpp"
+#include "drivers/recording/recording_writer.hpp"
+#include "onboard/report/json/report_json.hpp"
+#include "onboard/safety/fault.hpp"
+
+namespace cairn::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using recording::FaultySource;
+using recording::Recording;
+
+// In the order of recording::Spell.
+const std::vector<std::string> kSpells{"silence", "disconnect", "stuck", "burst"};
+
+struct FaultArguments {
+  fs::path recording, out;
+  std::string source, spell = "silence";
+  recording::Faults faults;
+  double freeze_s = 0, period_s = 10, delay_s = 0.05, shift_s = 0, shift_after_s = 0;
+  bool overwrite = false, json = false;
+};
+
+struct Copied {
+  FaultySource::Counters faults;
+  std::uint64_t written = 0;
+  std::uint64_t refused = 0;  ///< what a native file cannot hold, such as half a picture
+};
+
+Result<recording::Faults> faults_of(const FaultArguments& options, const Recording& recording) {
+  recording::Faults faults = options.faults;
+  if (options.freeze_s > 0) {
+    faults.freeze = from_seconds(options.freeze_s);
+    faults.period = from_seconds(options.period_s);
+  }
+  faults.spell =
+      static_cast<recording::Spell>(std::find(kSpells.begin(), kSpells.end(), options.spell) - kSpells.begin());
+  faults.delay_by = from_seconds(options.delay_s);
+  faults.shift = from_seconds(options.shift_s);
+  faults.shift_after = from_seconds(options.shift_after_s);
+  if (options.source.empty()) return faults;
+  std::string known;
+  for (std::size_t i = 0; i < recording.sources.size(); ++i) {
+    if (recording.sources[i].id == options.source) faults.only = static_cast<SourceId>(i);
+    known += (known.empty() ? "" : ", ") + recording.sources[i].id;
+  }
+  if (faults.only) return faults;
+  return Error{Errc::kInvalidConfig, "the recording has no such source", options.source, {}, "it has " + known};
+}
+
+Copied copy(Source& source, recording::RecordingWriter& writer) {
+  Copied copied;
+  Packet packet;
+  for (auto poll = source.next(packet, {}); !poll || *poll != Poll::kEnd; poll = source.next(packet, {})) {
+    if (!poll || *poll != Poll::kPacket) continue;
+    const bool written = writer.write(packet).has_value();
+    copied.written += written ? 1 : 0;
+    copied.refused += written ? 0 : 1;
+  }
+  return copied;
+}
+
+Json to_json(const FaultArguments& options, const Copied& c) {
+  return {{"out", options.out.string()},   {"packets", c.faults.packets},      {"written", c.written},
+          {"dropped", c.faults.dropped},   {"repeated", c.faults.repeated},    {"swapped", c.faults.swapped},
+          {"cut_short", c.faults.cut},     {"bits_flipped", c.faults.flipped}, {"frozen", c.faults.frozen},
+          {"extended", c.faults.extended}, {"delayed", c.faults.delayed},      {"stuck", c.faults.stuck},
+          {"in_bursts", c.faults.burst},   {"shifted", c.faults.shifted},      {"disconnects", c.faults.disconnects},
+          {"not_recordable", c.refused}};
+}
+
+void print_table(const Json& json) {
+  for (const auto& [key, value] : json.items())
+    if (value != 0)
+      std::cout << fmt::format("{:<15} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
+}
+
+int inject(const FaultArguments& options) {
+  if (options.out.empty()) return fail({Errc::kInvalidConfig, "--out is missing: where the new recording goes"});
+  auto reader = recording::RecordingReader::open(options.recording);
+  if (!reader) return fail(reader.error());
+  Recording recording = (*reader)->recording();
+  const auto faults = faults_of(options, recording);
+  if (!faults) return fail(faults.error());
+  recording.notes +=
+      (recording.notes.empty() ? "" : "\n") + std::string("with injected faults, seed ") + std::to_string(faults->seed);
+  const auto overwrite = options.overwrite ? recording::Overwrite::kYes : recording::Overwrite::kNo;
+  auto writer = recording::RecordingWriter::create(options.out, recording, overwrite);
+  if (!writer) return fail(writer.error());
+  FaultySource source(**reader, *faults);
+  Copied copied = copy(source, *writer);
+  if (const auto closed = writer->close(); !closed) return fail(closed.error());
+  copied.faults = source.counters();
+  std::error_code ignored;
+  const fs::path truth = options.recording / "ground_truth.tum";
+  if (fs::exists(truth, ignored))
+    fs::copy_file(truth, options.out / "ground_truth.tum", fs::copy_options::overwrite_existing, ignored);
+  if (options.json) return print(to_json(options, copied));
+  print_table(to_json(options, copied));
+  return kDone;
+}
+
+/// What the core knows as faults, and what each leads to.
+int list_faults(bool json) {
+  Json rows = Json::array();
+  for (const FaultRow& row : fault_table()) {
+    if (!json)
+      std::cout << fmt::format("{:2}  {:<16} {:<9} at least {:<9} {}\n", static_cast<int>(row.fault), row.code,
+                               to_string(row.usual), to_string(row.least), row.doc);
+    rows.push_back({{"number", static_cast<int>(row.fault)},
+                    {"code", row.code},
+                    {"usual", to_string(row.usual)},
+                    {"least", to_string(row.least)},
+                    {"doc", row.doc}});
+  }
+  return json ? print({{"faults", rows}}) : kDone;
+}
+
+}  // namespace
+
+void add_faults_command(Commands& commands) {
+  auto* sub =
+      commands.app.add_subcommand("faults", "a recording as bad cables, radios and computers would have made it");
+  auto o = std::make_shared<FaultArguments>();
+  const CLI::Range share(0.0, 1.0);
+  sub->add_option("recording", o->recording, "folder of the recording; or `list`: what counts as a fault, and its mode")
+      ->required();
+  sub->add_option("--out", o->out, "folder of the new recording");
+  sub->add_option("--source", o->source, "only this source, such as lidar; default: all");
+  sub->add_option("--drop", o->faults.drop, "share of packets that are lost")->check(share);
+  sub->add_option("--repeat", o->faults.repeat, "share that arrives twice")->check(share);
+  sub->add_option("--swap", o->faults.swap, "share that arrives after the next packet")->check(share);
+  sub->add_option("--cut", o->faults.cut, "share that arrives without its end")->check(share);
+  sub->add_option("--flip", o->faults.flip, "share that arrives with one bit turned")->check(share);
+  sub->add_option("--extend", o->faults.extend, "share that arrives with bytes added")->check(share);
+  sub->add_option("--delay", o->faults.delay, "share that arrives later by --delay-by")->check(share);
+  sub->add_option("--delay-by", o->delay_s, "seconds")->check(CLI::Range(0.0, 10.0));
+  sub->add_option("--shift", o->shift_s, "seconds by which arrivals are stamped later, from --shift-after on")
+      ->check(CLI::Range(-1e6, 1e6));
+  sub->add_option("--shift-after", o->shift_after_s, "seconds")->check(CLI::Range(0.0, 1e6));
+  sub->add_option("--spell", o->spell, "what --freeze does to the source")->check(CLI::IsMember(kSpells));
+  sub->add_option("--freeze", o->freeze_s, "a spell (silence, if no other) of so many seconds ends every --period")
+      ->check(CLI::Range(0.0, 1e6));
+  sub->add_option("--period", o->period_s, "seconds")->check(CLI::Range(0.001, 1e6));
+  sub->add_option("--seed", o->faults.seed, "other faults for another number");
+  sub->add_flag("--overwrite", o->overwrite, "replace the recording in --out");
+  sub->add_flag("--json", o->json, "one JSON object on stdout");
+  sub->callback(
+      [&commands, o] { commands.job = [o] { return o->recording == "list" ? list_faults(o->json) : inject(*o); }; });
+}
+
+}  // namespace cairn::cli

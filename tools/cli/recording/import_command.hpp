@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "onboard/app/cli/command.hpp"
+
+namespace cairn::cli {
+
+/// `cairn import KIND SRC --out DIR`: foreign data → recording.
+void add_import_command(Commands& commands);
+
+}  // namespace cairn::cli

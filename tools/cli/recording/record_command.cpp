@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/recording/record_command.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "drivers/recording/record.hpp"
+#include "onboard/app/door/devices.hpp"
+#include "onboard/app/door/live_sources.hpp"
+#include "onboard/app/live/stop_signal.hpp"
+#include "onboard/app/profile/robot_profile.hpp"
+#include "onboard/report/json/report_json.hpp"
+
+namespace cairn::cli {
+namespace {
+
+namespace fs = std::filesystem;
+using recording::Recording;
+using recording::RecordingWriter;
+using recording::RecordReport;
+
+struct RecordArguments {
+  fs::path config, out;
+  std::optional<double> seconds;
+  bool overwrite = false, json = false;
+};
+
+Recording describe(const RecordArguments& options, const RobotProfile& profile, const Clock& clock) {
+  Recording r;
+  r.robot = profile.name;
+  r.profile = options.config.filename().string();
+  r.realtime_offset_ns = LiveClock::realtime_offset().count();
+  r.start_utc_ns = r.utc_ns(clock.now());
+  r.sources = devices_of(profile);
+  return r;
+}
+
+/// What was written of each sensor, and what was lost before: that cannot be seen in the packets that came.
+Json sensors(const std::vector<Device>& devices, const RecordingWriter& writer) {
+  Json json = Json::object();
+  for (std::size_t i = 0; i < devices.size(); ++i) {
+    Json& sensor = json[devices[i].id];
+    sensor = {{"packets", writer.written()[i].packets}, {"bytes", writer.written()[i].payload_bytes}};
+    for (const auto& [name, count] : devices[i].losses()) sensor["losses"][name] = count;
+  }
+  return json;
+}
+
+recording::RecordOptions record_options(const RecordArguments& options, const RecordingWriter& writer) {
+  recording::RecordOptions record;
+  if (options.seconds) record.length = from_seconds(*options.seconds);
+  record.stop = stop_requested;
+  if (::isatty(STDERR_FILENO) != 0)
+    record.on_second = [&writer](Duration since_start) {
+      std::fprintf(stderr, "\r%.0f s, %llu packets, %.1f MB ", to_seconds(since_start),
+                   static_cast<unsigned long long>(writer.packets()),
+                   1e-6 * static_cast<double>(writer.payload_bytes()));
+    };
+  return record;
+}
+
+/// "flooded 3, restarts 1": what has no column of its own.
+std::string other_losses(const Json& losses) {
+  std::string text;
+  for (const auto& [name, count] : losses.items())
+    if (name != "kernel_drops" && name != "truncated" && name != "unstamped" && count != 0)
+      text += fmt::format("{}{} {}", text.empty() ? "" : ", ", name, count.get<std::uint64_t>());
+  return text;
+}
+
+/// One line per sensor: what it sent and what of it was lost or is doubtful.
+std::string as_table(const RecordArguments& options, const Json& sensors, const RecordReport& recorded) {
+  std::string table = fmt::format("{}: {:.1f} s\n", options.out.string(), to_seconds(recorded.length));
+  constexpr auto kRow = "  {:<10} {:>10} {:>10} {:>10} {:>10} {:>10}  {}\n";
+  table += fmt::format(kRow, "sensor", "packets", "MB", "dropped", "cut short", "unstamped", "also");
+  for (const auto& [id, s] : sensors.items()) {
+    const Json& losses = s["losses"];
+    table +=
+        fmt::format(kRow, id, s["packets"].get<std::uint64_t>(), fmt::format("{:.1f}", 1e-6 * s["bytes"].get<double>()),
+                    losses.value("kernel_drops", std::uint64_t{0}), losses.value("truncated", std::uint64_t{0}),
+                    losses.value("unstamped", std::uint64_t{0}), other_losses(losses));
+  }
+  if (recorded.source_errors > 0)
+    table += fmt::format("  {} errors of the sensors, at first: {}\n", recorded.source_errors, recorded.first_error);
+  return table;
+}
+
+/// Sensors that gave nothing are the failure of a recording that nobody notices until it is needed.
+int verdict(const RecordArguments& options, const Json& sensors) {
+  std::string silent;
+  for (const auto& [id, s] : sensors.items())
+    // Edges and frames come when something happens.
+    if (s["packets"] == 0 && id != recording::kGpio && id != recording::kDrive)
+      silent += (silent.empty() ? "" : ", ") + id;
+  if (silent.empty()) return kDone;
+  return fail({Errc::kLinkDown,
+               "not one packet came in",
+               options.out.string() + " (" + silent + ")",
+               {},
+               "check cable, power, the sensor's destination address and the ports of the profile"});
+}
+
+Json summary(const RecordArguments& options, const std::vector<Device>& devices, const RecordingWriter& writer,
+             const RecordReport& recorded) {
+  return {{"out", options.out.string()},
+          {"packets", writer.packets()},
+          {"bytes", writer.payload_bytes()},
+          {"duration_s", to_seconds(recorded.length)},
+          {"source_errors", recorded.source_errors},
+          {"first_error", recorded.first_error},
+          {"sensors", sensors(devices, writer)}};
+}
+
+Result<RecordReport> record_all(const RecordArguments& options, const std::vector<Device>& devices, const Clock& clock,
+                                RecordingWriter& writer) {
+  std::vector<Source*> sources;
+  for (const Device& device : devices) sources.push_back(device.source.get());
+  LiveSources source(std::move(sources), clock);
+  catch_stop_signals();
+  auto recorded = recording::record(source, clock, writer, record_options(options, writer));
+  if (::isatty(STDERR_FILENO) != 0) std::fputc('\n', stderr);
+  return recorded;
+}
+
+int record(const RecordArguments& options) {
+  const auto profile = load_profile(options.config);
+  if (!profile) return fail(profile.error());
+  const LiveClock clock;
+  const auto devices = open_devices_of(*profile, clock);
+  if (!devices) return fail(devices.error());
+  if (devices->empty())
+    return fail({Errc::kInvalidConfig,
+                 "the profile has no device",
+                 options.config.string(),
+                 {},
+                 "name one: camera.capture.device, drive.interface, …"});
+  Recording description = describe(options, *profile, clock);
+  const auto overwrite = options.overwrite ? recording::Overwrite::kYes : recording::Overwrite::kNo;
+  auto writer = RecordingWriter::create(options.out, description, overwrite);
+  if (!writer) return fail(writer.error());
+
+  const auto recorded = record_all(options, *devices, clock, *writer);
+  if (!recorded) return fail(recorded.error());
+  const Json json = summary(options, *devices, *writer, *recorded);
+  description.notes = "recorded live; sensors: " + json["sensors"].dump();
+  if (const auto saved = recording::save_recording(options.out, description); !saved) return fail(saved.error());
+  if (options.json)
+    print(json);
+  else
+    std::cout << as_table(options, json["sensors"], *recorded);
+  return verdict(options, json["sensors"]);
+}
+
+}  // namespace
+
+void add_record_command(Commands& commands) {
+  auto* sub = commands.app.add_subcommand("record", "records raw sensor bytes");
+  auto o = std::make_shared<RecordArguments>();
+  sub->add_option("--config", o->config, "robot profile, such as config/husky.yaml; defaults without one");
+  sub->add_option("--out", o->out, "folder of the new recording")->required();
+  sub->add_option("--seconds", o->seconds, "end after so much time; otherwise at SIGINT or SIGTERM")
+      ->check(CLI::PositiveNumber);
+  sub->add_flag("--overwrite", o->overwrite, "replace the recording in --out");
+  sub->add_flag("--json", o->json, "one JSON object on stdout");
+  sub->callback([&commands, o] { commands.job = [o] { return record(*o); }; });
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/cli/simulate/simulate_command.hpp"
+#include "tools/simulator/scenes/make_world.hpp"
+
+#include <unistd.h>
+
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "tools/simulator/simulate.hpp"
+
+namespace cairn::cli {
+namespace {
+
+struct Options {
+  simulator::SimulationConfig simulation;
+  std::vector<std::string> sensors;  // by name
+  bool json = false;
+};
+
+/// One line on a terminal that overwrites itself; nothing elsewhere.
+simulator::Progress progress_line() {
+  if (isatty(STDERR_FILENO) == 0) return {};
+  return [shown = -1](double done) mutable {
+    const int percent = static_cast<int>(std::floor(100.0 * done));
+    if (percent == shown) return;
+    shown = percent;
+    std::fprintf(stderr, "\rsimulating %3d %%%s", percent, percent >= 100 ? "\n" : "");
+  };
+}
+
+nlohmann::ordered_json to_json(const Options& options, const std::vector<simulator::RobotSummary>& robots) {
+  nlohmann::ordered_json object{{"scene", options.simulation.scene},
+                                {"seconds", options.simulation.seconds},
+                                {"seed", options.simulation.seed},
+                                {"out", options.simulation.out.string()},
+                                {"robots", nlohmann::ordered_json::array()}};
+  for (const simulator::RobotSummary& r : robots) {
+    object["robots"].push_back({{"name", r.name},
+                                {"recording", (options.simulation.out / r.name).string()},
+                                {"distance_m", r.distance_m},
+                                {"data_packets", r.data_packets},
+                                {"position_packets", r.position_packets},
+                                {"shots", r.shots},
+                                {"returns", r.returns},
+                                {"camera_frames", r.camera_frames},
+                                {"thermal_frames", r.thermal_frames},
+                                {"depth_frames", r.depth_frames},
+                                {"can_frames", r.can_frames},
+                                {"line_events", r.line_events},
+                                {"min_clearance_m", r.min_clearance_m}});
+  }
+  return object;
+}
+
+std::string in_words(const simulator::RobotSummary& r) {
+  char text[96];
+  std::snprintf(text, sizeof text, "%.1f m driven", r.distance_m);
+  std::string words = text;
+  if (r.data_packets > 0) {
+    std::snprintf(text, sizeof text, ", %llu packets, %.1f %% of the shots returned",
+                  static_cast<unsigned long long>(r.data_packets),
+                  100.0 * static_cast<double>(r.returns) / static_cast<double>(r.shots));
+    words += text;
+  }
+  const std::pair<std::uint64_t, const char*> counts[] = {{r.camera_frames, "camera frames"},
+                                                          {r.thermal_frames, "thermal frames"},
+                                                          {r.depth_frames, "depth frames"},
+                                                          {r.can_frames, "CAN frames"},
+                                                          {r.line_events, "line events"}};
+  for (const auto& [count, what] : counts) {
+    if (count > 0) words += ", " + std::to_string(count) + " " + what;
+  }
+  return words;
+}
+
+/// The names of --sensors as what they switch on; CLI11 has checked them.
+simulator::Sensors sensors(const std::vector<std::string>& names) {
+  simulator::Sensors s{false, false, false, false, false, false};
+  for (const std::string& name : names) {
+    if (name == "all") return simulator::Sensors::all();
+    s.lidar = s.lidar || name == "lidar";
+    s.camera = s.camera || name == "camera";
+    s.thermal = s.thermal || name == "thermal";
+    s.depth = s.depth || name == "depth";
+    s.drive = s.drive || name == "drive";
+    s.gpio = s.gpio || name == "gpio";
+  }
+  return s;
+}
+
+int run(Options options) {
+  if (options.simulation.flies()) make_uav(options.simulation);
+  if (!options.sensors.empty()) options.simulation.sensors = sensors(options.sensors);
+  const auto robots = simulator::simulate(options.simulation, progress_line());
+  if (!robots) return fail(robots.error());
+  if (options.json) return print(to_json(options, *robots));
+  for (const simulator::RobotSummary& r : *robots) {
+    std::printf("%s: %s\n", (options.simulation.out / r.name).string().c_str(), in_words(r).c_str());
+  }
+  return kDone;
+}
+
+}  // namespace
+
+void add_simulate_command(Commands& commands) {
+  CLI::App* sub = commands.app.add_subcommand("simulate", "robots in a simulated world → recordings with ground truth");
+  const auto options = std::make_shared<Options>();
+  simulator::SimulationConfig& s = options->simulation;
+  sub->add_option("--scene", s.scene, "the world")->required()->check(CLI::IsMember(simulator::scene_names()));
+  sub->add_option("--out", s.out, "folder to make; gets one recording per robot: robot_1, robot_2, …")->required();
+  sub->add_option("--robots", s.robots, "how many robots")
+      ->check(CLI::Range(1, simulator::kMaxRobots))
+      ->capture_default_str();
+  sub->add_option("--seconds", s.seconds, "length of the recordings, s")
+      ->check(CLI::Range(0.1, simulator::kMaxSeconds))
+      ->capture_default_str();
+  sub->add_option("--seed", s.seed, "same seed, same bytes")->capture_default_str();
+  sub->add_option("--people", s.people, "how many people walk about, crossing the robots' ways")
+      ->check(CLI::Range(0, simulator::kMaxPeople))
+      ->capture_default_str();
+  sub->add_flag("--night", s.night, "the sun is down and all lamps are off");
+  sub->add_option("--profile", s.profile, "husky drives; uav flies and carries the camera alone")
+      ->check(CLI::IsMember({"husky", "uav"}))
+      ->capture_default_str();
+  sub->add_option("--sensors", options->sensors, "what is recorded, with commas; lidar when not given, of a uav camera")
+      ->delimiter(',')
+      ->check(CLI::IsMember({"lidar", "camera", "thermal", "depth", "drive", "gpio", "all"}));
+  sub->add_option("--threads", s.threads, "changes nothing but the time it takes")
+      ->check(CLI::Range(1U, 256U))
+      ->capture_default_str();
+  sub->add_option("--range-noise", s.lidar.range_noise_m, "standard deviation of LiDAR ranges, m")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  sub->add_option("--dropout", s.lidar.dropout, "share of LiDAR returns lost at random")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  sub->add_flag("--pps", s.lidar.pps, "the LiDAR's clock is locked to UTC; otherwise it runs freely");
+  sub->add_flag("--json", options->json, "one JSON object on stdout");
+  sub->callback([&commands, options] { commands.job = [options] { return run(*options); }; });
+}
+
+}  // namespace cairn::cli

@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "onboard/app/cli/command.hpp"
+
+namespace cairn::cli {
+
+/// `cairn simulate --scene NAME --robots N --seconds S --seed K --out DIR`: recordings with ground truth.
+void add_simulate_command(Commands& commands);
+
+}  // namespace cairn::cli

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "tools/protocol/methods/outcome.hpp"
+
+namespace cairn::protocol {
+
+/// Something that is asked of Cairn, or that the book says, and what this run says to it.
+struct Claim {
+  std::string claim;
+  std::string figures;  ///< by which it holds or does not
+  bool holds = false;
+  bool books = false;  ///< the book says so
+};
+
+/// Those for which the outcome has the runs.
+[[nodiscard]] std::vector<Claim> claims_of(const Outcome& outcome);
+
+}  // namespace cairn::protocol
