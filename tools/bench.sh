@@ -21,8 +21,8 @@ done
 jq -s '
   {ns: 1e-6, us: 1e-3, ms: 1, s: 1e3} as $ms |
   [.[].benchmarks[] | select(.error_occurred | not) | select(.run_type != "aggregate") |
-   (.ours_ms // .cpu_time * $ms[.time_unit]) as $ours | ((.label // "") | split(": ")) as $label |
-   {name, ours_ms: $ours, peer: ($label[0] // null), peer_ms, n: (.n // .iterations), note: ($label[1:] | join(": "))} +
+   (.ours_ms // .cpu_time * $ms[.time_unit]) as $ours | ((.label // "") | split(": ")) as $words |
+   {name, ours_ms: $ours, peer: ($words[0] // null), peer_ms, n: (.n // .iterations), note: ($words[1:] | join(": "))} +
    {ratio: (if .peer_ms then .peer_ms / $ours else null end)} +
    (if has("differing_voxels") then {differing_voxels} else {} end)]' "${results[@]}" >bench.json
 jq -r '.[] | [.name, .ours_ms, .peer_ms // "", .ratio // ""] | map(if type == "number" then . * 1000 | round / 1000 else . end) | @tsv' bench.json
