@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "fusion/matching/features/levelling.hpp"
+#include "fusion/matching/methods.hpp"
 #include "tests/support/map_pairs.hpp"
 
 namespace cairn::matching {
