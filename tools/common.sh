@@ -10,7 +10,6 @@ build() {
   local preset=$1 quiet=()
   shift
   [[ -t 1 ]] || quiet=(-- --quiet)
-  cmake --preset "$preset" -DCAIRN_PRECOMPILE=ON -DCAIRN_UNITY=ON >/dev/null
-  # ccache then takes the compiler's own list of headers instead of preprocessing every file, and allows precompiled ones.
-  CCACHE_DEPEND=1 CCACHE_SLOPPINESS=pch_defines,time_macros cmake --build --preset "$preset" "$@" "${quiet[@]}"
+  cmake --preset "$preset" -DCAIRN_UNITY=ON >/dev/null
+  cmake --build --preset "$preset" "$@" "${quiet[@]}"
 }

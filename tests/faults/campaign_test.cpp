@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "hal/files/file.hpp"
+#include "tests/support/places.hpp"
 
 namespace cairn::faults {
 
@@ -51,7 +52,7 @@ TEST(FaultTable, IdsAreUniqueAndEveryRowNamesATestOrAReason) {
 }
 
 TEST(FaultTable, TheDocumentIsCurrent) {
-  const std::filesystem::path document = std::filesystem::path(CAIRN_SOURCE_DIR) / "docs/faults.md";
+  const std::filesystem::path document = places::source() / "docs/faults.md";
   const std::string now = to_markdown();
   if (std::getenv("CAIRN_WRITE_FAULT_TABLE") != nullptr) {
     ASSERT_TRUE(write_file_atomic(document, now));

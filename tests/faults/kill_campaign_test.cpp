@@ -24,6 +24,7 @@
 #include "hal/files/file.hpp"
 #include "hal/workers.hpp"
 #include "onboard/app/restart/generations.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/vlp16_drive.hpp"
@@ -71,11 +72,12 @@ class Core {
  public:
   explicit Core(const std::filesystem::path& folder) : pid_(::fork()) {
     if (pid_ != 0) return;
-    const std::string config = folder / "robot.yaml", state = folder / "state", out = folder / "out";
+    const std::string program = places::program("cairn"), config = folder / "robot.yaml", state = folder / "state",
+                      out = folder / "out";
     const int said = ::open((folder / "said.txt").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
     ::dup2(said, STDOUT_FILENO);
     ::dup2(said, STDERR_FILENO);
-    ::execl(CAIRN_PROGRAM, "cairn", "run", "--config", config.c_str(), "--state", state.c_str(), "--out", out.c_str(),
+    ::execl(program.c_str(), "cairn", "run", "--config", config.c_str(), "--state", state.c_str(), "--out", out.c_str(),
             nullptr);
     ::_exit(127);
   }

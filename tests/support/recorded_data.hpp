@@ -4,12 +4,14 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "tests/support/places.hpp"
+
 namespace cairn::support {
 
 /// A folder of recorded data, which lies outside of the project; skip the test when it is not there.
 inline std::filesystem::path recorded_data(const std::filesystem::path& name) {
   const char* given = std::getenv("CAIRN_DATA");
-  return std::filesystem::path(given != nullptr ? given : CAIRN_SOURCE_DIR "/../shared/data") / name;
+  return (given != nullptr ? std::filesystem::path(given) : places::source() / "../shared/data") / name;
 }
 
 }  // namespace cairn::support

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "hal/files/file.hpp"
+#include "tests/support/places.hpp"
 
 namespace cairn::drive::test {
 
@@ -13,7 +14,7 @@ namespace cairn::drive::test {
 inline std::filesystem::path can_data(const std::string& name) {
   const char* data = std::getenv("CAIRN_DATA");
   const std::filesystem::path root =
-      data != nullptr ? std::filesystem::path(data) : std::filesystem::path(CAIRN_SOURCE_DIR) / "../shared/data";
+      data != nullptr ? std::filesystem::path(data) : places::source() / "../shared/data";
   return root / "can" / name;
 }
 

@@ -14,6 +14,7 @@
 
 #include "drivers/peers/local_link.hpp"
 #include "hal/clock.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace cairn::peers {
@@ -34,14 +35,28 @@ class Peer {
   ~Peer() { stop(SIGTERM); }
 
   void start() {
-    std::vector<std::string> words{CAIRN_PEERS, "--robot",   robot_,        "--socket", socket_,
-                                   "--peer",    "127.0.0.1", "--interface", "lo",       "--robots-per-address",
-                                   "4",         "--domain",  domain_,       "--quiet",  "--bytes-per-second",
+    std::vector<std::string> words{places::program("cairn-peers"),
+                                   "--robot",
+                                   robot_,
+                                   "--socket",
+                                   socket_,
+                                   "--peer",
+                                   "127.0.0.1",
+                                   "--interface",
+                                   "lo",
+                                   "--robots-per-address",
+                                   "4",
+                                   "--domain",
+                                   domain_,
+                                   "--quiet",
+                                   "--bytes-per-second",
                                    cap_};
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
-    ASSERT_EQ(::posix_spawn(&process_, CAIRN_PEERS, nullptr, nullptr, arguments.data(), environ), 0);
+    ASSERT_EQ(
+        ::posix_spawn(&process_, places::program("cairn-peers").c_str(), nullptr, nullptr, arguments.data(), environ),
+        0);
   }
   void signal(int number) const { ::kill(process_, number); }
   int stop(int signal) {

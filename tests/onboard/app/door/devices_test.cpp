@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/door/devices.hpp"
+#include "tests/support/places.hpp"
 
 #include <gmock/gmock.h>
 
@@ -17,9 +18,7 @@ std::vector<std::string> kinds_of(const RobotProfile& profile) {
   return kinds;
 }
 
-RobotProfile shipped(const std::string& name) {
-  return load_profile(std::string(CAIRN_SOURCE_DIR) + "/config/" + name).value();
-}
+RobotProfile shipped(const std::string& name) { return load_profile(places::source() / "config" / name).value(); }
 
 TEST(Devices, OfTheProfilesThatWeShip) {
   EXPECT_THAT(kinds_of(RobotProfile{}), ElementsAre("velodyne"));

@@ -7,6 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace cairn {
@@ -14,7 +15,7 @@ namespace {
 
 TEST(RobotProfile, EveryProfileInConfigIsValid) {
   int profiles = 0;
-  for (const auto& file : std::filesystem::directory_iterator(CAIRN_SOURCE_DIR "/config")) {
+  for (const auto& file : std::filesystem::directory_iterator(places::source() / "config")) {
     if (file.path().extension() != ".yaml") continue;
     const auto profile = load_profile(file.path());
     EXPECT_TRUE(profile) << to_string(profile.error());

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/team/network/link_config.hpp"
+#include "tests/support/places.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -28,7 +29,7 @@ TEST(LinkConfig, KeysThatAreLeftOutKeepTheirDefaults) {
 }
 
 TEST(LinkConfig, TheFileOfTheProjectIsTheDefault) {
-  EXPECT_EQ(load_link(CAIRN_SOURCE_DIR "/config/links/radio.yaml").value(), LinkConfig{});
+  EXPECT_EQ(load_link(places::source() / "config/links/radio.yaml").value(), LinkConfig{});
 }
 
 TEST(LinkConfig, CleanDoesNothing) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Robots with real peer processes over the emulated radio, with stand-ins for their cores.
 #include "tools/team/network/network.hpp"
+#include "tests/support/places.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -33,15 +34,16 @@ Supervision stand_ins(const Network& network, const std::vector<fs::path>& folde
   what.longest = std::chrono::seconds(120);
   for (Index i = 0; i < folders.size(); ++i) {
     const std::string id = std::to_string(i + 1);
-    std::vector<std::string> peers{CAIRN_PEERS, "--robot", id, "--bytes-per-second", "100000"};
+    std::vector<std::string> peers{places::program("cairn-peers"), "--robot", id, "--bytes-per-second", "100000"};
     for (const std::string& word : network.peer_arguments(i)) peers.push_back(word);
     const int space = network.namespace_of(i);
-    what.robots.push_back({"robot_" + id,
-                           {{STAND_IN_CORE, id, std::to_string(kRobots), std::to_string(kItems), "60"},
-                            folders[i],
-                            folders[i] / "core.log",
-                            space},
-                           {peers, folders[i], folders[i] / "peers.log", space}});
+    what.robots.push_back(
+        {"robot_" + id,
+         {{places::program("stand_in_core"), id, std::to_string(kRobots), std::to_string(kItems), "60"},
+          folders[i],
+          folders[i] / "core.log",
+          space},
+         {peers, folders[i], folders[i] / "peers.log", space}});
   }
   return what;
 }
