@@ -15,8 +15,11 @@ namespace cairn::recording {
 class SourceWriter {
  public:
   virtual ~SourceWriter() = default;
+  /// Appends one packet. Errors: kIo, and those of packets that the format cannot hold.
   virtual Result<void> write(const Packet& packet) = 0;
+  /// Hands everything buffered to the operating system.
   virtual Result<void> flush() = 0;
+  /// Flushes, syncs and closes. Returns the error of any write.
   virtual Result<void> close() = 0;
 };
 
@@ -24,7 +27,7 @@ class SourceWriter {
 [[nodiscard]] Result<std::unique_ptr<SourceWriter>> open_source_writer(const std::filesystem::path& dir,
                                                                        const Recording& recording, std::size_t index);
 
-/// The files of this source that exist in `dir`: its own, and those that it lists.
+/// The files of this source that exist in `dir`: its own file, and the files listed in it.
 [[nodiscard]] std::vector<std::filesystem::path> existing_files(const std::filesystem::path& dir,
                                                                 const SourceEntry& entry);
 
