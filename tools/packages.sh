@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The one list of Debian 12 packages. Installs what is missing of the named groups:
+# The only list of Debian 12 packages. Installs the missing packages of the named groups:
 #   tools/packages.sh GROUP…          build test ci cross fresh bench vm protocol docs
-#   tools/packages.sh --list GROUP…   prints the packages instead
-# Asks for nothing and touches nothing when all is there. Needs root or sudo only when something is missing.
+#   tools/packages.sh --list GROUP…   only prints the packages
+# If no package is missing, it changes nothing. If one is missing, it needs root or sudo. It never asks.
 set -euo pipefail
 
 declare -rA packages=(
