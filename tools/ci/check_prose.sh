@@ -109,12 +109,13 @@ exists() {  # exists NAME: a path from the root, or the end of one; the ending o
 }
 
 check_names() {  # check_names PAGE: words that look like a file of this repository
-  local name
+  local name pattern="$rooms|^[a-z0-9_/]+\.(hpp|cpp)$"
+  [[ $1 != ARCHITECTURE.md ]] || pattern+='|^[a-z_/]+/$'  # folders, below the room of their line
   while read -r name; do
     [[ $name == *[A-Z][A-Z][A-Z]* && $name != *.md ]] && continue  # a placeholder, such as drivers/NAME
     exists "$name" || fail "$1: names $name" "there is no such file in the repository"
   done < <({ spans "$1"; code "$1"; } | tr ' =(),;"' '\n' | sed 's/[.:]$//' |
-    grep -E "$rooms|^[a-z0-9_/]+\.(hpp|cpp)$" | sort -u)
+    grep -E "$pattern" | sort -u)
 }
 
 declare -A helps=()
