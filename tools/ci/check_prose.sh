@@ -84,20 +84,22 @@ while read -r bytes picture; do
   ((bytes <= max_picture_bytes)) || fail "$picture: $bytes bytes" "make it smaller: tools/pictures.sh"
 done < <(find docs -type f \( -name '*.png' -o -name '*.jpg' -o -name '*.svg' \) -printf '%s %p\n')
 
+declare -A anchors_of=()
 check_link() {  # check_link PAGE TARGET
-  local file=${2%%#*} anchor='' target=$1
-  [[ $2 != *'#'* ]] || anchor=${2#*#}
-  [[ -z $file ]] || target=$(dirname "$1")/$file
+  local file=${2%%#*} folder=. target=$1
+  [[ $1 != */* ]] || folder=${1%/*}
+  [[ -z $file ]] || target=$folder/$file
   if [[ ! -e $target ]]; then
     fail "$1: link to $2" "there is no such file"
-  elif [[ -n $anchor ]] && ! anchors "$target" | grep -qxF -- "$anchor"; then
-    fail "$1: link to $2" "there is no such heading"
+  elif [[ $2 == *'#'* ]]; then
+    [[ -n ${anchors_of[$target]:-} ]] || anchors_of[$target]=$'\n'$(anchors "$target")$'\n'
+    [[ ${anchors_of[$target]} == *$'\n'"${2#*#}"$'\n'* ]] || fail "$1: link to $2" "there is no such heading"
   fi
 }
 
-sources=$(find .ci config docs drivers fusion hal onboard tests toolchains tools -type f)
+sources=$(find .ci config docs drivers fusion hal onboard tests toolchains tools -type f)$'\n'
 # Every option that a program or a script has.
-options=$(grep -rhoE -- '--[a-z][a-z-]+' onboard/app tools drivers/peers .ci tests/vm | sort -u)
+options=$'\n'$(grep -rhoE -- '--[a-z][a-z-]+' onboard/app tools drivers/peers .ci tests/vm | sort -u)$'\n'
 readonly rooms='^\.?/?(\.ci|config|docs|drivers|fusion|hal|onboard|tests|toolchains|tools)(/|$)'
 
 exists() {  # exists NAME: a path from the root, or the end of one; the ending of a source file may be left out
@@ -105,7 +107,7 @@ exists() {  # exists NAME: a path from the root, or the end of one; the ending o
   name=${name%/}
   compgen -G "$name" >/dev/null || compgen -G "$name.[ch]pp" >/dev/null || compgen -G "$name.sh" >/dev/null && return
   [[ $1 =~ $rooms ]] && return 1
-  grep -qE -- "/${name//./\\.}(\.[ch]pp)?(/|$)" <<<"$sources"
+  [[ $sources =~ "/$name"(\.[ch]pp)?(/|$'\n') ]]
 }
 
 check_names() {  # check_names PAGE: words that look like a file of this repository
@@ -114,14 +116,13 @@ check_names() {  # check_names PAGE: words that look like a file of this reposit
   while read -r name; do
     [[ $name == *[A-Z][A-Z][A-Z]* && $name != *.md ]] && continue  # a placeholder, such as drivers/NAME
     exists "$name" || fail "$1: names $name" "there is no such file in the repository"
-  done < <({ spans "$1"; code "$1"; } | tr ' =(),;"' '\n' | sed 's/[.:]$//' |
-    grep -E "$pattern" | sort -u)
+  done < <(tr ' =(),;"' '\n' <<<"$page_spans"$'\n'"$page_code" | sed 's/[.:]$//' | grep -E "$pattern" | sort -u)
 }
 
 declare -A helps=()
 help_of() {  # help_of PROGRAM [COMMAND…]: what --help says; in $help
   local key=$*
-  [[ -n ${helps[$key]:-} ]] || helps[$key]=$("$programs/$1" "${@:2}" --help 2>/dev/null || true)
+  [[ -n ${helps[$key]:-} ]] || helps[$key]=$'\n'$("$programs/$1" "${@:2}" --help 2>/dev/null || true)
   help=${helps[$key]}
 }
 
@@ -130,7 +131,7 @@ check_command() {  # check_command PAGE WORD…: a call of one of the programs
   local -a commands=()
   shift 2
   help_of "$program"
-  while (($# > 0)) && grep -qE -- "^  $1( |$)" <<<"$help"; do
+  while (($# > 0)) && [[ $help == *$'\n'"  $1 "* ]]; do
     commands+=("$1")
     help_of "$program" "${commands[@]}"
     shift
@@ -140,31 +141,27 @@ check_command() {  # check_command PAGE WORD…: a call of one of the programs
   fi
   for word in "$@"; do
     [[ $word == --* ]] || continue
-    grep -qE -- "(^|[ ,])${word%%=*}([ ,]|$)" <<<"$help" || fail "$page: $line" "the command has no option $word"
+    [[ $help =~ [[:space:],]${word%%=*}([[:space:],]|$) ]] || fail "$page: $line" "the command has no option $word"
   done
 }
 
 check_options() {  # check_options PAGE: options that stand alone in the text
   local option
   while read -r option; do
-    grep -qxF -- "$option" <<<"$options" || fail "$1: $option" "nothing has this option"
-  done < <(spans "$1" | tr ' ' '\n' | grep -E '^--[a-z-]+$' | sort -u)
+    [[ $options == *$'\n'"$option"$'\n'* ]] || fail "$1: $option" "nothing has this option"
+  done < <(tr ' ' '\n' <<<"$page_spans" | grep -E '^--[a-z-]+$' | sort -u)
 }
 
+[[ -x $programs/cairn ]] || echo "commands are not checked: $programs/cairn is not built"
 for page in "${pages[@]}"; do
+  page_spans=$(spans "$page") page_code=$(code "$page")
   while read -r target; do [[ -z $target ]] || check_link "$page" "$target"; done < <(links "$page")
   check_names "$page"
   check_options "$page"
+  while read -r -a call; do
+    [[ ! -x $programs/${call[0]} ]] || check_command "$page" "${call[@]}"
+  done < <(tr ';|&' '\n' <<<"$page_code"$'\n'"$page_spans" | sed -E 's/^ *(sudo )?//; s/ #.*//' | grep -E '^cairn(-core|-peers)? ')
 done
-if [[ -x $programs/cairn ]]; then
-  for page in "${pages[@]}"; do
-    while read -r -a call; do
-      [[ ! -x $programs/${call[0]} ]] || check_command "$page" "${call[@]}"
-    done < <({ code "$page"; spans "$page"; } | tr ';|&' '\n' | sed -E 's/^ *(sudo )?//; s/ #.*//' | grep -E '^cairn(-core|-peers)? ')
-  done
-else
-  echo "commands are not checked: $programs/cairn is not built"
-fi
 
 ((bad == 0)) && echo "prose: ${#pages[@]} pages are in order"
 exit "$bad"
