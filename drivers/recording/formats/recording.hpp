@@ -30,7 +30,7 @@ inline constexpr std::array kKinds{kVelodyne, kScans, kCamera, kThermal, kDepth,
   return kind == kCamera || kind == kThermal || kind == kDepth;
 }
 
-/// One source of a recording. The index in Recording::sources is the SourceId of its packets.
+/// One source of a recording. Its index in Recording::sources is the SourceId of its packets.
 struct SourceEntry {
   std::string id;     ///< unique in the recording: letters, digits, `_`, `-`, `.`
   std::string kind;   ///< one of kKinds
@@ -42,7 +42,7 @@ struct SourceEntry {
   std::optional<Vector6> base_sensor_xyz_rpy{};
   std::uint16_t data_port = 2368;      ///< velodyne: UDP port of the data packets
   std::uint16_t position_port = 8308;  ///< velodyne: UDP port of the position packets
-  bool deskewed = false;               ///< scans: they are motion-compensated already (KITTI)
+  bool deskewed = false;               ///< scans: whoever recorded them compensated the motion already (KITTI)
 
   /// Pose of the sensor in base_link; identity if the recording has none.
   [[nodiscard]] SE3 T_base_sensor() const {
