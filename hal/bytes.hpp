@@ -23,14 +23,16 @@ template <class T>
   return value;
 }
 
-/// Reads hostile bytes front to back; every step is bounds-checked and none can move past the end.
+/// Reads untrusted bytes from front to back. Every step is checked, so none can go past the end.
 class ByteReader {
  public:
+  /// The bytes belong to the caller and must outlive the reader.
   explicit ByteReader(std::span<const std::byte> bytes) : bytes_(bytes) {}
 
-  [[nodiscard]] std::size_t offset() const { return offset_; }
+  [[nodiscard]] std::size_t offset() const { return offset_; }  ///< bytes read so far
   [[nodiscard]] std::size_t remaining() const { return bytes_.size() - offset_; }
 
+  /// The next little-endian value; null when fewer bytes are left.
   template <class T>
   [[nodiscard]] std::optional<T> read() {
     if (remaining() < sizeof(T)) return std::nullopt;
@@ -38,6 +40,7 @@ class ByteReader {
     offset_ += sizeof(T);
     return value;
   }
+  /// The next `n` bytes, in the caller's memory; null when fewer are left.
   [[nodiscard]] std::optional<std::span<const std::byte>> read_bytes(std::uint64_t n) {
     if (remaining() < n) return std::nullopt;
     const auto part = bytes_.subspan(offset_, static_cast<std::size_t>(n));

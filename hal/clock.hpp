@@ -5,11 +5,11 @@
 
 namespace cairn {
 
-/// The only thing that can tell the time; passed to whoever needs it.
+/// The only class that can tell the time. It is passed to the code that needs it.
 class Clock {
  public:
   virtual ~Clock() = default;
-  [[nodiscard]] virtual Time now() const = 0;
+  [[nodiscard]] virtual Time now() const = 0;  ///< never decreases
 
  protected:
   Clock() = default;
@@ -17,20 +17,21 @@ class Clock {
   Clock& operator=(const Clock&) = default;
 };
 
-/// CLOCK_MONOTONIC of this machine: never stepped by NTP, PTP or an operator.
+/// CLOCK_MONOTONIC of this machine. NTP, PTP or an operator never step it.
 class LiveClock final : public Clock {
  public:
   [[nodiscard]] Time now() const override;
-  /// CLOCK_REALTIME − CLOCK_MONOTONIC: turns a Time into UTC. Metadata only, never control.
+  /// CLOCK_REALTIME − CLOCK_MONOTONIC. Added to a Time it gives UTC. For metadata only, never for control.
   [[nodiscard]] static Duration realtime_offset();
-  /// Waits until `t` (absolute, so that a late caller does not drift); a signal does not end it.
+  /// Waits until `t`. The time is absolute, so a late caller does not drift. A signal does not end the wait.
   static void wait_until(Time t);
 };
 
-/// Time as the recording tells it. It advances when told to, and never backwards.
+/// The time of a recording or of a test. It advances only by advance_to().
 class VirtualClock final : public Clock {
  public:
   [[nodiscard]] Time now() const override { return now_; }
+  /// Goes on to `t`. A time before now() is ignored.
   void advance_to(Time t) {
     if (t > now_) now_ = t;
   }
@@ -39,7 +40,7 @@ class VirtualClock final : public Clock {
   Time now_{Time::min()};
 };
 
-/// CPU time this thread has used (CLOCK_THREAD_CPUTIME_ID): for figures in reports, never for logic.
+/// CPU time that this thread has used (CLOCK_THREAD_CPUTIME_ID). For reports only, never for logic.
 [[nodiscard]] Duration thread_cpu_time();
 
 }  // namespace cairn

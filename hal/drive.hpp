@@ -19,20 +19,20 @@ struct DriveCommand {
   std::uint32_t epoch = 0;  ///< what Drive::arm() returned; a command of an older epoch is discarded
 };
 
-/// What the wheels say. Dead reckoning only: no other sensor.
+/// Wheel odometry: dead reckoning from the wheels, without any other sensor.
 struct DriveState {
   Time stamp{};               ///< when the newest of the wheels' readings reached this computer
-  UncertainPose T_odom_base;  ///< since the first reading; includes what grows with the way (scale, slip)
+  UncertainPose T_odom_base;  ///< since the first reading; the covariance grows with the way (scale, slip)
   double v = 0, w = 0;        ///< m/s, rad/s, over the last interval between readings
   Eigen::Matrix2d twist_covariance = Eigen::Matrix2d::Zero();  ///< of (v, w)
-  bool slipping = false;  ///< the wheels contradict each other or physics; the covariance was widened
+  bool slipping = false;  ///< the wheels contradict each other or physics, so the covariance is larger
 };
 
-/// The worst of what is wrong decides.
+/// What the drive does. The worst active cause decides.
 enum class DriveLevel : std::uint8_t {
   kNormal,  ///< commands are carried out
-  kHold,    ///< zero is commanded, the motors stay enabled; ends with its cause
-  kStop,    ///< zero is commanded and the motors are disabled; ends with Drive::arm() alone
+  kHold,    ///< zero speed is commanded, the motors stay enabled; ends with its cause
+  kStop,    ///< zero speed is commanded, the motors are disabled; ends only with Drive::arm()
 };
 
 /// Why a drive is not in DriveLevel::kNormal.
@@ -43,7 +43,7 @@ enum class DriveCause : std::uint8_t {
   kNoCommand,      ///< no command since arming, or none for 500 ms
   kBadCommand,     ///< the last command was not finite
   kFeedbackLate,   ///< no feedback for 100 ms
-  kSendQueueFull,  ///< three frames in a row found the queue full: nobody acknowledges them
+  kSendQueueFull,  ///< three frames in a row found the queue full: no node acknowledges them
   // stop
   kNotArmed,       ///< never armed
   kRequested,      ///< Drive::stop()
@@ -53,32 +53,35 @@ enum class DriveCause : std::uint8_t {
   kBusOff,         ///< the CAN controller left the bus
   kLinkDown,       ///< the interface is down or gone
   kMotorFault,     ///< a motor controller reports a fault
-  kMotorReset,     ///< a motor controller started anew while it should have been running
+  kMotorReset,     ///< a motor controller restarted while it should have been running
   kEnableFailed,   ///< the motors did not become enabled in time
 };
 [[nodiscard]] std::string_view to_string(DriveCause cause);
 
+/// What the drive does, and why.
 struct DriveStatus {
   DriveLevel level = DriveLevel::kStop;
-  DriveCause cause = DriveCause::kNotArmed;  ///< the worst one; of a stop: the one that began it
+  DriveCause cause = DriveCause::kNotArmed;  ///< the worst cause; during a stop, the cause that began it
   std::uint32_t epoch = 0;                   ///< of the last arming
 };
 
-/// A robot's drive. One thread calls it.
+/// A robot's drive. All calls must come from one thread.
 class Drive {
  public:
   virtual ~Drive() = default;
-  /// The newest command replaces those before. Error kMalformed when it is not finite (the drive then holds), kLimit
-  /// when its epoch is not the current one (it is discarded).
+  /// The newest command replaces older ones. Errors: kMalformed when it is not finite (the drive then holds), kLimit
+  /// when its epoch is not the current one (the command is discarded).
   virtual Result<void> command(const DriveCommand& command, Time now) = 0;
-  /// Leaves a stop, when nothing that stops is there any more; returns the new epoch. The motors are enabled at zero
-  /// speed and wait for a command of that epoch. Error kLinkDown with what is in the way, kInvalidConfig.
+  /// Ends a stop when no cause of a stop is active, and returns the new epoch. The motors are enabled at zero speed and
+  /// wait for a command of that epoch. Errors: kLinkDown with the active cause, kInvalidConfig.
   virtual Result<std::uint32_t> arm(Time now) = 0;
-  /// Stops at once and disables; lasts until arm().
+  /// Stops at once and disables the motors, until arm().
   virtual void stop(DriveCause cause, Time now) = 0;
-  /// Receives, decides, sends; to be called every 10 ms or faster. Returns the newest state, or null when there is
-  /// none since the last tick; it stays valid until the next one. An Error concerns the device; keep ticking.
+  /// Receives, decides and sends. Call it every 10 ms or more often. Returns the newest state, or null when there is
+  /// no new one. The state is the drive's and stays valid until the next tick. After an Error of the device, go on
+  /// calling.
   virtual Result<const DriveState*> tick(Time now) = 0;
+  /// As of the last tick.
   [[nodiscard]] virtual DriveStatus status() const = 0;
 
  protected:
@@ -87,12 +90,12 @@ class Drive {
   Drive& operator=(const Drive&) = default;
 };
 
-/// A drive's bytes → its state. Pure: no device, no clock, no file.
+/// Bytes of a drive → its state. Pure: no device, no clock, no file.
 class DriveDecoder {
  public:
   virtual ~DriveDecoder() = default;
-  /// Returns the state that this packet completed, or null; it is the decoder's and valid until the next call. An Error
-  /// means that this packet was rejected whole.
+  /// Returns the state that this packet completed, or null. The state is the decoder's and stays valid until the next
+  /// call. An Error means that this packet was refused whole.
   virtual Result<const DriveState*> decode(const Packet& packet) = 0;
 
  protected:

@@ -14,6 +14,7 @@ namespace cairn {
 /// allocates. One thread records; any thread may read meanwhile, and sees counts that are a moment apart at most.
 class Histogram {
  public:
+  /// Counts one duration. Negative ones count as zero.
   void record(Duration d);
 
   [[nodiscard]] std::uint64_t count() const { return count_; }
@@ -28,6 +29,7 @@ class Histogram {
     std::uint64_t count = 0;
   };
   static constexpr std::size_t kBuckets = 128 * 30;
+  /// 0 <= index < kBuckets.
   [[nodiscard]] Bucket bucket(std::size_t index) const;
 
  private:

@@ -21,6 +21,7 @@ enum class PixelFormat : std::uint8_t {
   kCelsius,  ///< float32 degrees Celsius
 };
 
+/// Bytes from one pixel of a row to the next.
 [[nodiscard]] constexpr std::size_t bytes_per_pixel(PixelFormat format) {
   switch (format) {
     case PixelFormat::kMono8:
@@ -36,12 +37,12 @@ enum class PixelFormat : std::uint8_t {
   return 4;
 }
 
-/// A rectangle of pixels that someone else owns: a whole image or a part of one. Row 0 is the top, column 0 the left.
+/// A rectangle of pixels in another's memory: a whole image or a part of one. Row 0 is the top, column 0 the left.
 struct ImageView {
   PixelFormat format = PixelFormat::kMono8;
   int width = 0, height = 0;         ///< pixels
   std::size_t stride = 0;            ///< bytes from one row to the next, at least width · bytes_per_pixel
-  std::span<const std::byte> bytes;  ///< from the first pixel to the last; the end of the last row's stride may lack
+  std::span<const std::byte> bytes;  ///< from the first pixel to the last; padding after the last row may be missing
 
   [[nodiscard]] bool empty() const { return width == 0 || height == 0; }
   /// The width · bytes_per_pixel bytes of row 0 <= y < height.
@@ -60,11 +61,12 @@ struct ImageView {
   }
 };
 
-/// One picture and when it was taken. Owns its bytes; decoders reuse their memory from frame to frame.
+/// One picture and when it was taken. It owns its bytes. Decoders reuse the memory from frame to frame.
 struct Image {
   SourceId source{};
   std::uint64_t sequence = 0;  ///< of the packet it came from; a gap is a lost frame
-  /// The exposure's start where `start_of_exposure`, otherwise when the frame had arrived, less the configured latency.
+  /// The start of the exposure if `start_of_exposure` is set, else the arrival of the frame. The configured latency is
+  /// subtracted.
   Time stamp{};
   bool start_of_exposure = false;
   PixelFormat format = PixelFormat::kMono8;
@@ -72,7 +74,7 @@ struct Image {
   std::size_t stride = 0;     ///< bytes per row
   std::vector<std::byte> bytes;
 
-  /// Makes room for width × height pixels without padding. What the bytes hold afterwards is left open.
+  /// Makes room for width × height pixels without padding. The content of the bytes is then undefined.
   void resize(PixelFormat f, int w, int h) {
     format = f;
     width = w;
@@ -86,13 +88,13 @@ struct Image {
 
 /// One frame of a thermal camera.
 struct ThermalImage {
-  Image values;  ///< kCelsius where the sensor says what its counts mean, otherwise kMono16: raw counts
-  Image
-      stretched;  ///< kMono8, the same size: `values` spread over 0…255, warm is bright; for detectors and for looking
-  /// A flat-field correction is imminent or running, or ended less than a second ago: the picture may be frozen or
+  Image values;     ///< kCelsius where the sensor says what its counts mean, otherwise kMono16: raw counts
+  Image stretched;  ///< kMono8 of the same size: `values` spread over 0…255, warm is bright; for detectors and people
+  /// A flat-field correction is imminent or running, or ended less than a second ago. The picture may be frozen or
   /// wrong.
   bool correcting = false;
 
+  /// True when the values are temperatures.
   [[nodiscard]] bool radiometric() const { return values.format == PixelFormat::kCelsius; }
 };
 

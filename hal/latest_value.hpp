@@ -7,8 +7,8 @@
 
 namespace cairn {
 
-/// The newest value of something, from one writing to one reading thread (a triple buffer). Neither side ever waits for
-/// the other; the reader sees whole values only, and never an older one after a newer one.
+/// Hands the newest value from one writing thread to one reading thread (a triple buffer). Neither side ever waits for
+/// the other. The reader sees only whole values, and never an older one after a newer one.
 template <class T>
 class LatestValue {
  public:
@@ -16,6 +16,7 @@ class LatestValue {
   [[nodiscard]] T& back() { return values_[write_]; }
   /// Writer: makes back() the newest value.
   void publish() { write_ = middle_.exchange(write_ | kFresh, std::memory_order_acq_rel) & kIndex; }
+  /// Writer: copies `value` and makes it the newest.
   void publish(const T& value) {
     back() = value;
     publish();

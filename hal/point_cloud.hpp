@@ -26,6 +26,7 @@ struct PointCloud {
   [[nodiscard]] std::size_t size() const { return xyz.size(); }
   [[nodiscard]] bool empty() const { return xyz.empty(); }
 
+  /// Removes all points and keeps the memory.
   void clear() {
     xyz.clear();
     intensity.clear();
@@ -33,6 +34,7 @@ struct PointCloud {
     ring.clear();
     return_type.clear();
   }
+  /// Takes memory for `n` points.
   void reserve(std::size_t n) {
     xyz.reserve(n);
     intensity.reserve(n);
@@ -40,6 +42,7 @@ struct PointCloud {
     ring.reserve(n);
     return_type.reserve(n);
   }
+  /// Appends one point: `p` in metres, `offset` in ns, the others as in the arrays.
   void push_back(const Eigen::Vector3f& p, float i, std::uint32_t offset, std::uint8_t row, ReturnType type) {
     xyz.push_back(p);
     intensity.push_back(i);
@@ -61,9 +64,9 @@ struct Scan {
   TimeRange valid{};
   PointCloud cloud;                ///< sensor frame
   bool incomplete = false;         ///< packets were lost, or the scan was closed by a time-out or the end of the data
-  std::uint32_t lost_packets = 0;  ///< noticed inside this scan
-  bool partial = false;            ///< shows less than half of what a whole one does; then it is incomplete, too
-  bool deskewed = false;           ///< already motion-compensated by whoever recorded it: offsets carry no motion
+  std::uint32_t lost_packets = 0;  ///< missing in this scan
+  bool partial = false;            ///< covers less than half of a whole scan; it is then also `incomplete`
+  bool deskewed = false;           ///< the recording is already motion-compensated: offsets carry no motion
   TimeQuality time_quality = TimeQuality::kArrival;
 };
 

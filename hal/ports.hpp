@@ -11,18 +11,19 @@
 
 namespace cairn {
 
+/// What Source::next() did.
 enum class Poll : std::uint8_t {
   kPacket,   ///< the packet was filled
   kTimeout,  ///< nothing came in time; call again
-  kEnd,      ///< a recording ended; nothing will ever come
+  kEnd,      ///< the recording ended; nothing more will come
 };
 
-/// The one door through which bytes enter: a live device, or its recording.
+/// The port through which all bytes enter: a live device, or its recording.
 class Source {
  public:
   virtual ~Source() = default;
-  /// Fills `packet`, reusing its memory; waits `timeout` at most. An Error is final for this packet, not for the
-  /// source: the caller may go on polling, and gets kEnd when nothing can follow.
+  /// Fills `packet` and reuses its memory. Waits at most `timeout`. An Error concerns this packet, not the source: the
+  /// caller may go on calling, and gets kEnd when nothing can follow.
   virtual Result<Poll> next(Packet& packet, Duration timeout) = 0;
 
  protected:
@@ -35,12 +36,12 @@ class Source {
 class ScanDecoder {
  public:
   virtual ~ScanDecoder() = default;
-  /// Consumes one packet. Returns the scan that it completed, or null; the scan is the decoder's and stays valid until
-  /// the next call. An Error means that this packet was rejected whole; decoding goes on with the next one.
+  /// Consumes one packet. Returns the scan that it completed, or null. The scan is the decoder's and stays valid until
+  /// the next call. An Error means that this packet was refused whole. Decoding goes on with the next one.
   virtual Result<const Scan*> decode(const Packet& packet) = 0;
-  /// Closes the running scan when it is too old at `now` (a stopped motor, a broken link); null when it is not.
+  /// Closes the running scan if it is too old at `now`, because the motor stopped or the link broke. Null if it is not.
   virtual const Scan* expire(Time now) = 0;
-  /// Closes the running scan at the end of the data; null when it is empty.
+  /// Closes the running scan at the end of the data. Null if it is empty.
   virtual const Scan* flush() = 0;
 
  protected:
@@ -53,8 +54,8 @@ class ScanDecoder {
 class ImageDecoder {
  public:
   virtual ~ImageDecoder() = default;
-  /// The picture is the decoder's and stays valid until the next call. An Error means that this packet was rejected
-  /// whole; decoding goes on with the next one.
+  /// The picture is the decoder's and stays valid until the next call. An Error means that this packet was refused
+  /// whole. Decoding goes on with the next one.
   virtual Result<const Image*> decode(const Packet& packet) = 0;
 
  protected:
@@ -63,11 +64,11 @@ class ImageDecoder {
   ImageDecoder& operator=(const ImageDecoder&) = default;
 };
 
-/// The same for thermal cameras.
+/// Bytes of a thermal camera → pictures. Pure: no device, no clock, no file.
 class ThermalDecoder {
  public:
   virtual ~ThermalDecoder() = default;
-  /// As ImageDecoder::decode(), except that null says: nothing new, the device repeated its last frame.
+  /// As ImageDecoder::decode(). Null means that the device repeated its last frame.
   virtual Result<const ThermalImage*> decode(const Packet& packet) = 0;
 
  protected:

@@ -6,8 +6,8 @@
 
 namespace cairn {
 
-/// A number that one thread changes and any thread may read, without order between several of them: for figures. As
-/// cheap as a plain integer for its writer; copies like one.
+/// A counter that one thread changes and any thread may read. Reads of several counters are not ordered, so it is for
+/// figures only. For its writer it is as cheap as a plain integer. It can be copied like one.
 class RelaxedCounter {
  public:
   RelaxedCounter(std::uint64_t value = 0) : value_(value) {}  // NOLINT(google-explicit-constructor): it is a number

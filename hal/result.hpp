@@ -10,6 +10,7 @@
 
 namespace cairn {
 
+/// The kind of an Error, for code that reacts to it.
 enum class Errc : std::uint8_t {
   kIo,             ///< the system refused (open, read, write, bind)
   kNotFound,       ///< the file, device or key is not there
@@ -17,19 +18,19 @@ enum class Errc : std::uint8_t {
   kTruncated,      ///< the bytes end before they should
   kUnsupported,    ///< understood, but not implemented for this variant
   kLimit,          ///< a bound on memory, depth, count or size was reached
-  kInvalidConfig,  ///< one or more faults in a configuration; all of them are in `detail`
+  kInvalidConfig,  ///< one or more faults in a configuration; `detail` has all of them
   kDiverged,       ///< an estimate did not converge
   kLinkDown,       ///< the device or peer does not answer
 };
 
-/// An error expected at run time: what went wrong, where, and what to do about it.
-/// Building one from literals does not allocate, so the hot path may do it.
+/// An error that is expected at run time: what went wrong, where, and what to do about it.
+/// Making one from literals does not allocate, so real-time code may do it.
 struct Error {
   Errc code{};
   std::string_view cause;                 ///< static storage: what is wrong
-  std::string where{};                    ///< file, device or key; empty where the caller adds it
-  std::optional<std::uint64_t> offset{};  ///< byte offset in `where`
-  std::string detail{};                   ///< values seen, and the remedy
+  std::string where{};                    ///< file, device or key; empty if the caller adds it
+  std::optional<std::uint64_t> offset{};  ///< bytes from the start of `where`
+  std::string detail{};                   ///< the values seen, and the remedy
 };
 
 /// "where: offset 12: cause: detail", leaving out what is empty.
@@ -42,7 +43,7 @@ struct Error {
   return text;
 }
 
-/// A value or an Error. tl::expected, made impossible to ignore.
+/// A value or an Error: tl::expected that the compiler does not let you ignore.
 template <class T>
 class [[nodiscard]] Result : public tl::expected<T, Error> {
   using Base = tl::expected<T, Error>;
@@ -52,7 +53,7 @@ class [[nodiscard]] Result : public tl::expected<T, Error> {
   Result(Error error) : Base(tl::unexpected<Error>(std::move(error))) {}  // NOLINT(google-explicit-constructor)
 };
 
-/// Says where an error happened, for callers that know the file name when the callee did not.
+/// The error with the place where it happened, if it has none yet. For callers that know the name of the file.
 [[nodiscard]] inline Error at(std::string where, Error error) {
   if (error.where.empty()) error.where = std::move(where);
   return error;

@@ -29,6 +29,7 @@ class SE3 {
   [[nodiscard]] static SE3 from_xyz_rpy(const Vector6& xyz_rpy);
   [[nodiscard]] Vector6 xyz_rpy() const;
 
+  /// The motion with the tangent vector `xi`: translation in metres first, then rotation in radians.
   [[nodiscard]] static SE3 exp(const Vector6& xi);
   /// The ξ with exp(ξ) = *this and a rotation angle in [0, π].
   [[nodiscard]] Vector6 log() const;

@@ -6,7 +6,7 @@
 
 namespace cairn {
 
-/// Tag for robot time. It has no now() on purpose: only a Clock can tell the time.
+/// Tag for robot time. It has no now(): only a Clock can tell the time.
 struct RobotTime {
   using rep = std::int64_t;
   using period = std::nano;
@@ -15,16 +15,18 @@ struct RobotTime {
   static constexpr bool is_steady = true;
 };
 
-/// Nanoseconds on the robot's monotonic time line (in a replay: the time line of the recording).
+/// Nanoseconds on the robot's monotonic time line. In a replay it is the time line of the recording.
 using Time = RobotTime::time_point;
+/// Nanoseconds between two Times.
 using Duration = RobotTime::duration;
 
-/// When the data was true: a LiDAR scan is valid over an interval, not at an instant.
+/// The interval in which data was measured. A LiDAR scan takes a tenth of a second.
 struct TimeRange {
   Time start{}, end{};
   friend bool operator==(const TimeRange&, const TimeRange&) = default;
 };
 
+/// The same in seconds or milliseconds, rounded to a double.
 [[nodiscard]] constexpr double to_seconds(Duration d) { return 1e-9 * static_cast<double>(d.count()); }
 [[nodiscard]] constexpr double to_seconds(Time t) { return to_seconds(t.time_since_epoch()); }
 [[nodiscard]] constexpr double to_milliseconds(Duration d) { return 1e-6 * static_cast<double>(d.count()); }

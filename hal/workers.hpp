@@ -12,13 +12,15 @@
 
 namespace cairn {
 
-/// Runs numbered chunks of one job on a fixed set of threads. Which thread runs a chunk is left open; how many chunks
-/// there are is the caller's choice and must not depend on the number of threads. With every chunk writing to its own
-/// place and the caller reducing in chunk order, the result is the same for any number of threads.
+/// Runs the numbered chunks of one job on a fixed set of threads. Any thread may run any chunk. For the same result
+/// with any number of threads:
+///   - the number of chunks must not depend on the number of threads
+///   - each chunk must write to a place of its own
+///   - the caller must reduce in the order of the chunks
 class Workers {
  public:
-  /// `threads` includes the calling one: 1 starts none. `prepare` is called first on every thread that is started, with
-  /// its number from 1: to give it a name or a priority.
+  /// `threads` includes the calling thread: 1 starts none. `prepare` is called first on each started thread, with its
+  /// number from 1. It may give the thread a name or a priority.
   explicit Workers(unsigned threads, const std::function<void(unsigned)>& prepare = {});
   ~Workers();
   Workers(const Workers&) = delete;
@@ -26,8 +28,8 @@ class Workers {
 
   [[nodiscard]] unsigned threads() const { return static_cast<unsigned>(pool_.size()) + 1; }
 
-  /// Calls work(i) for every i < chunks and returns when all are done. Never allocates. One caller at a time; `work`
-  /// must not throw and must not call for_each of the same Workers.
+  /// Calls work(i) for every i < chunks and returns when all are done. Never allocates. Only one caller at a time.
+  /// `work` must not throw and must not call for_each() of the same Workers.
   template <class Work>
   void for_each(std::size_t chunks, Work&& work) {
     using Plain = std::remove_reference_t<Work>;

@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# Finds OpenCV module by module, as targets opencv::NAME. Debian puts OpenCVConfig.cmake into libopencv-dev alone, which pulls
-# in every module with VTK, HDF5 and MPI behind them; this is content with the packages of the modules that are asked for.
+# Finds OpenCV module by module, as targets opencv::NAME. Debian has OpenCVConfig.cmake only in libopencv-dev, which depends
+# on every module with VTK, HDF5 and MPI. This file needs only the packages of the modules that are asked for.
 #   find_package(OpenCVMin REQUIRED COMPONENTS core imgproc [OPTIONAL_COMPONENTS videoio])
 find_path(OpenCVMin_INCLUDE_DIR opencv2/core.hpp PATH_SUFFIXES opencv4)
 foreach(component IN LISTS OpenCVMin_FIND_COMPONENTS)

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Lays out a Debian 12 arm64 root to compile and link against: toolchains/make_sysroot.sh [FOLDER]
-# No foreign code runs: packages are only unpacked, from the machine's own package sources. Does nothing when the folder
-# holds what tools/packages.sh lists for it. The toolchain file finds it at CAIRN_SYSROOT or at sysroot-arm64.
+# Unpacks a Debian 12 arm64 root to compile and link against: toolchains/make_sysroot.sh [FOLDER]
+# Packages come from the sources of this machine and are only unpacked, so no arm64 program runs. Does nothing if the folder
+# has all packages of the group in tools/packages.sh. The toolchain file finds it at CAIRN_SYSROOT or at sysroot-arm64.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 

@@ -1,10 +1,10 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Runs the benchmarks and leaves bench.json, a list of {name, ours_ms, peer, peer_ms, ratio, n, note}: CPU time, ratio =
-# peer_ms / ours_ms of the same run, and for inserts differing_voxels.
+# Runs the benchmarks and writes bench.json, a list of {name, ours_ms, peer, peer_ms, ratio, n, note}. Times are CPU times.
+# The ratio is peer_ms / ours_ms of the same run. Benchmarks of inserting also have differing_voxels.
 #   tools/bench.sh [FILTER]      only benchmarks whose name matches this regular expression
-# A benchmark without counters ours_ms and n gives Google Benchmark's CPU time per iteration; its label is "peer" or
-# "peer: note". All counters are kept in build/bench/NAME.json.
+# A benchmark without the counters ours_ms and n gives Google Benchmark's CPU time per iteration. Its label is "peer" or
+# "peer: note". All counters are in build/bench/NAME.json.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 filter=${1:-.}

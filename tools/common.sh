@@ -1,11 +1,11 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# Sourced by the scripts: goes to the project's root and says how everything is built.
+# Sourced by the other scripts: changes to the root of the project and defines build.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-# build PRESET [ARGUMENT…]: configures, then builds what cmake --build's arguments name. Prints nothing but faults, and on
-# a terminal the progress.
+# build PRESET [ARGUMENT…]: configures and builds. The arguments go to cmake --build. Prints errors only, and on a terminal
+# also the progress.
 build() {
   local preset=$1 quiet=()
   shift

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# A robot drives through an office for a minute, simulated; Cairn turns what its LiDAR sent into a trajectory and a map,
-# and both are compared with the truth. Leaves demo/run/report.html.
+# Simulates a robot that drives through an office for a minute. Cairn makes a trajectory and a map of its LiDAR packets.
+# Both are compared with the truth. Leaves demo/run/report.html.
 #   tools/demo.sh [SCENE [SECONDS]]
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The one list of Debian 12 packages. Installs what is missing of the named groups:
+# The only list of Debian 12 packages. Installs the missing packages of the named groups:
 #   tools/packages.sh GROUP…          build test ci cross fresh bench vm protocol docs
-#   tools/packages.sh --list GROUP…   prints the packages instead
-# Asks for nothing and touches nothing when all is there. Needs root or sudo only when something is missing.
+#   tools/packages.sh --list GROUP…   only prints the packages
+# If no package is missing, it changes nothing. If one is missing, it needs root or sudo. It never asks.
 set -euo pipefail
 
 declare -rA packages=(
@@ -21,8 +21,8 @@ declare -rA packages=(
   [fresh]="debootstrap git"
   # the virtual machine of tests/vm: QEMU, what packs its first root and builds one kernel module, and `ip` for CAN's bit rates
   [vm]="qemu-system-x86 cpio kmod xz-utils make gcc-12 libelf1 iproute2"
-  # tools/pictures.sh: smaller pictures
-  [docs]="pngquant"
+  # tools/ci/api_reference.sh, and smaller pictures for tools/pictures.sh
+  [docs]="doxygen pngquant"
   # for another architecture, into a sysroot: Debian has no Embree for arm64, so the simulator is left out there
   [sysroot]="libc6-dev libstdc++-12-dev linux-libc-dev libeigen3-dev liboctomap-dev libpcap-dev libyaml-cpp-dev
              libspdlog-dev libcli11-dev nlohmann-json3-dev libexpected-dev libzstd-dev libxxhash-dev libpng-dev libssl-dev

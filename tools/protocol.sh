@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# The book's comparison of map matching (ch. 3 to 5), our methods and PCL's: simulates two robots in each of three scenes,
-# makes pairs of maps of their recordings, matches each pair from 125 starts, and leaves protocol.json and protocol.html.
+# The book's comparison of map matching (chapters 3 to 5), with our methods and PCL's. Simulates two robots in each of three
+# scenes, makes pairs of maps from their recordings, and matches each pair from 125 start poses. Leaves protocol.json and
+# protocol.html.
 #   tools/protocol.sh [--seed K] [--out DIR] [--octomaps DIR] [--starts N] [--quick]
 #     --seed      of the simulated robots' paths and noise (default 1001)
 #     --out       default: protocol/
-#     --octomaps  folder of .bt maps (such as fr_079, geb079) whose halves are matched, too
-#     --starts    so many of the 125 starts for the methods that take long (PCL's, OICP, PMM, EM), and a fifth of them
-#                 in the series; the default and the methods on edges are always run from all (default 125)
+#     --octomaps  folder of .bt maps (such as fr_079, geb079); halves of them are matched, too
+#     --starts    how many of the 125 starts the slow methods get (PCL's, OICP, PMM, EM); in a series a fifth of that.
+#                 The default method and those on edges always run from all (default 125)
 #     --quick     --starts 5 and shorter recordings
-# On two idle cores, with two OctoMaps, after the build: about 45 minutes; with --starts 25 a quarter of an hour.
-# The only script that installs PCL; nothing else of the project knows it.
+# It takes about 45 minutes on two idle cores, with two OctoMaps, after the build; with --starts 25 a quarter of an hour.
+# This script alone installs and uses PCL.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 seed=1001 out=protocol octomaps=() starts=125 seconds=60

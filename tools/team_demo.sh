@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Three robots drive through an office, simulated; then each is run on this machine with its own processes, over an
-# emulated bad radio, and what they came to is compared. Leaves demo/team/SCENE/out/team.json and team.png.
+# Simulates three robots that drive through an office. Then each robot runs on this machine with processes of its own, over
+# an emulated bad radio, and their maps are compared. Leaves demo/team/SCENE/out/team.json and team.png.
 #   tools/team_demo.sh [SCENE [SECONDS [ARGUMENT…]]]     further arguments go to cairn team
-# Without arguments: office, then carpark, 90 s each; with the simulation and a minute to settle, five minutes each.
+# Without arguments: office, then carpark, 90 s each. Each takes five minutes, with simulation and a minute to settle.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 scenes=(office carpark) seconds=${2:-90}

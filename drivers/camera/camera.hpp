@@ -6,20 +6,21 @@
 
 namespace cairn::camera {
 
-/// Two eyes in one picture. Views: valid as long as the picture.
+/// The two eyes of one picture. The views are valid as long as the picture.
 struct StereoView {
   ImageView left, right;
 };
 /// The left half is the left eye's (stereolabs/zed-open-capture). Copies nothing. Error: kMalformed for an odd width.
 [[nodiscard]] Result<StereoView> split_side_by_side(const ImageView& both);
 
-/// Frames in packets (frame.hpp) → pictures. Refuses packets that come twice or from before the last one.
+/// Frames in packets (frame.hpp) → pictures. Refuses packets that come twice or are older than the last one.
 class Camera final : public ImageDecoder {
  public:
+  /// What happened to the packets.
   struct Counters {
-    std::uint64_t frames = 0;
+    std::uint64_t frames = 0;    ///< decoded
     std::uint64_t rejected = 0;  ///< malformed, or cut off by the transport
-    std::uint64_t repeated = 0;  ///< sequence not above the last one
+    std::uint64_t repeated = 0;  ///< the sequence is not above the last one
     std::uint64_t lost = 0;      ///< gaps in the sequence
   };
   /// Error: kInvalidConfig.

@@ -7,28 +7,30 @@
 
 namespace cairn::camera {
 
-/// What a V4L2 device is asked for. Cameras of all kinds have one.
+/// What a V4L2 device is asked for. Part of the configuration of all cameras.
 struct CaptureConfig {
-  std::string device;  ///< empty: the sensor is replayed only
-  std::string format = "YUYV";
-  int width = 1344;
-  int height = 376;
-  double rate_hz = 15;
-  int buffers = 4;
+  std::string device;           ///< path, best below /dev/v4l/by-id; empty: the camera does not exist
+  std::string format = "YUYV";  ///< name of a FrameFormat
+  int width = 1344;             ///< pixels of the whole frame: both eyes, telemetry rows and all
+  int height = 376;             ///< pixels of the whole frame
+  double rate_hz = 15;          ///< frames per second; the device may grant another rate
+  int buffers = 4;              ///< frames that the kernel may fill before one is taken
 };
 
-/// A colour camera: alone, or two side by side in one picture (ZED: 2 × 672×376).
+/// A colour camera: alone, or two side by side in one picture (ZED: 2 × 672×376). Section `camera` of the profile.
 struct Config {
   CaptureConfig capture;
-  bool side_by_side = true;
-  double latency_ms = 0;
+  bool side_by_side = true;  ///< the left half of the frame is the left eye
+  double latency_ms = 0;     ///< from the exposure to the stamp of the frame; it is subtracted
 };
 
 /// Keys, units and bounds.
 void declare(config::Section& section, CaptureConfig& config);
+/// Keys, units and bounds.
 void declare(config::Section& section, Config& config);
-/// What bounds alone cannot say, all faults in one Error.
+/// Checks what bounds cannot. Error kInvalidConfig with all faults.
 [[nodiscard]] Result<void> check(const CaptureConfig& config);
+/// Checks what bounds cannot. Error kInvalidConfig with all faults.
 [[nodiscard]] Result<void> check(const Config& config);
 
 }  // namespace cairn::camera

@@ -18,14 +18,14 @@ namespace cairn::camera {
   return code;
 }
 
-/// Pixel formats that cameras deliver and that we decode.
+/// The pixel formats of cameras that Cairn decodes.
 enum class FrameFormat : std::uint32_t {
   kYuyv = fourcc("YUYV"),  ///< Y0 U Y1 V, BT.601 limited range
   kUyvy = fourcc("UYVY"),  ///< U Y0 V Y1
   kNv12 = fourcc("NV12"),  ///< a Y plane, then a plane of U V pairs at half the width and height
   kGrey = fourcc("GREY"),  ///< 8 bit
-  kBgr = fourcc("BGR3"),   ///< 8 bit blue, green, red; what replay makes of a colour PNG
-  kMjpg = fourcc("MJPG"),  ///< a JPEG of its own in every frame
+  kBgr = fourcc("BGR3"),   ///< 8 bit blue, green, red; also a colour PNG in a replay
+  kMjpg = fourcc("MJPG"),  ///< one JPEG per frame
   kY16 = fourcc("Y16 "),   ///< 16 bit little-endian
   kZ16 = fourcc("Z16 "),   ///< 16 bit depth, little-endian
 };
@@ -35,30 +35,32 @@ struct FormatInfo {
   FrameFormat format;
   const char* name;      ///< as in a robot profile and in V4L2's tools
   unsigned pixel_bytes;  ///< in a row of the first plane; 0: compressed
-  unsigned even;         ///< both width and height have to be multiples of it (height for NV12 only)
+  unsigned even;         ///< the width must be a multiple of it; for NV12 also the height
   bool half_plane;       ///< a second plane of half the height follows
 };
+/// The table of formats.
 [[nodiscard]] std::span<const FormatInfo> formats();
-/// Null for formats that we do not decode.
+/// Null for a format that is not in the table.
 [[nodiscard]] const FormatInfo* find_format(std::uint32_t code);
+/// The same by FormatInfo::name.
 [[nodiscard]] const FormatInfo* find_format(std::string_view name);
-/// A code as text, for messages: "YUYV"; odd characters as '?'.
+/// A code as text for messages, such as "YUYV". Characters that cannot be printed become '?'.
 [[nodiscard]] std::string format_name(std::uint32_t code);
 
-/// What is known about a frame before its bytes: what was negotiated with the device.
+/// What was negotiated with the device about each frame.
 struct FrameHeader {
   std::uint32_t format = 0;          ///< FrameFormat, or any other code
   std::uint32_t width = 0;           ///< pixels
   std::uint32_t height = 0;          ///< pixels
   std::uint32_t bytes_per_line = 0;  ///< from one row of the first plane to the next; 0 for compressed formats
-  bool start_of_exposure = false;    ///< the packet's arrival is the exposure's start, otherwise the frame's end
+  bool start_of_exposure = false;    ///< Packet::arrival is the start of the exposure, otherwise the end of the frame
 };
 
-/// A frame that has been checked whole: its bytes may be indexed freely.
+/// A frame whose bytes are all checked. Later code may index them without further checks.
 struct Frame {
   FrameHeader header;
   const FormatInfo* info = nullptr;    ///< never null
-  std::span<const std::byte> payload;  ///< bytesused of them, someone else's memory
+  std::span<const std::byte> payload;  ///< V4L2's bytesused of them, in the memory of the packet or device
 };
 
 inline constexpr std::uint32_t kMaxSide = 8192;         ///< pixels
@@ -72,6 +74,7 @@ inline constexpr std::uint32_t kMaxPixels = 1U << 24U;  ///< of one frame; the l
 /// line, flags with bit 0 = start of exposure), then the payload as the device gave it.
 inline constexpr std::size_t kFrameHeaderBytes = 20;
 void append_header(std::vector<std::byte>& out, const FrameHeader& header);
+/// Reads the header of a packet. Errors: kTruncated, kMalformed.
 [[nodiscard]] Result<FrameHeader> parse_header(std::span<const std::byte> packet);
 /// parse_header() and check_frame().
 [[nodiscard]] Result<Frame> parse_frame(std::span<const std::byte> packet);

@@ -13,38 +13,39 @@
 
 namespace cairn::camera {
 
-/// What a NumPy file of pictures holds (numpy.lib.format, versions 1 to 3): an array in C order of shape (height,
-/// width) or (frames, height, width), of little-endian u16 or u8.
+/// A NumPy file of pictures (numpy.lib.format, versions 1 to 3): an array in C order of shape (height, width) or
+/// (frames, height, width), of little-endian u16 or u8.
 struct NpyHeader {
   std::size_t data_offset = 0;  ///< bytes from the file's start
   std::uint64_t frames = 0;
   std::uint32_t height = 0, width = 0;
   std::uint32_t pixel_bytes = 0;  ///< 1 or 2
 
+  /// Bytes of one picture.
   [[nodiscard]] std::uint64_t frame_bytes() const { return std::uint64_t{height} * width * pixel_bytes; }
 };
 
 inline constexpr std::size_t kMaxNpyHeaderBytes = 4096;
 
-/// `start` are the first bytes of the file; kMaxNpyHeaderBytes always suffice. Errors: kMalformed, kTruncated,
-/// kUnsupported (other types, other orders), kLimit (pictures that no camera makes).
+/// `start` holds the first bytes of the file; kMaxNpyHeaderBytes are always enough. Errors: kMalformed, kTruncated,
+/// kUnsupported (other types, other orders), kLimit (pictures larger than any camera's).
 [[nodiscard]] Result<NpyHeader> parse_npy_header(std::span<const std::byte> start);
 
-/// Replays the pictures of a .npy file, as a camera would have sent them. The file knows no times: they come at a
-/// constant rate.
+/// Replays the pictures of a .npy file as if a camera had sent them. The file has no times, so the rate is constant.
 class NpySource final : public Source {
  public:
+  /// How the pictures are replayed.
   struct Options {
     SourceId source{};
-    FrameFormat deep = FrameFormat::kY16;  ///< what two bytes are: kY16 or kZ16; one byte is kGrey
-    double rate_hz = 9;
-    Time start{};
+    FrameFormat deep = FrameFormat::kY16;  ///< format of pixels of two bytes: kY16 or kZ16; one byte is kGrey
+    double rate_hz = 9;                    ///< pictures per second
+    Time start{};                          ///< arrival of the first picture
   };
   /// Errors: kNotFound, kIo and those of parse_npy_header(); kTruncated when not even one picture is there.
   [[nodiscard]] static Result<std::unique_ptr<NpySource>> open(const std::filesystem::path& path,
                                                                const Options& options);
 
-  /// A file that ends early is one Error at its end. Never waits.
+  /// Never waits. A file that ends early gives one Error at its end.
   Result<Poll> next(Packet& packet, Duration timeout) override;
   [[nodiscard]] const NpyHeader& header() const { return header_; }
 

@@ -5,10 +5,11 @@
 
 namespace cairn::camera {
 
-/// What a capture does about trouble, and when. Pure: the caller tells it what happened and does what it says.
+/// Decides how a capture recovers from trouble, and when. Pure: the caller reports what happened and carries out the
+/// step.
 ///
-/// A stream that is silent or broken is restarted; one that gives no frame after kMaxRestarts of that, or whose device
-/// is gone, is closed and opened again after 0.1, 0.2, 0.4 … 2 s. Only a good frame makes it forget.
+/// A silent or broken stream is restarted. After kMaxRestarts without a frame, or when the device is gone, the device
+/// is closed and opened again after 0.1, 0.2, 0.4 … 2 s. Only a good frame resets these counts.
 class Recovery {
  public:
   enum class Step { kRead, kRestart, kReopen, kWait };
@@ -20,15 +21,16 @@ class Recovery {
   /// Starts as streaming. `silence` without a frame counts as a broken stream.
   Recovery(Time now, Duration silence);
 
+  /// What to do at `now`.
   [[nodiscard]] Step step(Time now) const;
-  /// Until then the step stays what it is, unless something happens.
+  /// Until then the step stays the same, unless something happens.
   [[nodiscard]] Time wake() const { return at_; }
 
   void frame(Time now);      ///< a good frame came
   void broken(Time now);     ///< the stream does not go on (EIO and the like)
-  void lost(Time now);       ///< the device is gone: everything was closed
-  void restarted(Time now);  ///< Step::kRestart was carried out; had it failed, it would be lost()
-  void reopened(Time now);   ///< Step::kReopen was carried out; had it failed, it would be lost()
+  void lost(Time now);       ///< the device is gone and closed, or a restart or reopening failed
+  void restarted(Time now);  ///< Step::kRestart was carried out
+  void reopened(Time now);   ///< Step::kReopen was carried out
 
  private:
   enum class State { kStreaming, kBroken, kLost };

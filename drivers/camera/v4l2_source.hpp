@@ -10,35 +10,36 @@
 
 namespace cairn::camera {
 
-/// A live camera: each good frame as a packet (frame.hpp). Arrival is the kernel's stamp on the monotonic line: the
-/// exposure's start where the frame's header says so. Sequences go on over restarts and replugs.
+/// A live camera: each good frame becomes a packet (frame.hpp). Packet::arrival is the monotonic stamp of the kernel:
+/// the start of the exposure if the frame header says so. Sequences go on over restarts and replugs.
 ///
-/// Frames that the driver marks or that are cut off are dropped and counted. A broken or silent stream is restarted, a
-/// camera that was unplugged is opened again when it is back (recovery.hpp).
+/// Frames that the driver marks as faulty, or that are cut off, are dropped and counted. A broken or silent stream is
+/// restarted. A camera that was unplugged is opened again when it is back (recovery.hpp).
 class V4l2Source final : public Source {
  public:
+  /// What happened to the frames and to the device.
   struct Counters {
-    std::uint64_t delivered = 0;
+    std::uint64_t delivered = 0;  ///< as packets
     std::uint64_t lost = 0;       ///< gaps in the driver's sequence
     std::uint64_t corrupt = 0;    ///< V4L2_BUF_FLAG_ERROR; dropped
     std::uint64_t cut_off = 0;    ///< fewer bytes than the format needs; dropped
     std::uint64_t unstamped = 0;  ///< without a usable monotonic stamp: stamped when read
     std::uint64_t restarts = 0;   ///< of the stream, device kept open
-    std::uint64_t closed = 0;     ///< times the device was given up
-    std::uint64_t reopened = 0;   ///< times it came back
+    std::uint64_t closed = 0;     ///< how often the device was given up
+    std::uint64_t reopened = 0;   ///< how often it came back
   };
 
   /// Errors as V4l2Stream::open(). `clock` and `calls` must outlive the source.
   [[nodiscard]] static Result<std::unique_ptr<V4l2Source>> open(const CaptureConfig& config, SourceId source,
                                                                 const Clock& clock, V4l2Calls& calls = kernel_calls());
 
-  /// Takes `timeout` at most, but for the system calls of a restart. Says once when a stream broke (kIo) and when a
-  /// camera went away (kLinkDown); while it is away there are only time-outs. Allocates nothing once the packet has
-  /// grown and as long as all goes well.
+  /// Waits at most `timeout`; a restart may take longer. Reports once that a stream broke (kIo) and that a camera went
+  /// away (kLinkDown). While it is away, only time-outs come. Allocates nothing once the packet has grown, as long as
+  /// there is no trouble.
   Result<Poll> next(Packet& packet, Duration timeout) override;
 
   [[nodiscard]] const Counters& counters() const { return counters_; }
-  /// What the device granted last.
+  /// What the device granted at the last start.
   [[nodiscard]] const V4l2Stream::Granted& granted() const { return granted_; }
   [[nodiscard]] bool connected() const { return stream_ != nullptr; }
 

@@ -15,7 +15,7 @@ struct v4l2_buffer;
 namespace cairn::camera {
 
 /// One open V4L2 capture device and its mapped buffers (kernel documentation, "Video for Linux API", streaming I/O by
-/// memory mapping). Owns both; the destructor gives everything back, also when the device is gone.
+/// memory mapping). It owns both. The destructor gives everything back, also when the device is gone.
 class V4l2Stream {
  public:
   /// What the driver granted, read back from it.
@@ -25,7 +25,7 @@ class V4l2Stream {
     std::uint32_t buffers = 0;
     std::string driver, card, bus;
   };
-  /// A filled buffer, ours until give_back().
+  /// A filled buffer. It belongs to the caller until give_back().
   struct Filled {
     std::span<const std::byte> bytes;  ///< bytesused of them
     std::uint32_t index = 0, sequence = 0, flags = 0;
@@ -39,10 +39,10 @@ class V4l2Stream {
   V4l2Stream& operator=(const V4l2Stream&) = delete;
   ~V4l2Stream();
 
-  /// From nothing on the open device: after EIO nobody knows which buffers the driver still holds.
+  /// Starts anew on the open device. After EIO it is unknown which buffers the driver still holds.
   [[nodiscard]] Result<void> restart();
-  /// Takes the oldest filled buffer. Returns 0, or a negative errno: −EAGAIN there is none, −ENODEV the device is gone,
-  /// anything else the stream is broken.
+  /// Takes the oldest filled buffer. Returns 0 or a negative errno. −EAGAIN: there is none. −ENODEV: the device is
+  /// gone. Any other: the stream is broken.
   [[nodiscard]] int take(Filled& filled);
   /// Lets the driver fill the buffer again. Returns 0 or a negative errno.
   [[nodiscard]] int give_back(const Filled& filled);
@@ -81,9 +81,9 @@ struct OfferedMode {
   std::uint32_t format = 0;  ///< FrameFormat, or any other code
   std::uint32_t width = 0, height = 0;
 };
-/// The modes of an open device; of a range of sizes the largest. At most kMaxModes.
+/// The modes of an open device, at most kMaxModes. Of a range of sizes only the largest is listed.
 [[nodiscard]] std::vector<OfferedMode> offered_modes(V4l2Calls& calls, int fd);
-/// The same by path; empty when it cannot be opened.
+/// The same by path. Empty when the device cannot be opened.
 [[nodiscard]] std::vector<OfferedMode> offered_modes(V4l2Calls& calls, const std::string& device);
 /// "YUYV 1344x376 2560x720, MJPG 640x480".
 [[nodiscard]] std::string to_string(std::span<const OfferedMode> modes);

@@ -11,13 +11,14 @@
 
 namespace cairn::depth {
 
-/// 16-bit depth frames → points. Each frame is a whole scan at one instant, in the sensor's REP-103 frame: x along the
-/// optical axis, y to the left, z up (not the optical frame of REP 145). Pixels without a measurement (0) and points
-/// outside of the depth gate are left out; intensity is 0 and the ring is not used.
+/// 16-bit depth frames → points. Each frame is a whole scan at one instant, in metres in the sensor's REP-103 frame: x
+/// along the optical axis, y to the left, z up (not the optical frame of REP 145). Pixels without a measurement (0) and
+/// points outside the depth limits are left out. The intensity is 0 and the ring is not used.
 class DepthCamera final : public ScanDecoder {
  public:
+  /// What happened to the frames and pixels.
   struct Counters {
-    std::uint64_t frames = 0;
+    std::uint64_t frames = 0;    ///< decoded
     std::uint64_t rejected = 0;  ///< malformed, repeated, or cut off by the transport
     std::uint64_t invalid = 0;   ///< pixels that were 0
     std::uint64_t gated = 0;     ///< pixels nearer or farther than configured

@@ -11,17 +11,18 @@
 
 namespace cairn::drive {
 
-/// A drive on a CAN bus: receives, decides, sends. All it needs of the world is a CanLink and the time.
+/// A drive on a CAN bus: receives, decides, sends. It needs only a CanLink and the time.
 class CanDrive final : public Drive {
  public:
+  /// What happened to frames and commands.
   struct Counters {
     std::uint64_t received = 0, rejected = 0, sent = 0, send_failures = 0, restarts = 0, discarded_commands = 0;
   };
-  /// Sees every packet before it is used; for recording.
+  /// Gets every packet before it is used, for recording.
   using Tap = std::function<void(const Packet&)>;
   static constexpr int kMaxReceived = 256;  ///< packets per tick, so that a babbling node cannot hold the caller
 
-  /// `link` must outlive the drive. Error kInvalidConfig. A drive without scales is made, and refuses arm().
+  /// `link` must outlive the drive. Error kInvalidConfig. Without scales a drive can be made, but arm() is refused.
   static Result<std::unique_ptr<CanDrive>> create(const Config& config, CanLink& link, Tap tap = {});
 
   Result<void> command(const DriveCommand& command, Time now) override;

@@ -9,11 +9,11 @@
 
 namespace cairn::drive {
 
-/// Decides whether a drive may move. A stop is latched: it ends by arm() alone, which starts a new epoch, so that no
-/// command from before it can move the robot. Pure: everything it knows is handed in.
+/// Decides if a drive may move. A stop is latched: only arm() ends it. arm() begins a new epoch, so that no older
+/// command can move the robot. Pure: all it knows is handed in.
 class Guard {
  public:
-  /// What the guard looks at, as it is at the time of the call.
+  /// The facts for a decision, at the time of the call.
   struct Inputs {
     ProtocolStatus protocol;
     LinkMonitor::State link = LinkMonitor::State::kUp;
@@ -27,15 +27,16 @@ class Guard {
 
   /// Errors as of Drive::command().
   Result<void> command(const DriveCommand& command, Time now);
-  /// Error kLinkDown names what is in the way; the guard then stays as it is.
+  /// Ends a stop and returns the new epoch. Error kLinkDown names the active cause; the guard is then unchanged.
   Result<std::uint32_t> arm(Time now, const Inputs& in);
+  /// Stops at once, until arm(). During a stop the first cause is kept.
   void stop(DriveCause cause);
   /// The order for the motors at `now`; call it every tick.
   Order decide(Time now, const Inputs& in);
 
   [[nodiscard]] const DriveStatus& status() const { return status_; }
   [[nodiscard]] bool armed() const { return armed_; }
-  /// Why a link in this state stops; kNone when it does not.
+  /// The cause of a stop for a link in this state; kNone if it does not stop.
   [[nodiscard]] static DriveCause link_cause(LinkMonitor::State link);
 
  private:

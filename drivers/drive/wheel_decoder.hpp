@@ -13,14 +13,15 @@ namespace cairn::drive {
 
 struct CanFrame;
 
-/// Frames of a drive → wheel odometry: TPDO2 of every node as this master maps it, or AgileX' odometer. The same for a
-/// live bus, a recording and a simulation. Frames that say nothing about wheels are passed over.
+/// Frames of a drive → wheel odometry: TPDO2 of every node as this master maps it, or the odometer of AgileX. It works
+/// for a live bus, a recording or a simulation. Frames without wheel readings are skipped.
 class WheelDecoder final : public DriveDecoder {
  public:
+  /// What happened to the frames.
   struct Counters {
     std::uint64_t frames = 0, readings = 0;
     std::uint64_t rejected = 0;  ///< malformed packets or messages
-    std::uint64_t alone = 0;     ///< readings of a wheel whose fellows' were lost
+    std::uint64_t alone = 0;     ///< readings of one wheel while those of the others were lost
   };
   /// Readings of the wheels that belong together come within half a SYNC period.
   static constexpr Duration kTogether = std::chrono::milliseconds(5);

@@ -9,18 +9,19 @@
 
 namespace cairn::drive {
 
-/// A counter that wraps at 32 bits, as travel.
+/// The travel of a counter that wraps at 32 bits.
 class WheelCounter {
  public:
-  /// Counts since the last reading, right as long as fewer than 2³¹ passed; null at the first one.
+  /// Counts since the last reading, correct for less than 2³¹. Null at the first reading.
   std::optional<std::int32_t> update(std::int32_t count);
+  /// The next reading is a first one.
   void forget() { last_.reset(); }
 
  private:
   std::optional<std::int32_t> last_;
 };
 
-/// What both sides travelled between two readings.
+/// The travel of both sides between two readings.
 struct Travel {
   Time stamp{};                ///< of the newer reading
   double left = 0, right = 0;  ///< m, forward
@@ -28,7 +29,7 @@ struct Travel {
   double resolution = 0;       ///< m of one encoder count
 };
 
-/// Dead reckoning from the wheels, with a covariance that says how far it may be wrong.
+/// Dead reckoning from the wheels, with covariance.
 ///
 /// Over one interval the robot moves by exp(δ), δ = (s, 0, 0, 0, 0, θ), with s = (right + left) / 2 and
 /// θ = (right − left) / separation: an exact arc. What is uncertain:
@@ -53,7 +54,7 @@ class WheelOdometry {
   const DriveState& start(Time stamp);
   /// Stamps that do not advance are ignored, together with their travel.
   const DriveState& update(const Travel& travel);
-  /// The counters cannot be trusted over this interval: goes on with the last velocity, and doubts it.
+  /// For an interval in which the counters cannot be trusted: goes on with the last velocity and a larger covariance.
   const DriveState& bridge(Time stamp);
 
   [[nodiscard]] const DriveState& state() const { return state_; }

@@ -11,18 +11,20 @@
 
 namespace cairn::gpio {
 
-/// Replays gpio.csv as edges, as fast as it is asked for. Packet::arrival is the file's stamp.
+/// Replays gpio.csv as edges, as fast as it is called. Packet::arrival is the stamp in the file.
 class CsvSource final : public Source {
  public:
+  /// What happened to the rows of the file.
   struct Counters {
     std::uint64_t delivered = 0, malformed = 0;
     std::uint64_t unknown = 0;  ///< rows of lines with other names than name_of() has
   };
   static constexpr int kMaxSkipped = 4096;
 
+  /// Errors: kNotFound, kIo.
   static Result<std::unique_ptr<CsvSource>> open(const std::filesystem::path& path, SourceId source);
-  /// An Error names file, line and column; go on calling. Returns kTimeout after kMaxSkipped rows that are not wanted;
-  /// `timeout` itself is not used.
+  /// Never waits. An Error names file, line and column; go on calling. Returns kTimeout after kMaxSkipped rows that are
+  /// not wanted.
   Result<Poll> next(Packet& packet, Duration timeout) override;
   [[nodiscard]] const Counters& counters() const { return counters_; }
 

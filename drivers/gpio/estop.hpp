@@ -11,36 +11,37 @@
 
 namespace cairn::gpio {
 
-/// An e-stop's normally-closed contact: closed is well, open is stop, and so is a broken wire. Stopping needs one sign
-/// (edge, level, or none at all for too long); release needs the contact closed for a while, and leaves the stop
-/// latched until rearm(). Pure: edges, levels and time in, decision out. It is never the only path that stops the
-/// robot.
+/// The normally closed contact of an e-stop: open means stop, and so does a broken wire. One edge, one open level, or
+/// no level for kSilence stops. Release needs the contact closed for a while. The stop stays latched until rearm().
+/// Pure: edges, levels and time in, decision out. A robot must have a second path that stops it.
 class EStop {
  public:
   enum class Cause : std::uint8_t {
-    kNotArmed,   ///< since the start
-    kOpened,     ///< the contact
-    kEdgesLost,  ///< the kernel's queue overflowed: it may have opened in between
+    kNotArmed,   ///< never armed since the start
+    kOpened,     ///< the contact opened
+    kEdgesLost,  ///< the kernel's queue overflowed: the contact may have opened in between
     kSilent,     ///< the level was not read for kSilence: the reader or the chip hangs
     kLineLost,   ///< the chip is gone or does not answer
   };
+  /// What the line did.
   struct Counters {
     std::uint64_t edges = 0, opened = 0, edges_lost = 0;
-    std::uint64_t unseen_edges = 0;  ///< the level had changed without an edge
+    std::uint64_t unseen_edges = 0;  ///< the level changed without an edge
   };
   static constexpr Duration kSilence = std::chrono::milliseconds(100);
 
   explicit EStop(const Config& config);
 
-  /// An edge as the kernel saw it; `sequence` counts the line's edges from 1, 0: not known. Stamps may lie in the past.
+  /// An edge that the kernel saw. `sequence` counts the edges of the line from 1; 0: not known. Stamps may be in the
+  /// past.
   void edge(Time stamp, bool closed, std::uint32_t sequence);
-  /// The level, read at every control tick.
+  /// The level, to be read at every control tick.
   void level(Time now, bool closed);
-  /// Reading failed.
+  /// Reading the level failed.
   void lost(Time now);
-  /// True while the robot must not move; looks at the time, too.
+  /// True while the robot must not move. Also stops when no level was read for kSilence.
   bool stopped(Time now);
-  /// Error kLinkDown with what is in the way: the contact must have been closed for Config::estop_rearm_ms.
+  /// Ends a stop. Error kLinkDown with the cause: the contact must have been closed for Config::estop_rearm_ms.
   Result<void> rearm(Time now);
 
   [[nodiscard]] bool released(Time now) const;  ///< closed for Config::estop_release_ms

@@ -14,16 +14,17 @@ namespace cairn::gpio {
 /// Packet::channel of a line's events.
 enum class Line : std::uint16_t { kEStop = 0, kTrigger = 1, kPps = 2 };
 inline constexpr std::size_t kLines = 3;
-/// Its name in gpio.csv.
+/// The name of the line in gpio.csv.
 [[nodiscard]] std::string_view name_of(Line line);
+/// The inverse; null for another name.
 [[nodiscard]] std::optional<Line> line_named(std::string_view name);
 
-/// An edge, or a level that was read. The stamp is the Packet's arrival.
+/// An edge, or a level that was read. Its time is Packet::arrival.
 struct LineEvent {
   Line line{};
-  bool level = false;          ///< logical level afterwards: an e-stop's true means closed
-  bool sampled = false;        ///< read, not an edge
-  std::uint32_t sequence = 0;  ///< of the line's edges, from 1, as the kernel counts them; 0: not known
+  bool level = false;          ///< logical level afterwards; true of an e-stop means closed
+  bool sampled = false;        ///< the level was read; it is not an edge
+  std::uint32_t sequence = 0;  ///< the kernel's count of the line's edges, from 1; 0: not known
   friend bool operator==(const LineEvent&, const LineEvent&) = default;
 };
 

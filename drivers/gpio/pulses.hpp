@@ -9,9 +9,9 @@
 
 namespace cairn::gpio {
 
-/// The camera trigger's output: when it goes up and down. Pulses that were missed are left out; the phase stays. Made
-/// by software, so a pulse may be late by what the scheduler takes: read the exposure's time from the camera, or from
-/// the trigger looped back to an input.
+/// When the output of the camera trigger goes up and down. Missed pulses are left out, and the phase stays. The pulse
+/// is made by software, so the scheduler can delay it. Take the time of exposure from the camera, or from a trigger
+/// line that is looped back to an input.
 class Trigger {
  public:
   explicit Trigger(const Config& config);
@@ -27,15 +27,16 @@ class Trigger {
   std::uint64_t pulses_ = 0;
 };
 
-/// Judges a pulse per second: 1 Hz within 500 ppm, else the pulse is refused.
+/// Checks a pulse per second. A pulse is good if it comes at 1 Hz within 500 ppm.
 class PpsMonitor {
  public:
   enum class State : std::uint8_t { kAbsent, kUnlocked, kLocked };
   static constexpr Duration kTolerance = std::chrono::microseconds(500), kAbsence = std::chrono::milliseconds(2500);
   static constexpr int kLockAfter = 3;  ///< good intervals in a row
 
-  /// A rising edge. True when it is one second after the one before (or a few).
+  /// A rising edge. True if it is one second, or a few whole seconds, after the edge before.
   bool pulse(Time stamp);
+  /// Absent after kAbsence without a pulse, locked after kLockAfter good intervals in a row.
   [[nodiscard]] State state(Time now) const;
   [[nodiscard]] std::optional<Time> last() const { return last_; }
   [[nodiscard]] std::uint64_t refused() const { return refused_; }

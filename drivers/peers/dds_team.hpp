@@ -12,6 +12,7 @@
 
 namespace cairn::peers {
 
+/// How the peer process takes part in the team's network.
 struct DdsConfig {
   std::uint64_t robot = 0;  ///< this one's id
   unsigned domain = 42;
@@ -35,6 +36,7 @@ class DdsTeam {
   /// To one robot, or to all where `to` is 0. What cannot be sent at once is lost.
   virtual Result<void> send(std::uint64_t to, std::span<const std::byte> datagram) = 0;
 
+  /// One datagram of a teammate.
   struct Received {
     std::uint64_t sender = 0;
     std::vector<std::byte> bytes;

@@ -11,6 +11,7 @@
 // What the core and the peer process say to each other over their local socket, one frame in each of its messages.
 namespace cairn::peers {
 
+/// One message on the local socket.
 struct LinkFrame {
   enum class Kind : std::uint8_t {
     kSend = 1,      ///< core → peer process: send these bytes to `robot`, or to everyone where it is 0

@@ -15,6 +15,7 @@ namespace cairn::peers {
 /// does not take in time is lost and counted. Either end may die and come back.
 class LocalLink {
  public:
+  /// What happened to the frames.
   struct Counters {
     std::uint64_t sent = 0, received = 0, lost = 0, refused = 0, connections = 0;
   };

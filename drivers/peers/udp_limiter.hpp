@@ -18,6 +18,7 @@ void limit_udp(const UdpLimits& limits);
 /// Whether a datagram of data with `bytes` (headers included) would pass now.
 [[nodiscard]] bool udp_room(std::size_t bytes);
 
+/// What this process sent over the network.
 struct UdpCounters {
   std::uint64_t sent_bytes = 0, sent = 0, dropped = 0;
 };

@@ -27,21 +27,22 @@ struct Faults {
   double cut = 0;     ///< arrives without its end, marked as truncated
   double flip = 0;    ///< arrives with one bit turned
   double extend = 0;  ///< arrives with up to 64 bytes more
-  double delay = 0;   ///< arrives later by `delay_by`, between what arrives then
+  double delay = 0;   ///< arrives later by `delay_by`, among the packets of that time
   Duration delay_by = std::chrono::milliseconds(50);
   Spell spell = Spell::kSilence;
-  Duration freeze{};             ///< so long …
-  Duration period{};             ///< … at the end of every such period the spell lasts; zero: never
-  Duration shift{};              ///< every arrival is stamped later (earlier) by so much …
-  Duration shift_after{};        ///< … from so long after the first one on
+  Duration freeze{};             ///< length of the spell at the end of each `period`
+  Duration period{};             ///< zero: there is no spell
+  Duration shift{};              ///< each arrival is stamped later by so much (negative: earlier), after `shift_after`
+  Duration shift_after{};        ///< since the first packet
   std::optional<SourceId> only;  ///< of this source alone; none: of all
   std::uint64_t seed = 1;        ///< the same faults for the same packets
 };
 
-/// The faults of cables, radios and tired computers, between any transport and its decoder: the decoder cannot tell
-/// them from real ones.
+/// Puts the faults of cables, radios and slow computers between a transport and its decoder. The decoder sees no
+/// difference to real faults.
 class FaultySource final : public Source {
  public:
+  /// How many packets each fault changed.
   struct Counters {
     std::uint64_t packets = 0, dropped = 0, repeated = 0, swapped = 0, cut = 0, flipped = 0, frozen = 0;
     std::uint64_t extended = 0, delayed = 0, stuck = 0, burst = 0, shifted = 0, disconnects = 0;

@@ -9,13 +9,13 @@
 
 namespace cairn::recording {
 
-/// Several recorded sources as one: packets in the order of (arrival, source, sequence). A source whose own packets are
-/// not in that order keeps its order. The packets' `source` becomes the index in the list given.
+/// Several recorded sources as one. Packets come in the order of (arrival, source, sequence). A source whose own
+/// packets are not in that order keeps its order. Packet::source becomes the index in the list.
 class MergedSource final : public Source {
  public:
   explicit MergedSource(std::vector<std::unique_ptr<Source>> sources);
 
-  /// A source's error is handed on at once; the other sources go on, and so does that one if it can.
+  /// Never waits. An error of a source is handed on at once. All sources go on, that one too if it can.
   Result<Poll> next(Packet& packet, Duration timeout) override;
 
  private:

@@ -9,16 +9,16 @@
 
 namespace cairn::recording {
 
-/// Waits for a span of time, or less.
+/// Waits for at most the given time.
 using Waiter = std::function<void(Duration)>;
 /// Waits in the kernel; a signal ends the wait early.
 [[nodiscard]] Waiter live_waiter();
 
-/// Hands out recorded packets as fast as they came (`--speed real`): the first one at once, every other one when as
-/// much time has passed as lies between their arrivals. Packets are not changed.
+/// Hands out recorded packets as fast as they came (`cairn send`): the first at once, each later one when the time
+/// between their arrivals has passed. Packets are not changed.
 class PacedSource final : public Source {
  public:
-  /// `recorded` and `clock` are borrowed. `rate` 2 replays twice as fast; it must be positive.
+  /// `recorded` and `clock` must outlive it. `rate` 2 replays twice as fast; it must be positive.
   PacedSource(Source& recorded, const Clock& clock, Waiter wait, double rate = 1.0);
 
   Result<Poll> next(Packet& packet, Duration timeout) override;

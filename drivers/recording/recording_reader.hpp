@@ -15,15 +15,15 @@ namespace cairn::recording {
                                                                    const Recording& recording, std::size_t index);
 
 /// Replays a recording folder: the packets of all its sources as they arrived, on the robot's monotonic time line, in
-/// the order of (arrival, source, sequence). Never waits; PacedSource does where that is wanted.
+/// the order of (arrival, source, sequence). Never waits; PacedSource waits.
 class RecordingReader final : public Source {
  public:
-  /// Error when recording.yaml is not usable. A source's file that cannot be opened is not an error here but the first
-  /// thing next() says, so that the other sources go on.
+  /// Error when recording.yaml cannot be used. If the file of a source cannot be opened, next() says so first, and the
+  /// other sources go on.
   [[nodiscard]] static Result<std::unique_ptr<RecordingReader>> open(const std::filesystem::path& dir);
 
-  /// An Error names file and offset of what is damaged in one source; go on calling. What is good before the damage has
-  /// been or will be handed out. kTimeout: nothing wanted among the last records of a capture; go on calling.
+  /// An Error names file and offset of the damage in one source; go on calling. The packets before the damage are
+  /// handed out. kTimeout: no wanted packet among the last records of a capture; go on calling.
   Result<Poll> next(Packet& packet, Duration timeout) override { return packets_.next(packet, timeout); }
 
   [[nodiscard]] const Recording& recording() const { return recording_; }

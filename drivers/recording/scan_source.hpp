@@ -12,13 +12,14 @@
 
 namespace cairn::recording {
 
-/// The sweeps of a data.csv, one packet each: arrival = stamp, channel = ScanLayout, sequence = line among the entries.
+/// Replays the sweeps of a data.csv, one packet each: arrival = stamp, channel = ScanLayout, sequence = place in the
+/// index.
 class ScanSource final : public Source {
  public:
   /// Reads `dir`/`index`. With a damaged index the entries before the damage are handed out, then the error once.
   [[nodiscard]] static Result<std::unique_ptr<ScanSource>> open(std::filesystem::path dir, const std::string& index);
 
-  /// A sweep that cannot be read is one error; the next call goes on with the next sweep. Never waits.
+  /// Never waits. A sweep that cannot be read is one error, and the next call goes on with the next sweep.
   Result<Poll> next(Packet& packet, Duration timeout) override;
 
   [[nodiscard]] const std::vector<ScanIndexEntry>& entries() const { return entries_; }

@@ -15,8 +15,11 @@ namespace cairn::recording {
 class SourceWriter {
  public:
   virtual ~SourceWriter() = default;
+  /// Appends one packet. Errors: kIo, and those of packets that the format cannot hold.
   virtual Result<void> write(const Packet& packet) = 0;
+  /// Hands everything buffered to the operating system.
   virtual Result<void> flush() = 0;
+  /// Flushes, syncs and closes. Returns the error of any write.
   virtual Result<void> close() = 0;
 };
 

@@ -10,13 +10,13 @@
 
 namespace cairn::thermal {
 
-/// Spreads counts over 8 bits: the counts at two percentiles become 0 and 255, what lies outside is cut off.
+/// Spreads counts over 8 bits. The counts at two percentiles become 0 and 255, and values outside are clamped.
 class Stretch {
  public:
   /// Shares in 0…1, low < high.
   Stretch(double low, double high) : low_(low), high_(high), fine_(kCoarse * kFine) {}
 
-  /// `counts` is kMono16, `out` becomes kMono8 of the same size. A span of counts below `min_span` is widened to it
+  /// `counts` is kMono16. `out` becomes kMono8 of the same size. A smaller span than `min_span` counts is widened
   /// around its middle, so that noise does not become a picture.
   void apply(const ImageView& counts, double min_span, Image& out);
 

@@ -10,17 +10,18 @@
 
 namespace cairn::thermal {
 
-/// Flat-field correction: the shutter closes and every pixel's offset is measured anew; the picture freezes meanwhile.
+/// Flat-field correction: the shutter closes and the offset of every pixel is measured again. The picture freezes
+/// meanwhile.
 enum class FlatField : std::uint8_t { kNever = 0, kImminent = 1, kRunning = 2, kComplete = 3 };
 
-/// The telemetry that a Lepton puts behind its picture when it is told to (FLIR Lepton Engineering Datasheet,
-/// "Telemetry Modes"): rows A, B and C of 80 words each. A Lepton 2 has three lines of 80 words, a Lepton 3 two of 160.
+/// The telemetry behind the picture of a Lepton, if it is switched on (FLIR Lepton Engineering Datasheet, "Telemetry
+/// Modes"): rows A, B and C of 80 words each. A Lepton 2 has three lines of 80 words, a Lepton 3 two of 160.
 struct LeptonTelemetry {
   Duration uptime{};
   Duration last_correction{};  ///< uptime when the last flat-field correction ended
   FlatField flat_field = FlatField::kNever;
   bool correction_desired = false;
-  bool agc = false;  ///< automatic gain: counts say nothing about temperature
+  bool agc = false;  ///< automatic gain: counts are not temperatures
   bool overheated = false;
   std::uint32_t frame_counter = 0;
   double sensor_celsius = 0;  ///< of the focal plane array
@@ -33,7 +34,7 @@ inline constexpr std::size_t kTelemetryWords = 240;
 inline constexpr std::size_t kTelemetryBytes = 2 * kTelemetryWords;
 
 /// `rows`: words A 0 to C 79, little-endian as PureThermal sends them, without the padding between lines. Errors:
-/// kTruncated; kMalformed where a switch is neither on nor off, so that these rows are something else.
+/// kTruncated; kMalformed if a switch is neither on nor off, because the rows are then not telemetry.
 [[nodiscard]] Result<LeptonTelemetry> parse_lepton_telemetry(std::span<const std::byte> rows);
 
 }  // namespace cairn::thermal

@@ -12,18 +12,19 @@
 
 namespace cairn::thermal {
 
-/// 16-bit frames of a thermal camera → temperatures where the counts are known to be such, counts otherwise. Rows of
-/// telemetry behind the picture are taken off; a Lepton's are read: they decide what a count means, whatever the
+/// 16-bit frames of a thermal camera → temperatures if the meaning of the counts is known, otherwise counts. Telemetry
+/// rows behind the picture are removed. Those of a Lepton are read: they decide what a count means, whatever the
 /// configuration says, and when a flat-field correction spoils the picture.
 class Thermal final : public ThermalDecoder {
  public:
+  /// What happened to the packets.
   struct Counters {
-    std::uint64_t frames = 0;
+    std::uint64_t frames = 0;      ///< decoded
     std::uint64_t rejected = 0;    ///< malformed, of another size than the model's, or cut off by the transport
-    std::uint64_t repeated = 0;    ///< the same packet again, or the camera's own frame counter stood still
-    std::uint64_t correcting = 0;  ///< frames marked so
+    std::uint64_t repeated = 0;    ///< the same packet again, or the camera's frame counter stood still
+    std::uint64_t correcting = 0;  ///< frames with ThermalImage::correcting
   };
-  /// The picture may be wrong for so long after a correction.
+  /// For so long after a correction the picture may be wrong.
   static constexpr Duration kSettling = std::chrono::seconds(1);
 
   /// Error: kInvalidConfig.
@@ -32,7 +33,7 @@ class Thermal final : public ThermalDecoder {
   Result<const ThermalImage*> decode(const Packet& packet) override;
 
   [[nodiscard]] const Counters& counters() const { return counters_; }
-  /// Of the last frame; none where there were no rows.
+  /// Of the last frame; none if it had no telemetry rows.
   [[nodiscard]] const std::optional<LeptonTelemetry>& telemetry() const { return telemetry_; }
 
  private:

@@ -33,11 +33,12 @@ void declare(config::Section& s, Config& c) {
   s.integer("receive_buffer_bytes", c.receive_buffer_bytes, {65536, 1 << 28}, "B",
             "socket buffer to ask for; the kernel grants net.core.rmem_max at most");
   s.integer("max_packets_per_s", c.max_packets_per_s, {100, 100000}, "1/s",
-            "more than this is a flood; the rest is dropped before it is decoded");
-  s.choice("return_mode", c.return_mode, {"any", "strongest", "last", "dual"}, "what the sensor should be set to");
+            "further packets are dropped before they are decoded");
+  s.choice("return_mode", c.return_mode, {"any", "strongest", "last", "dual"},
+           "how the sensor should be set; an event says if it is not");
   s.number("rpm", c.rpm, {300, 1200}, "1/min", "motor speed, used until the packets tell it");
   s.number("cut_angle_deg", c.cut_angle_deg, {0, 360}, "deg", "azimuth where a scan ends; clockwise, 0 = forward");
-  s.number("timeout_turns", c.timeout_turns, {1.1, 10}, "turns", "a scan this old is closed incomplete");
+  s.number("timeout_turns", c.timeout_turns, {1.1, 10}, "turns", "age at which a scan is closed as incomplete");
   s.numbers("field_of_view_deg", c.field_of_view_deg, {0, 360}, "deg",
             "azimuth where the sensor's own field of view starts and ends, clockwise; 0, 360: all around");
   s.number("min_range_m", c.min_range_m, {0, 300}, "m", "nearer points are dropped");
@@ -65,7 +66,7 @@ Result<void> check(const Config& c) {
   if (!is_address(c.bind_address)) fault("bind_address: \"" + c.bind_address + "\" is no IPv4 address");
   if (!is_address(c.source_address)) fault("source_address: \"" + c.source_address + "\" is no IPv4 address");
   if (faults.empty()) return {};
-  return Error{Errc::kInvalidConfig, "faults in the configuration of a velodyne", {}, {}, faults};
+  return Error{Errc::kInvalidConfig, "faults in the configuration of a LiDAR", {}, {}, faults};
 }
 
 }  // namespace cairn::velodyne

@@ -14,7 +14,7 @@
 
 namespace cairn::velodyne {
 
-/// A data packet that has been checked whole: what follows may index it freely.
+/// A data packet whose bytes are all checked. Later code may index it without further checks.
 struct DataPacket {
   std::span<const std::byte> bytes;  ///< kDataBytes, the caller's memory
   std::uint32_t timestamp_us = 0;    ///< device time of the first firing, µs past the hour
@@ -23,8 +23,9 @@ struct DataPacket {
 
   [[nodiscard]] bool dual() const { return mode == ReturnMode::kDual; }
 
+  /// One return of one laser.
   struct Return {
-    std::uint16_t distance;     ///< in Model::distance_unit_m; 0: nothing came back
+    std::uint16_t distance;     ///< in Model::distance_unit_m; 0: no return
     std::uint8_t reflectivity;  ///< 0…100 diffuse, 101…255 retro-reflector
   };
   /// 0 <= block < kBlocks, 0 <= slot < kBlockChannels.
@@ -38,14 +39,15 @@ struct DataPacket {
 /// Why a data packet was refused.
 enum class DataFault : std::uint8_t { kLength, kFlag, kAzimuth, kPair, kReturnMode, kProduct };
 
-/// Checks length, product byte, return mode, block flags and azimuths; a packet is taken whole or not at all.
+/// Checks length, product byte, return mode, block flags and azimuths. A packet is taken whole or not at all. The
+/// result refers to `bytes`.
 [[nodiscard]] tl::expected<DataPacket, DataFault> parse_data_packet(std::span<const std::byte> bytes,
                                                                     const Model& model);
-/// Names the fault and where in the packet it is. Allocates nothing.
+/// The same as an Error with the place in the packet. Allocates nothing.
 [[nodiscard]] Error to_error(DataFault fault);
 
-/// Degrees per second from the packet's first and last azimuth; none above 22 turns per second, faster than any motor
-/// (a jump over a blanked sector, or a step back).
+/// Degrees per second, from the first and last azimuth of the packet. Null above 22 turns per second, which is faster
+/// than any motor: the azimuth jumped over a blanked sector, or went back.
 [[nodiscard]] std::optional<double> rotation_rate_deg_s(const DataPacket& packet, const Model& model);
 
 }  // namespace cairn::velodyne

@@ -8,17 +8,16 @@
 
 namespace cairn::velodyne {
 
-/// UTC of a device time, both in µs (UTC since 1970). The counter gives everything below the hour, `reference_utc_us`
-/// (good to ±30 min) the hour.
+/// UTC of a device time, in µs since 1970. The counter gives the time within the hour, and `reference_utc_us` gives the
+/// hour. The reference must be right to ±30 min.
 [[nodiscard]] std::int64_t resolve_utc_us(std::uint32_t counter_us, std::int64_t reference_utc_us);
 
-/// Puts a device's µs-past-the-hour counter on the robot's time line.
+/// Puts the counter of a device (µs past the hour) on the robot's time line.
 ///
-/// The counter is used relative only: a packet's time is counter + offset, where the offset follows the smallest
-/// (arrival − packet span − counter) of the last one to two seconds, because delays only ever add. It is slewed and
-/// never stepped, so that jitter of arrival does not bend time inside a scan. When counter and arrival disagree (PPS
-/// found or lost, a device restarted) the offset is taken anew and the stamp says kJump; even then stamps never go
-/// back.
+/// The time of a packet is counter + offset. The offset follows the smallest (arrival − packet span − counter) of the
+/// last one to two seconds, because transport can only delay a packet. The offset is slewed and never stepped, so
+/// jitter of arrival does not bend time inside a scan. If counter and arrival disagree (PPS found or lost, device
+/// restarted), the offset is taken anew and the stamp says kJump. Even then stamps never go back.
 class DeviceTime {
  public:
   enum class Kind : std::uint8_t {
@@ -26,25 +25,26 @@ class DeviceTime {
     kNext,       ///< follows the previous packet
     kDuplicate,  ///< same device time as the previous packet: do not use
     kLate,       ///< older than the previous packet or overlapping it: do not use
-    kJump        ///< device time or arrival jumped: what was measured before does not connect to this packet
+    kJump        ///< device time or arrival jumped: earlier measurements do not connect to this packet
   };
+  /// The time of one packet.
   struct Stamp {
     Kind kind = Kind::kFirst;
     Time first_firing{};  ///< robot's time line; at least kBusyShare of its span after the previous packet's
     Duration step{};      ///< device time since the previous packet; for kNext
   };
 
-  /// `span`: from the packet's first firing to its sending. |arrival| < 2^61 ns.
-  /// `exact`: the first firing's time where something better than arrival knows it (PPS); used while it agrees with
-  /// arrival to kExactTolerance.
+  /// The stamp of the next packet. `span`: from its first firing to its sending. |arrival| < 2^61 ns. `exact`: the time
+  /// of the first firing if PPS gives it. It is used while it agrees with arrival to kExactTolerance.
   Stamp update(std::uint32_t counter_us, Time arrival, Duration span, std::optional<Time> exact = std::nullopt);
 
-  static constexpr Duration kReorderWindow = std::chrono::milliseconds(50);   ///< older packets mean a jump
-  static constexpr int kMaxLateRun = 8;                                       ///< more late packets in a row: a jump
-  static constexpr Duration kMaxEarly = std::chrono::milliseconds(20);        ///< sooner than ever believed: a jump
-  static constexpr Duration kMaxDelay = std::chrono::seconds(1);              ///< later than any queue explains: a jump
-  static constexpr Duration kMaxWindowError = std::chrono::milliseconds(10);  ///< a whole window late: a jump
-  static constexpr Duration kWindow = std::chrono::seconds(1);
+  static constexpr Duration kReorderWindow = std::chrono::milliseconds(50);  ///< older packets mean a jump
+  static constexpr int kMaxLateRun = 8;                                      ///< more late packets in a row: a jump
+  static constexpr Duration kMaxEarly = std::chrono::milliseconds(20);       ///< earlier than this: a jump
+  static constexpr Duration kMaxDelay = std::chrono::seconds(1);             ///< later than any queue explains: a jump
+  static constexpr Duration kMaxWindowError =
+      std::chrono::milliseconds(10);                            ///< a whole window later than this: a jump
+  static constexpr Duration kWindow = std::chrono::seconds(1);  ///< over which the smallest delay is taken
   static constexpr Duration kExactTolerance = std::chrono::milliseconds(100);
   static constexpr int kFastSlew = 100;   ///< one part in … during the first window after a start or jump
   static constexpr int kSlowSlew = 2000;  ///< one part in … later: 500 ppm follows any crystal

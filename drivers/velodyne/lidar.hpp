@@ -17,9 +17,9 @@
 
 namespace cairn::velodyne {
 
-/// What came in and what became of it.
+/// How many packets came in, and what happened to them.
 struct Counters {
-  std::uint64_t packets = 0;           ///< all that were given to decode()
+  std::uint64_t packets = 0;           ///< given to decode()
   std::uint64_t data_packets = 0;      ///< decoded
   std::uint64_t position_packets = 0;  ///< read
 
@@ -31,36 +31,37 @@ struct Counters {
   std::uint64_t wrong_product = 0;  ///< of another sensor model
   std::uint64_t duplicates = 0;     ///< same device time again
   std::uint64_t late = 0;           ///< overtaken by a later packet
-  std::uint64_t bad_nmea = 0;       ///< in position packets that were otherwise read
+  std::uint64_t bad_nmea = 0;       ///< faulty sentences in position packets that were otherwise good
 
   std::uint64_t lost_packets = 0;     ///< missing by device time, whatever the cause
   std::uint64_t time_jumps = 0;       ///< of the device's counter or of arrival
   std::uint64_t over_the_hour = 0;    ///< device times of 3600 s and more
-  std::uint64_t discarded_scans = 0;  ///< running at a time jump
+  std::uint64_t discarded_scans = 0;  ///< dropped because time jumped inside them
   std::uint64_t revolutions = 0;      ///< scans closed by the cut angle
   std::uint64_t scans = 0;            ///< all scans given out
 
   double rpm = 0;  ///< latest
   std::optional<PpsState> pps;
-  std::optional<NmeaTime> nmea;             ///< latest that was readable
+  std::optional<NmeaTime> nmea;             ///< of the latest good sentence
   std::optional<std::int64_t> utc_us;       ///< of the latest data packet, while PPS is locked
   int top_board_c = 0, bottom_board_c = 0;  ///< °C, latest
 };
 
-/// Velodyne packets → scans: the same for a live sensor, a recording and a simulation. Allocates nothing once its two
-/// scans have grown. Events go to the monitor, which is used by decode(), expire() and flush() only.
+/// Velodyne packets → scans, for a live sensor, a recording or a simulation. Points are in metres in the sensor's
+/// REP-103 frame. It allocates nothing once its two scans have grown. decode(), expire() and flush() report events to
+/// the monitor.
 class Lidar final : public ScanDecoder {
  public:
   /// `monitor` must outlive it. Error: kInvalidConfig.
   static Result<std::unique_ptr<Lidar>> create(const Config& config, SourceId source, Monitor& monitor);
 
-  /// Packet::channel is the UDP destination port and says what the packet is. An Error means that it was refused.
+  /// Packet::channel is the UDP destination port. It says if the packet is a data or a position packet.
   Result<const Scan*> decode(const Packet& packet) override;
   const Scan* expire(Time now) override;
   const Scan* flush() override;
 
-  /// UTC − Time of this computer or recording, where known. Decides the hour of the device's UTC, and in the time
-  /// source "pps" also puts it on the robot's time line.
+  /// UTC − Time of this computer or recording, if known. It gives the hour of the device's UTC. With the time source
+  /// "pps" it also puts the device's UTC on the robot's time line.
   void set_utc_offset(Duration utc_minus_time) { utc_offset_ = utc_minus_time; }
   [[nodiscard]] const Counters& counters() const { return counters_; }
   [[nodiscard]] const Model& model() const { return model_; }

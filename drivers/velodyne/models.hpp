@@ -31,9 +31,10 @@ struct Model {
   Duration sequence{};            ///< from one firing sequence to the next: all channels once, and the recharge
   Duration slot{};                ///< from one laser slot to the next within a sequence
   int lasers_per_slot = 1;        ///< lasers that fire together
-  bool return_mode_valid = true;  ///< false: old firmware leaves kReturnModeOffset undefined (HDL-32E before 2.2.20.0)
+  bool return_mode_valid = true;  ///< false: old firmware leaves that byte undefined (HDL-32E before 2.2.20.0)
   std::array<Channel, kBlockChannels> channels{};  ///< the first channel_count are used
 
+  /// Firing sequences in one block of a packet.
   [[nodiscard]] constexpr int sequences_per_block() const { return kBlockChannels / channel_count; }
   /// Time from the packet's first firing to the firing of `slot_in_block` (0 … 31) in `block` (0 … 11). In dual mode
   /// two blocks share one firing.
@@ -47,7 +48,7 @@ struct Model {
   }
 };
 
-/// Every model there is: VLP-16, VLP-16-HiRes, HDL-32E, VLP-32C.
+/// The table of all models: VLP-16, VLP-16-HiRes, HDL-32E, VLP-32C. Sources: the manuals named in packet.hpp.
 [[nodiscard]] std::span<const Model> models();
 /// By name or alias ("Puck Hi-Res"), exactly as written; null when unknown.
 [[nodiscard]] const Model* find_model(std::string_view name);

@@ -29,8 +29,8 @@ inline constexpr int kAzimuthUnits = 36000;          ///< valid azimuths are 0 â
 inline constexpr double kAzimuthUnitDeg = 0.01;
 
 /// Byte kReturnModeOffset of a data packet. In dual mode a pair of blocks (0,1), (2,3), â€¦ is one firing with one
-/// azimuth: the even block holds the last return, the odd one the strongest (or, where the strongest is also the last,
-/// the second strongest; equal when there was one return only).
+/// azimuth. The even block holds the last return, the odd block the strongest. If the strongest is also the last, the
+/// odd block holds the second strongest. If there was only one return, both are equal.
 enum class ReturnMode : std::uint8_t { kStrongest = 0x37, kLast = 0x38, kDual = 0x39 };
 
 inline constexpr std::int64_t kMicrosecondsPerHour = 3'600'000'000;

@@ -13,7 +13,7 @@
 
 namespace cairn::velodyne {
 
-/// Which points are kept. The box is in the sensor's REP-103 frame; points inside are the robot's own body.
+/// Which points are kept. The box is in the sensor's REP-103 frame, in metres. Points inside are the robot's own body.
 struct Gates {
   double min_range_m = 0.0;
   double max_range_m = 1000.0;
@@ -31,20 +31,22 @@ struct Firing {
 /// Data packet → points: a pure function of the packet's bytes, the model's table and the rotation rate.
 class PointDecoder {
  public:
+  /// `model` must outlive the decoder.
   PointDecoder(const Model& model, const Gates& gates);
 
   /// How fast the sensor turns during the firings that follow, in degrees per second, clockwise, |rate| <= 22·360.
   void set_rate(double rate_deg_s);
 
+  /// Firings in one packet. `dual`: the packet is in dual return mode.
   [[nodiscard]] int firing_count(bool dual) const { return places_[dual ? 1 : 0].count; }
   /// Firing `index` (0 … firing_count − 1) in the order of time.
   [[nodiscard]] Firing firing(const DataPacket& packet, int index) const;
   /// Time from a firing's first laser to its last.
   [[nodiscard]] Duration firing_duration() const { return firing_duration_; }
 
-  /// Appends the points of one firing, in the order of its channels, in metres in the sensor's REP-103 frame. `since`:
-  /// from the scan's start to the firing's first laser. In dual mode equal distances become one point kBoth, and
-  /// otherwise the strongest comes before the last.
+  /// Appends the points of one firing in the order of its channels, in metres in the sensor's REP-103 frame.
+  /// `since_ns`: from the start of the scan to the first laser of the firing. In dual mode, two equal distances become
+  /// one point kBoth. Otherwise the strongest return comes before the last.
   void append(const DataPacket& packet, const Firing& firing, std::uint32_t since_ns, PointCloud& cloud);
 
  private:

@@ -17,10 +17,10 @@ struct PositionPacket {
   PpsState pps = PpsState::kAbsent;
   int top_board_c = 0, bottom_board_c = 0;  ///< °C
   bool thermal_shutdown = false;
-  std::string_view nmea;  ///< up to the first CR, LF or NUL; empty without a receiver; in the packet's memory
+  std::string_view nmea;  ///< up to the first CR, LF or NUL, in the packet's memory; empty without a GPS receiver
 };
 
-/// Errors: kMalformed with the offset (wrong length, unknown PPS state).
+/// Reads a position packet. Error: kMalformed with the offset (wrong length, unknown PPS state).
 [[nodiscard]] Result<PositionPacket> parse_position_packet(std::span<const std::byte> bytes);
 
 }  // namespace cairn::velodyne

@@ -9,39 +9,43 @@
 
 namespace cairn::velodyne {
 
-/// Cuts the stream of firings into scans. Two scans take turns, so that nothing is allocated once they have grown.
+/// Cuts the stream of firings into scans. Two scans take turns, so nothing is allocated once they have grown.
 ///
-/// A scan ends with the last firing before the cut angle. It is complete when it also began there, nothing was lost and
-/// the sensor turned all the while. A sensor with a limited field of view skips over the angle; that cuts, too.
+/// A scan ends with the last firing before the cut angle. It is complete if it also began there, no packet was lost,
+/// and the sensor turned all the time. A sensor with a limited field of view skips the angle, which also ends the scan.
 class ScanAssembler {
  public:
+  /// How scans are cut.
   struct Options {
     SourceId source{};
-    double cut_angle_deg = 0;    ///< sensor azimuth, clockwise, 0 = forward
-    double timeout_turns = 1.5;  ///< a scan that is older, in periods of the rotation, is closed
-    std::size_t reserve_points = 0;
+    double cut_angle_deg = 0;        ///< sensor azimuth, clockwise, 0 = forward
+    double timeout_turns = 1.5;      ///< a scan that is older, in periods of the rotation, is closed
+    std::size_t reserve_points = 0;  ///< memory to take at the start, in points
     double field_of_view_deg = 360;  ///< of a whole scan
   };
   explicit ScanAssembler(const Options& options);
 
-  /// Before a packet's firings. At most one scan is closed per packet.
+  /// To be called before the firings of each packet. A packet closes at most one scan.
   void begin_packet() { finished_now_ = false; }
-  /// A firing comes; `time` never decreases. Closes the running scan first when this firing does not belong to it.
-  /// `last_laser` is from the firing's first laser to its last, `period` the duration of one turn now.
+  /// Begins a firing. `time` never decreases. Closes the running scan first if this firing does not belong to it.
+  /// `last_laser` is the time from the first laser of the firing to the last, `period` that of one turn now.
   void begin_firing(Time time, double azimuth_deg, Duration last_laser, Duration period);
-  /// Where the firing's points go, and the time that their offsets count from.
+  /// The points of the firing are appended here.
   [[nodiscard]] PointCloud& cloud() { return running_.cloud; }
+  /// The time from which the offsets of the points count.
   [[nodiscard]] Time start() const { return running_.valid.start; }
 
   /// Packets are missing before the firings that follow.
   void add_lost(std::uint64_t packets);
   /// The running scan does not show one even turn (the motor changes speed or stands).
   void mark_incomplete() { incomplete_ = true; }
+  /// Of the running scan and later ones.
   void set_time_quality(TimeQuality quality) { quality_ = quality; }
-  /// Forgets the running scan: what follows does not connect to it. True when there was one.
+  /// Forgets the running scan, because later firings do not connect to it. True when there was one.
   bool discard();
-  /// Closes the running scan, incomplete, when it is too old at `now`, or always.
+  /// Closes the running scan as incomplete if it is too old at `now`. `period` is the time of one turn.
   const Scan* expire(Time now, Duration period);
+  /// Closes the running scan as incomplete. Null if it is empty.
   const Scan* flush();
 
   /// The scan that was closed since begin_packet(), or null. Valid until the next one is closed.

@@ -7,14 +7,15 @@
 
 namespace cairn::velodyne {
 
+/// Sine and cosine of one angle.
 struct SinCos {
   double sin = 0, cos = 1;
 };
 
 /// Sine and cosine of |radians| <= π/4 to within 2e-16.
 ///
-/// Own series, because the C library picks its sin() by processor (with or without FMA) and points must come out with
-/// the same bits on every machine.
+/// An own series, because the C library chooses its sin() by processor (with or without FMA), and points must have the
+/// same bits on every machine.
 [[nodiscard]] constexpr SinCos sin_cos_series(double radians) {
   const double q = radians * radians;
   const auto nest = [q](double next, int n, int m) { return 1 - q * (1.0 / (n * m)) * next; };

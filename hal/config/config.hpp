@@ -12,13 +12,14 @@
 
 namespace cairn::config {
 
+/// The values that a number may have.
 struct Range {
   double min, max;  ///< both inclusive
 };
 
 class Section;
 
-/// One key: where its value lives and what it may be.
+/// One key: where its value is and what it may be.
 struct Field {
   using Choice = std::pair<std::string*, std::vector<std::string>>;
   std::string key;
@@ -37,10 +38,16 @@ struct Field {
 /// and the same declaration reads a file, checks it and writes the effective values. The struct must outlive it.
 class Section {
  public:
+  /// One key and the member that holds its value and its default. `unit` and `doc` become comments in to_yaml().
+  /// `doc` says what the value means.
   void flag(std::string key, bool& value, std::string doc);
+  /// The same for a whole number.
   void integer(std::string key, int& value, Range range, std::string unit, std::string doc);
+  /// The same for a real number.
   void number(std::string key, double& value, Range range, std::string unit, std::string doc);
+  /// The same for a text.
   void text(std::string key, std::string& value, std::string doc);
+  /// The same for a text that must be one of `options`.
   void choice(std::string key, std::string& value, std::vector<std::string> options, std::string doc);
   /// A list of exactly as many numbers as `value` holds now.
   void numbers(std::string key, std::vector<double>& value, Range range, std::string unit, std::string doc);
@@ -59,8 +66,9 @@ class Section {
 
 /// Sets the declared values from YAML text. Keys left out keep their defaults. Unknown and repeated keys, wrong types
 /// and values out of range are all reported in one Error (Errc::kInvalidConfig), one line each in `detail`:
-/// "file:line: key: cause". Nothing is set unless everything is right.
+/// "file:line: key: cause". On an error nothing is set.
 Result<void> parse(std::string_view yaml, std::string_view file_name, Section& section);
+/// The same from a file. Further errors: kNotFound, kIo, and kLimit for a file above 1 MiB.
 Result<void> load(const std::filesystem::path& path, Section& section);
 
 /// All values as YAML, with unit and documentation as comments: parse(to_yaml(s)) restores them exactly.

@@ -7,9 +7,9 @@
 
 namespace cairn {
 
-/// The one YAML document of a text; Null when the text is empty. Throws YAML::ParserException where the text is not
-/// YAML or where a second document begins: nobody would read it. (YAML::LoadAll would never return from a text such as
-/// ",".) For .cpp files that turn YAML into something of ours, and its exceptions into an Error.
+/// The one YAML document of a text. Null when the text is empty. Throws YAML::ParserException when the text is not
+/// YAML, or when a second document begins. (YAML::LoadAll would never return from a text such as ",".) The caller is a
+/// .cpp file that turns the exception into an Error.
 [[nodiscard]] YAML::Node parse_yaml_document(std::string_view text);
 
 }  // namespace cairn

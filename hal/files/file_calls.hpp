@@ -7,8 +7,8 @@
 
 namespace cairn {
 
-/// The system calls that write a file, as POSIX has them: −1 and errno on an error. The default is this machine's;
-/// tests put a disk in their place that is full, broken or slow from the n-th call on.
+/// The system calls that write a file, as in POSIX: −1 and errno on an error. By default they are those of this
+/// machine. Tests replace them by a disk that is full, broken or slow from the n-th call on.
 class FileCalls {
  public:
   FileCalls() = default;
@@ -16,13 +16,14 @@ class FileCalls {
   FileCalls& operator=(const FileCalls&) = delete;
   virtual ~FileCalls() = default;
 
-  virtual int open(const char* path, int flags, ::mode_t mode);
-  virtual ::ssize_t write(int fd, const void* bytes, std::size_t size);
-  virtual int fsync(int fd);
-  virtual int close(int fd);
-  virtual int rename(const char* from, const char* to);
-  virtual int unlink(const char* path);
+  virtual int open(const char* path, int flags, ::mode_t mode);          ///< open(2)
+  virtual ::ssize_t write(int fd, const void* bytes, std::size_t size);  ///< write(2)
+  virtual int fsync(int fd);                                             ///< fsync(2)
+  virtual int close(int fd);                                             ///< close(2)
+  virtual int rename(const char* from, const char* to);                  ///< rename(2)
+  virtual int unlink(const char* path);                                  ///< unlink(2)
 
+  /// Those of this machine, for the whole run of the program.
   [[nodiscard]] static FileCalls& machine();
 };
 

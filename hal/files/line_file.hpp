@@ -14,17 +14,17 @@
 
 namespace cairn {
 
-/// A text file read line by line in bounded memory, whatever it holds.
+/// Reads a text file line by line, in bounded memory for any content.
 class LineFile {
  public:
-  /// Errors: kNotFound, kIo.
+  /// `max_line`: bytes of the longest line that is read. Errors: kNotFound, kIo.
   [[nodiscard]] static Result<LineFile> open(const std::filesystem::path& path, std::size_t max_line);
 
-  /// The next line without its end (LF or CRLF), valid until the next call; null at the end of the file. Errors: kLimit
-  /// (a longer line, which is passed over), kIo.
+  /// The next line without its end (LF or CRLF). It stays valid until the next call. Null at the end of the file.
+  /// Errors: kLimit (the line is longer than `max_line` bytes and is skipped), kIo.
   [[nodiscard]] Result<std::optional<std::string_view>> next();
   [[nodiscard]] std::uint64_t line() const { return line_; }  ///< of the last line returned, counted from 1
-  /// `error` with the file and the last line's number.
+  /// The error with the file and the number of the last line.
   [[nodiscard]] Error at_line(Error error) const;
 
  private:

@@ -25,13 +25,15 @@ void append_row(std::string& out, const Row& row) {
 std::string to_markdown() {
   std::string out =
       "<!-- SPDX-License-Identifier: Apache-2.0 -->\n# What the robot survives\n\n"
-      "Written by `tools/ci/fault_table.sh`; `test_faults` fails when it is out of date. Times are of virtual time: "
-      "from the\n"
-      "fault's beginning until the core acts on it, and from its end until all is normal again, with the required "
-      "bound;\n"
-      "for a stop (E…) until the frame that disables the motors is on the bus. A stop is latched: it ends by a "
-      "request, so\n"
-      "that no time of recovery is given. Rows without times are shown by the test that is named.\n\n"
+      "`tools/ci/fault_table.sh` writes this page from the rows in `tests/faults`. The test `test_faults`\n"
+      "fails when the page is out of date. [Robot setup](robot-setup.md#faults-and-modes) explains the modes.\n\n"
+      "- Rows are named by what fails. L: LiDAR and cameras. D: drive. E: e-stop. C: computer. P: peers.\n"
+      "- Times are virtual, so they are the same on every machine. The required bound is in brackets.\n"
+      "- *Detected* counts from the beginning of the fault until the core acts on it. In rows E it counts\n"
+      "  until the frame that disables the motors is on the bus.\n"
+      "- *Recovered* counts from the end of the fault until all is normal again.\n"
+      "- A stop is latched. It ends only with a request, so these rows have no time of recovery.\n"
+      "- Rows without times are shown by the test in the last column.\n\n"
       "| id | fault | what must hold | mode | detected | recovered | test |\n|---|---|---|---|---|---|---|\n";
   for (const auto& rows : {sensor_rows(), odometry_rows(), drive_rows(), computer_rows(), peer_rows()})
     for (const Row& row : rows) append_row(out, row);

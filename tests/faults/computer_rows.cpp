@@ -182,20 +182,21 @@ Measured crash_loop() {
 std::vector<Row> late_rows() {
   constexpr Mode D = Mode::kDegraded, H = Mode::kHold;
   return {
-      {"C1", "the pipeline needs 1.5 times its budget for 10 s", "work shed in its order; all back within 1 s", 500ms,
-       1s, D, "", overload},
-      {"C2", "a task hangs", "found within its limit and a look; named before the process ends", 400ms, 100ms, H, "",
-       hang},
+      {"C1", "the pipeline needs 1.5 times its budget for 10 s",
+       "Work is left out level by level. All of it is back within 1 s.", 500ms, 1s, D, "", overload},
+      {"C2", "a task hangs", "It is found within its limit plus one check. Its name is logged before the process ends.",
+       400ms, 100ms, H, "", hang},
       {"C15", "a stage needs more than its hard budget for 3 s",
-       "every overrun costs it the next release, three in a row half its rate, until ten runs in a row keep the budget",
-       600ms, 2100ms, D, "", overruns},
-      {"C16", "another process takes the CPU for 10 s: scans are mapped 1.5 deadlines after they came",
-       "the mapping task sheds in its order; all back within 1 s", 500ms, 1s, D, "", hog},
-      {"C18", "a task does not return (real threads)", "named, no sign of life to systemd; the others go on; forgiven",
-       0ms, 0ms, H, "faults/HungTask.IsNamedAndTheOthersGoOn"},
-      {"C19", "a stage's helper thread is stopped in the middle of its part", "the stage is named, likewise", 0ms, 0ms,
-       H, "faults/HungTask.IsTheStageWhoseHelperIsStopped"},
-      {"C20", "the safety task misses a deadline", "hold until it keeps them again", 0ms, 0ms, H,
+       "An overrun costs the next release. Three in a row halve the rate. Ten good ticks in a row restore it.", 600ms,
+       2100ms, D, "", overruns},
+      {"C16", "another process takes the CPU for 10 s: scans are mapped after 1.5 deadlines",
+       "The mapping task leaves work out level by level. All of it is back within 1 s.", 500ms, 1s, D, "", hog},
+      {"C18", "a task does not return (real threads)",
+       "The task is named. systemd gets no sign of life. The other tasks go on. The fault ends with its cause.", 0ms,
+       0ms, H, "faults/HungTask.IsNamedAndTheOthersGoOn"},
+      {"C19", "a worker thread of a stage is stopped in the middle of its work", "As for C18. The stage is named.", 0ms,
+       0ms, H, "faults/HungTask.IsTheStageWhoseHelperIsStopped"},
+      {"C20", "the safety task misses a deadline", "Hold until it keeps its deadlines again.", 0ms, 0ms, H,
        "app/ScheduleFaults.AMissOfTheSafetyTaskIsAFaultUntilTheNextLook"},
   };
 }
@@ -203,21 +204,21 @@ std::vector<Row> late_rows() {
 std::vector<Row> disk_rows() {
   constexpr Mode N = Mode::kNormal;
   return {
-      {"C3", "disk full", "seen by the next save; a whole generation always; works again by itself", 1s, 1s, N, "",
-       [] { return disk(ENOSPC); }},
-      {"C4", "disk errors (EIO)", "likewise", 1s, 1s, N, "", [] { return disk(EIO); }},
-      {"C5", "file system read-only", "likewise", 1s, 1s, N, "", [] { return disk(EROFS); }},
-      {"C7", "any call of a map's save fails", "a whole generation always, the next save works", 0ms, 0ms, N,
+      {"C3", "disk full", "The next save reports it. A whole saved map always exists. Saving works again by itself.",
+       1s, 1s, N, "", [] { return disk(ENOSPC); }},
+      {"C4", "disk errors (EIO)", "As for C3.", 1s, 1s, N, "", [] { return disk(EIO); }},
+      {"C5", "file system read-only", "As for C3.", 1s, 1s, N, "", [] { return disk(EROFS); }},
+      {"C7", "any system call of a save fails", "A whole saved map always exists. The next save works.", 0ms, 0ms, N,
        "generations/GenerationsTest.WhateverCallFailsThereIsAWholeGenerationAndTheNextSaveWorks"},
-      {"C8", "saved map damaged in any byte or cut anywhere", "the generation before, with an event", 0ms, 0ms, N,
-       "generations/GenerationsTest.EveryDamagedByteGivesTheGenerationBeforeWithAnEvent"},
-      {"C9", "memory refused at any allocation of a map's save", "an error; a whole generation always", 0ms, 0ms, N,
-       "failing_malloc/FailingMalloc.ASaveThatGetsNoMemoryIsAnErrorAndKeepsTheGenerationBefore"},
-      {"C13", "saved state with any damage", "the map's own pose, with an event", 0ms, 0ms, N,
+      {"C8", "saved map damaged in any byte, or cut anywhere", "The previous saved map is loaded, with an event.", 0ms,
+       0ms, N, "generations/GenerationsTest.EveryDamagedByteGivesTheGenerationBeforeWithAnEvent"},
+      {"C9", "memory refused at any allocation of a save", "The save is an error. A whole saved map always exists.",
+       0ms, 0ms, N, "failing_malloc/FailingMalloc.ASaveThatGetsNoMemoryIsAnErrorAndKeepsTheGenerationBefore"},
+      {"C13", "saved pose with any damage", "The pose that was saved with the map is used, with an event.", 0ms, 0ms, N,
        "generations/GenerationsTest.ADamagedPoseIsAnEventAndTheMapsOwnIsTaken"},
       {"C17", "disk that does not answer",
-       "safety goes on without an allocation, signs of life too; what waits is bounded, the rest counted; the disk is "
-       "named",
+       "Safety and signs of life go on, without an allocation. Packets wait in bounded memory, the rest is counted. "
+       "An event names the disk.",
        0ms, 0ms, N, "faults/SlowDiskTest.CostsTheRealTimeTasksNothing"},
   };
 }
@@ -225,17 +226,18 @@ std::vector<Row> disk_rows() {
 std::vector<Row> process_rows() {
   constexpr Mode N = Mode::kNormal, S = Mode::kStop;
   return {
-      {"C6", "crash loop: a restart every 2 s", "the fourth restart in a minute: no drive, telemetry alone", 10s, 0ms,
-       S, "", crash_loop},
+      {"C6", "crash loop: a restart every 2 s",
+       "From the fourth start within a minute on, the drive stays off. Telemetry goes on.", 10s, 0ms, S, "",
+       crash_loop},
       {"C10", "kill -9 at random instants while maps are saved",
-       "a whole generation, never an older one than was confirmed", 0ms, 0ms, S,
+       "A whole saved map exists. It is never older than the last confirmed one.", 0ms, 0ms, S,
        "faults/KillCampaign.AWholeMapIsThereAfterEveryKill"},
       {"C11", "SIGSTOP of the whole core",
-       "no accusation afterwards; systemd's watchdog ends a core that stays stopped", 0ms, 0ms, N,
+       "No task is blamed afterwards. systemd's watchdog kills a core that stays stopped.", 0ms, 0ms, N,
        "watchdog/Supervisor.AMachineThatStoodAccusesNobody"},
-      {"C12", "the viewer is slow, or dies", "dropped; nobody waits for it", 0ms, 0ms, N,
-       "live/LiveServerTest.ASlowClientIsDroppedAndTheOthersAreServed"},
-      {"C14", "restart in the middle of a drive", "the trajectory goes on within a voxel", 0ms, 0ms, N,
+      {"C12", "a client of the live view is slow or dies", "The client is dropped. The core never waits for it.", 0ms,
+       0ms, N, "live/LiveServerTest.ASlowClientIsDroppedAndTheOthersAreServed"},
+      {"C14", "restart in the middle of a drive", "The trajectory goes on with an error below one voxel.", 0ms, 0ms, N,
        "robot/Scenes/Resumed.TheTrajectoryGoesOn"},
   };
 }
@@ -255,20 +257,18 @@ std::vector<Row> rows_left_out() {
     return Row{id, fault, "", 0ms, 0ms, Mode::kNormal, why};
   };
   return {
-      row("X1", "foreign source floods the LiDAR's port",
-          "needs a network namespace and a wall clock; the source filter has "
-          "its test (velodyne/UdpSource)"),
-      row("X2", "host's REALTIME stepped during a run", "nothing reads it but metadata (tools/ci/check_layers.sh)"),
-      row("X3", "1000 times unplug and replug of a USB camera",
-          "needs a guest kernel with dummy_hcd; the recovery has its "
-          "test in virtual time (camera/Recovery)"),
-      row("X4", "power cut at any write", "needs dm-log-writes in a guest; every failing call is C7"),
+      row("X1", "another sender floods the LiDAR's port",
+          "needs a network namespace and a wall clock; the source filter has a test (velodyne/UdpSource)"),
+      row("X2", "the time of day jumps during a run", "only metadata reads it (tools/ci/check_layers.sh)"),
+      row("X3", "a USB camera is unplugged and plugged in 1000 times",
+          "needs a guest kernel with dummy_hcd; recovery has a test in virtual time (camera/Recovery)"),
+      row("X4", "power cut at any write", "needs dm-log-writes in a guest; C7 tests every failing call"),
       row("X5", "hardware watchdog", "needs softdog in a guest"),
       row("X6", "cgroup memory limit, order of the OOM killer's victims",
           "needs cgroups; config/systemd sets the order"),
-      row("X7", "CPU overload by stress-ng", "not deterministic; C1, C15 and C16 are its logic in virtual time"),
-      row("X9", "lying occupancy (a phantom wall, an erased one)",
-          "what a robot's own map says is its own; that it outranks the team's comes with the view that planners get"),
+      row("X7", "CPU overload by stress-ng", "not deterministic; C1, C15 and C16 test the logic in virtual time"),
+      row("X9", "a peer lies about occupancy: a phantom wall, or an erased one",
+          "a robot's own map stays its own; there is no planner yet that reads the team map"),
       row("X10", "unauthorised, expired or revoked certificate; strangers", "there are no certificates yet"),
       row("X8", "bad update, A/B slots", "there is no updater yet"),
   };

@@ -33,9 +33,9 @@ std::vector<Row> estop_rows() {
   const Act closed = [](CoreRig& r) { r.line.move(true, r.bus.now); };
   return {
       {"E1", "e-stop pressed",
-       "the frame that disables is on the bus within two ticks of 2 ms; latched; no motion without a request", 4ms, 0ms,
-       S, "", [closed] { return until_stop_frame([](CoreRig& r) { r.line.move(false, r.bus.now); }, closed); }},
-      {"E2", "e-stop pressed and released within a tick (edges alone)", "likewise", 4ms, 0ms, S, "",
+       "The frame that disables the motors is on the bus within two ticks of 2 ms. The stop is latched.", 4ms, 0ms, S,
+       "", [closed] { return until_stop_frame([](CoreRig& r) { r.line.move(false, r.bus.now); }, closed); }},
+      {"E2", "e-stop pressed and released within one tick", "As for E1, because edges are read too.", 4ms, 0ms, S, "",
        [] {
          return until_stop_frame(
              [](CoreRig& r) {
@@ -44,11 +44,11 @@ std::vector<Row> estop_rows() {
              },
              [](CoreRig&) {});
        }},
-      {"E3", "e-stop's GPIO chip unplugged", "as pressed", 4ms, 0ms, S, "",
+      {"E3", "GPIO chip of the e-stop unplugged", "As for a pressed e-stop.", 4ms, 0ms, S, "",
        [] {
          return until_stop_frame([](CoreRig& r) { r.line.there = false; }, [](CoreRig& r) { r.line.there = true; });
        }},
-      {"E4", "edges of the e-stop lost (a gap in their numbers)", "as pressed", 4ms, 0ms, S, "",
+      {"E4", "edges of the e-stop lost: a gap in their numbers", "As for a pressed e-stop.", 4ms, 0ms, S, "",
        [] {
          return until_stop_frame(
              [](CoreRig& r) {
@@ -63,12 +63,13 @@ std::vector<Row> estop_rows() {
 std::vector<Row> rows_shown_elsewhere() {
   constexpr Mode S = Mode::kStop;
   return {
-      {"D8", "stale, duplicated, reordered feedback; random faults at random times",
-       "no motion after a stop without arming", 0ms, 0ms, S, "drive/FaultSchedule.NoMotionAfterAStopWithoutArming"},
-      {"D9", "the commanding process dies", "the motor controllers' own watchdog (100 ms) stops them", 0ms, 0ms, S,
+      {"D8", "old, repeated or reordered feedback, and random faults at random times",
+       "No motion after a stop until the drive is armed again.", 0ms, 0ms, S,
+       "drive/FaultSchedule.NoMotionAfterAStopWithoutArming"},
+      {"D9", "the core dies", "The watchdogs of the motor controllers stop the motors after 100 ms.", 0ms, 0ms, S,
        "drive/CanDrive.ADeadHostStopsTheNodes"},
       {"D10", "e-stop pressed, on a real kernel",
-       "the next safety tick sees it, the drive tick after it sends the frame, or the one after that", 0ms, 0ms, S,
+       "The next safety tick sees it. The stop frame is sent by one of the next two drive ticks.", 0ms, 0ms, S,
        "vm/EStopStopsDrive.ThroughTheRobotsOwnTasksWithinOneControlPeriod"},
   };
 }
@@ -79,15 +80,16 @@ std::vector<Row> drive_rows() {
   constexpr Mode H = Mode::kHold, S = Mode::kStop;
   const Act nothing = [](CoreRig&) {};
   std::vector<Row> rows{
-      {"D1", "CAN bus-off", "stop within 50 ms of the error frame; restarted by us alone, moves after a request alone",
-       50ms, 0ms, S, "",
-       [nothing] { return drive([](CoreRig& r) { error_frame(r, drive::kErrorBusOff, 0); }, nothing); }},
-      {"D2", "CAN error-passive", "stop within 50 ms of the error frame", 50ms, 0ms, S, "",
+      {"D1", "CAN bus-off",
+       "Stop within 50 ms of the error frame. Cairn restarts the bus. The robot moves only after a request.", 50ms, 0ms,
+       S, "", [nothing] { return drive([](CoreRig& r) { error_frame(r, drive::kErrorBusOff, 0); }, nothing); }},
+      {"D2", "CAN error-passive", "Stop within 50 ms of the error frame.", 50ms, 0ms, S, "",
        [] {
          return drive([](CoreRig& r) { error_frame(r, drive::kErrorController, drive::kControllerPassive); },
                       [](CoreRig& r) { error_frame(r, drive::kErrorController, drive::kControllerActive); });
        }},
-      {"D3", "motor controller starts anew", "stop; initialised again, enabled after a request alone", 50ms, 0ms, S, "",
+      {"D3", "motor controller restarts", "Stop. The controller is set up again. It is enabled only after a request.",
+       50ms, 0ms, S, "",
        [nothing] {
          return drive(
              [](CoreRig& r) {
@@ -96,20 +98,20 @@ std::vector<Row> drive_rows() {
              },
              nothing);
        }},
-      {"D4", "motor controller reports a fault", "stop; reset by a request", 50ms, 0ms, S, "",
+      {"D4", "motor controller reports a fault", "Stop. A request resets the fault.", 50ms, 0ms, S, "",
        [nothing] {
          return drive([](CoreRig& r) { r.bus.deliver([&](auto& out) { r.bus.nodes[0].fail(0x3210, out); }); }, nothing);
        }},
-      {"D5", "feedback silent", "hold after 100 ms, stop after 250 ms", 110ms, 0ms, S, "",
+      {"D5", "no wheel feedback", "Hold after 100 ms. Stop after 250 ms.", 110ms, 0ms, S, "",
        [] { return drive([](CoreRig& r) { mute(r, true); }, [](CoreRig& r) { mute(r, false); }); }},
-      {"D6", "send queue full for 60 ms: nobody acknowledges",
-       "never blocks; hold after three refusals, ends with its cause", 60ms, 1s, H, "",
+      {"D6", "send queue full for 60 ms: no node acknowledges",
+       "Sending never blocks. Hold after three refused frames. The hold ends with its cause.", 60ms, 1s, H, "",
        [] {
          return CoreRig().run([](CoreRig& r) { r.bus.full = true; }, [](CoreRig& r) { r.bus.full = false; }, 60ms);
        }},
-      {"D11", "send queue full for 1 s", "hold, then stop: the motor controllers' own watchdogs end it", 60ms, 0ms, S,
-       "", [] { return drive([](CoreRig& r) { r.bus.full = true; }, [](CoreRig& r) { r.bus.full = false; }); }},
-      {"D7", "CAN interface down", "stop", 50ms, 0ms, S, "",
+      {"D11", "send queue full for 1 s", "Hold, then stop: the watchdogs of the motor controllers run out.", 60ms, 0ms,
+       S, "", [] { return drive([](CoreRig& r) { r.bus.full = true; }, [](CoreRig& r) { r.bus.full = false; }); }},
+      {"D7", "CAN interface down", "Stop within 50 ms.", 50ms, 0ms, S, "",
        [] { return drive([](CoreRig& r) { r.bus.down = true; }, [](CoreRig& r) { r.bus.down = false; }); }},
   };
   for (const auto& more : {rows_shown_elsewhere(), estop_rows()}) rows.insert(rows.end(), more.begin(), more.end());

@@ -109,9 +109,9 @@ TEST(OdometryLost, ReachesTheModeAtTheSameTickOnOneThreadAndOnManyAtRealSpeed) {
 }  // namespace
 
 std::vector<Row> odometry_rows() {
-  return {{"L18", "three scans do not fit: the sensor is covered",
-           "degraded, and nothing of them in the map; normal with the first that fits", 250ms, 250ms, Mode::kDegraded,
-           "", covered}};
+  return {{"L18", "sensor covered: three scans do not fit",
+           "Degraded. The three scans do not go into the map. Normal with the first scan that fits.", 250ms, 250ms,
+           Mode::kDegraded, "", covered}};
 }
 
 }  // namespace cairn::faults

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Checks that a build's program carries every protection it was built for: tools/ci/check_hardening.sh BUILD_FOLDER
-# What leaves a trace in the binary is read from there, the rest from the compile commands.
+# Checks that the program of a build has all the protections of docs/security.md: tools/ci/check_hardening.sh BUILD_FOLDER
+# Reads them from the binary. Protections that leave no trace there are read from the compile commands.
 set -euo pipefail
 
 build=${1:?usage: check_hardening.sh BUILD_FOLDER}
@@ -32,7 +32,7 @@ has "stack protector" '__stack_chk_fail' "$symbols"
 has "fortified libc calls" '__[a-z]+_chk\b' "$symbols"
 has "checked standard library" '__glibcxx_assert_fail' "$symbols"
 
-# Every one of our own files, not only most of them.
+# Each of our own files must have the flag.
 count() { grep '"command":' "$commands" | grep -c -- "$1" || true; }
 files=$(count '')
 for flag in -fstack-protector-strong -fstack-clash-protection -ftrivial-auto-var-init=zero -D_FORTIFY_SOURCE=3 \

@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# Proves that the README's commands need nothing but a bare Debian 12: makes one in a folder and, for each command, copies
-# it, clones the project into the copy and runs the command there as root, twice. Prints how long each run took.
+# Proves that the commands of the README work on a bare Debian 12. Makes such a root in a folder. For each command it copies
+# the root, clones the project into the copy, and runs the command there twice as root. Prints how long each run took.
 #   tools/ci/fresh_machine.sh [COMMAND…]      as root; default: ./tools/test.sh ./tools/demo.sh
-# Packages come from where this machine's come from: its apt settings are copied.
+# The apt settings of this machine are copied, so packages come from the same sources.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 

@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Builds the fuzz targets (clang, libFuzzer, both sanitisers) and runs each, two at a time:
 #   tools/ci/fuzz.sh [SECONDS [NAME…]]
-# What the fuzzer finds stays in build/fuzz/corpus/NAME for the next run; a crash leaves its input in build/fuzz/crash.
+# New inputs stay in build/fuzz/corpus/NAME for the next run. A crash leaves its input in build/fuzz/crash.
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 
 seconds=${1:-30}

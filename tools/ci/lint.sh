@@ -5,8 +5,8 @@
 #   tools/ci/lint.sh --changed    over the program's .cpp files that changed in the day before HEAD, as CI does for its
 #                                 time
 #   tools/ci/lint.sh --format     format and shell scripts alone
-#   tools/ci/lint.sh --full       the checks by clang-tidy itself: ten times slower, because it also looks through the
-#                                 libraries' headers, and it adds bugprone-use-after-move, which clangd leaves out
+#   tools/ci/lint.sh --full       the checks by clang-tidy itself: ten times slower, because it also reads the headers of
+#                                 libraries; it adds bugprone-use-after-move, which clangd leaves out
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
@@ -19,7 +19,7 @@ clang-format-14 --dry-run -Werror "${sources[@]}" || { bad=1; echo "remedy: clan
 shellcheck "${scripts[@]}" || bad=1
 awk 'FNR == 301 { print FILENAME ": longer than 300 lines: split it by meaning"; long = 1 } END { exit long }' "${sources[@]}" || bad=1
 
-# Both read the compile commands; nothing is built but headers that are made from others. Files that no target compiles (headers) borrow a neighbour's.
+# Both read the compile commands. Only generated headers are built. A header uses the commands of a neighbouring file.
 cmake --preset clang >/dev/null
 cmake --build --preset clang --target cairn_dds_types -- --quiet >/dev/null
 

@@ -7,8 +7,8 @@
 
 namespace cairn::drive::agilex {
 
-/// An AgileX robot's own controller as a drive. It starts in standby and must be told to listen to CAN; it stops 500 ms
-/// after the last command by itself, and its remote control may take over at any time, which ends in a stop here.
+/// The controller of an AgileX robot as a drive. It starts in standby and must be told to listen to CAN. It stops by
+/// itself 500 ms after the last command. Its remote control may take over at any time, which is a stop for Cairn.
 class Chassis final : public Protocol {
  public:
   static constexpr Duration kCommandPeriod = std::chrono::milliseconds(20),

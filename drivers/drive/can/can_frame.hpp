@@ -20,16 +20,16 @@ inline constexpr std::uint8_t kFdBitRateSwitch = 1, kFdErrorState = 2, kFdFormat
 
 /// One frame on a CAN bus, classic or FD.
 struct CanFrame {
-  std::uint32_t id = 0;     ///< 11 or 29 bits and the flags above; in an error frame the error classes (can_error.hpp)
-  std::uint8_t length = 0;  ///< bytes of data; a remote frame asks for as many and has none
-  bool fd = false;          ///< CAN FD
+  std::uint32_t id = 0;       ///< 11 or 29 bits and the flags above; in an error frame the classes of link_monitor.hpp
+  std::uint8_t length = 0;    ///< bytes of data; a remote frame has none, but asks for so many
+  bool fd = false;            ///< CAN FD
   std::uint8_t fd_flags = 0;  ///< of an FD frame
   std::uint8_t raw_dlc = 0;   ///< 9 … 15 in a classic frame of 8 bytes that was sent with such a length code, else 0
   std::array<std::uint8_t, 64> data{};  ///< zero from `length` on
 
   [[nodiscard]] bool remote() const { return (id & kRemote) != 0; }
   [[nodiscard]] bool error() const { return (id & kErrorFrame) != 0; }
-  /// A classic data frame with the 11-bit identifier `standard_id`: all that drives use.
+  /// True for a classic data frame with the 11-bit identifier `standard_id`. Drives use no other frames.
   [[nodiscard]] bool is(std::uint32_t standard_id) const { return !fd && id == standard_id; }
   [[nodiscard]] std::span<const std::uint8_t> payload() const { return std::span(data).first(length); }
   friend bool operator==(const CanFrame&, const CanFrame&) = default;
@@ -47,8 +47,7 @@ enum class Direction : std::uint16_t {
   kSent = 1,  ///< by this computer, as the controller confirmed it
 };
 
-/// Bytes of a Packet that holds a frame: Linux' struct can_frame or struct canfd_frame, little-endian, so that a
-/// socket's bytes need no change:
+/// Bytes of a Packet that holds a frame: those of Linux' struct can_frame or struct canfd_frame, little-endian:
 ///   0 u32 id with flags · 4 u8 length · 5 u8 FD flags · 6 u8 zero · 7 u8 raw DLC (classic) · 8 data (8 or 64 bytes)
 inline constexpr std::size_t kClassicBytes = 16, kFdBytes = 72;
 

@@ -7,13 +7,13 @@
 
 namespace cairn::drive {
 
-/// A CAN bus that can be heard and spoken to. next() gives frames as decode_frame() takes them, own ones included once
-/// the controller has sent them (Packet::channel is a Direction).
+/// A CAN bus that frames can be received from and sent to. next() gives frames in the form of decode_frame(). Own
+/// frames are included once the controller has sent them: Packet::channel is a Direction.
 class CanLink : public Source {
  public:
-  /// Never waits.
+  /// Sends a frame. Never waits.
   virtual SendResult send(const CanFrame& frame) = 0;
-  /// Asks the system to restart a controller that is bus-off. Error: it may not (CAP_NET_ADMIN) or cannot.
+  /// Asks the system to restart a controller that is bus-off. Error kIo: no permission (CAP_NET_ADMIN), or it failed.
   virtual Result<void> restart() = 0;
 
  protected:

@@ -17,7 +17,7 @@ struct CandumpLine {
   std::optional<Time> stamp;   ///< as written: UTC, since the first frame (-tz) or since the last one (-td)
   std::string_view interface;  ///< in the line's memory; at most kMaxInterface characters
   CanFrame frame;
-  std::optional<Direction> direction;  ///< only -x tells it: R and T, RX and TX
+  std::optional<Direction> direction;  ///< only with -x: R and T, RX and TX
 };
 
 inline constexpr std::size_t kMaxInterface = 15;

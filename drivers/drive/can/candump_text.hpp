@@ -22,11 +22,13 @@ class Cursor {
   void skip_space() {
     while (peek() == ' ' || peek() == '\t') ++at_;
   }
+  /// Goes past `c` if it comes next; false if it does not.
   bool take(char c) {
     if (done() || text_[at_] != c) return false;
     ++at_;
     return true;
   }
+  /// Goes past `word` if it comes next; false if it does not.
   bool take(std::string_view word) {
     if (!rest().starts_with(word)) return false;
     at_ += word.size();
@@ -34,6 +36,7 @@ class Cursor {
   }
   /// Up to the next space or tab.
   std::string_view word() { return advance(std::min(rest().find_first_of(" \t"), rest().size())); }
+  /// The next `n` characters, or fewer at the end of the line.
   std::string_view advance(std::size_t n) {
     const std::string_view part = text_.substr(at_, n);
     at_ += part.size();
@@ -45,6 +48,7 @@ class Cursor {
   std::size_t at_ = 0;
 };
 
+/// An Error kMalformed at the cursor's column.
 [[nodiscard]] inline Error fault(const Cursor& at, std::string_view cause) {
   return {Errc::kMalformed, cause, {}, at.column(), {}};
 }
@@ -62,8 +66,9 @@ class Cursor {
 /// Takes an identifier of 3 or 8 digits.
 [[nodiscard]] Result<std::uint32_t> parse_id(std::string_view digits, const Cursor& at);
 
-/// The readers of what follows the interface.
+/// Reads a frame in the form of a log file, after the interface.
 [[nodiscard]] Result<void> parse_log_frame(Cursor& line, CandumpLine& out);
+/// Reads a frame in the form of the console, after the interface.
 [[nodiscard]] Result<void> parse_console_frame(Cursor& line, CandumpLine& out);
 
 }  // namespace cairn::drive::candump

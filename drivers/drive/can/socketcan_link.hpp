@@ -12,16 +12,17 @@ struct msghdr;
 
 namespace cairn::drive {
 
-/// A Linux CAN interface (SocketCAN, raw socket): classic and FD frames, error frames of all classes, the kernel's
-/// receive stamps, own frames once they are on the bus. Never blocks longer than asked. When the interface goes down or
-/// disappears it is opened again by name, at most every 0.1 … 2 s. Allocates nothing once the packet has grown.
+/// A Linux CAN interface (SocketCAN, raw socket): classic and FD frames, error frames of all classes, receive stamps of
+/// the kernel, own frames once they are on the bus. Never waits longer than asked. If the interface goes down or
+/// disappears, it is opened again by name, after 0.1 … 2 s. Allocates nothing once the packet has grown.
 ///
-/// Set the interface up with a short queue, or a bus without power collects commands and gets them all at once later:
+/// Give the interface a short queue. Otherwise a bus without power collects commands and delivers them late:
 ///   ip link set can0 type can bitrate 500000; ip link set can0 txqueuelen 16; ip link set can0 up
 class SocketCanLink final : public CanLink {
  public:
+  /// What happened to the frames and to the interface.
   struct Counters {
-    std::uint64_t delivered = 0;     ///< received and own
+    std::uint64_t delivered = 0;     ///< as packets: received and own
     std::uint64_t own = 0;           ///< of those, sent by this socket
     std::uint64_t unstamped = 0;     ///< without a usable kernel stamp: stamped when read
     std::uint64_t kernel_drops = 0;  ///< the receive buffer was full
@@ -36,7 +37,7 @@ class SocketCanLink final : public CanLink {
   SocketCanLink& operator=(const SocketCanLink&) = delete;
   ~SocketCanLink() override;
 
-  /// Error kLinkDown once when the link is lost; then kTimeout until it is open again.
+  /// Error kLinkDown once when the link is lost. Then kTimeout until it is open again.
   Result<Poll> next(Packet& packet, Duration timeout) override;
   SendResult send(const CanFrame& frame) override;
   Result<void> restart() override;

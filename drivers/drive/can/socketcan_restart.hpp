@@ -8,7 +8,7 @@
 namespace cairn::drive {
 
 /// Restarts the CAN controller of interface `index` after bus-off (rtnetlink, IFLA_CAN_RESTART), as
-/// `ip link set can0 type can restart` does. Error kIo with the system's reason and the remedy.
+/// `ip link set can0 type can restart` does. Error kIo with the reason of the system and the remedy.
 [[nodiscard]] Result<void> restart_can(const std::string& interface, int index);
 
 }  // namespace cairn::drive

@@ -10,13 +10,13 @@
 
 namespace cairn::drive {
 
-/// Frames waiting to be sent, oldest first. A frame that says the same as one waiting (same identifier and, for NMT,
-/// same node) takes its place, so that no stale command can pile up behind a bus that does not acknowledge.
+/// Frames that wait to be sent, oldest first. A frame replaces a waiting one with the same identifier (and, for NMT,
+/// the same node). So old commands cannot pile up behind a bus that does not acknowledge.
 class TxQueue {
  public:
   static constexpr std::size_t kCapacity = 24;
 
-  /// False when the queue is full; the frame is then dropped and counted.
+  /// False when the queue is full. The frame is then dropped and counted.
   bool push(const CanFrame& frame);
   /// Removes the first `n`.
   void drop_front(std::size_t n);
@@ -31,10 +31,11 @@ class TxQueue {
   std::uint64_t dropped_ = 0;
 };
 
-/// A period with phase: due once per period; releases that were missed are skipped.
+/// A period that keeps its phase. Missed times are skipped.
 class Every {
  public:
   explicit Every(Duration period) : period_(period) {}
+  /// True once per period, and at the first call.
   bool due(Time now) {
     if (started_ && now < next_) return false;
     next_ = started_ ? next_ + period_ * ((now - next_) / period_ + 1) : now + period_;

@@ -25,8 +25,9 @@ struct Step {
   std::uint32_t mask = 0xFFFFFFFF;
 };
 
-/// What is done with a node between boot-up and NMT start, in order: identity, heartbeats both ways and the reaction to
-/// a lost host (checked by reading back: they are the drive's own watchdog), ramps, mode, PDO mapping.
+/// The configuration of a node between boot-up and NMT start, in order: identity, heartbeats in both directions, the
+/// reaction to a lost host, ramps, mode, PDO mapping. Heartbeats and reaction are the watchdog of the node, so they are
+/// read back.
 class BringUp {
  public:
   BringUp(const Config& config, std::uint8_t node);
@@ -44,7 +45,7 @@ class BringUp {
   std::size_t size_ = 0;
 };
 
-/// Metres per second at the wheel's rim, and per second squared, in the drive's velocity units; saturated.
+/// `rim` (m/s or m/s² at the rim of the wheel) in the velocity units of the motor controller, saturated.
 [[nodiscard]] std::int32_t velocity_units(const Config& config, double rim);
 
 }  // namespace cairn::drive::cia402

@@ -23,7 +23,7 @@ enum class NmtCommand : std::uint8_t {
   kResetNode = 0x81,
   kResetCommunication = 0x82,
 };
-/// What a heartbeat says; kBootUp is the boot-up message (CiA 301, 7.2.8.3.3).
+/// The state in a heartbeat. kBootUp is the boot-up message (CiA 301, 7.2.8.3.3).
 enum class NmtState : std::uint8_t { kBootUp = 0x00, kStopped = 0x04, kOperational = 0x05, kPreOperational = 0x7F };
 
 /// An entry of the object dictionary.
@@ -33,12 +33,14 @@ struct Object {
   friend bool operator==(const Object&, const Object&) = default;
 };
 
+/// An emergency message (EMCY).
 struct Emergency {
   std::uint16_t code = 0;  ///< 0: the last error is gone
   std::uint8_t error_register = 0;
   std::array<std::uint8_t, 5> vendor{};
 };
 
+/// A request for an entry of the object dictionary.
 struct SdoRequest {
   enum class Kind : std::uint8_t { kRead, kWrite, kAbort };
   Kind kind{};
@@ -46,6 +48,7 @@ struct SdoRequest {
   std::uint32_t value = 0;  ///< written value, or abort code
   std::uint8_t bytes = 0;   ///< 1 … 4 of a write
 };
+/// The answer of a node to an SdoRequest.
 struct SdoResponse {
   enum class Kind : std::uint8_t { kWritten, kValue, kAbort };
   Kind kind{};
@@ -60,30 +63,41 @@ struct SdoResponse {
 inline constexpr std::uint32_t kAbortTimeout = 0x05040000, kAbortCommand = 0x05040001, kAbortReadOnly = 0x06010002,
                                kAbortNoObject = 0x06020000, kAbortNoSubIndex = 0x06090011, kAbortState = 0x08000022,
                                kAbortValue = 0x06090030;
-/// CiA 301, table 22; "unknown abort code" for others.
+/// The text of an abort code (CiA 301, table 22), or "unknown abort code".
 [[nodiscard]] std::string_view abort_text(std::uint32_t code);
 
+/// A network management command to `node`; 0: to all nodes.
 [[nodiscard]] CanFrame nmt(NmtCommand command, std::uint8_t node);
+/// The message at which nodes send and take their synchronous PDOs.
 [[nodiscard]] CanFrame sync();
+/// The heartbeat of `node`.
 [[nodiscard]] CanFrame heartbeat(std::uint8_t node, NmtState state);
+/// An emergency message of `node`, for simulation.
 [[nodiscard]] CanFrame emergency(std::uint8_t node, const Emergency& message);
+/// Asks `node` for the value of an object.
 [[nodiscard]] CanFrame sdo_read(std::uint8_t node, Object object);
-/// Expedited; `bytes` is 1 … 4.
+/// Writes an object of `node` by an expedited transfer. `bytes` is 1 … 4.
 [[nodiscard]] CanFrame sdo_write(std::uint8_t node, Object object, std::uint32_t value, std::uint8_t bytes);
+/// Aborts a transfer with an abort code.
 [[nodiscard]] CanFrame sdo_abort(std::uint8_t node, Object object, std::uint32_t code);
-/// The server's side, for simulation.
+/// The answer of `node`, for simulation.
 [[nodiscard]] CanFrame sdo_response(std::uint8_t node, const SdoResponse& response);
 
-/// Decoders of a frame's payload. Errors: kMalformed (length or command specifier), kUnsupported (segmented and block
-/// transfer).
+/// Decodes the payload of a heartbeat. Error: kMalformed (length or state).
 [[nodiscard]] Result<NmtState> decode_heartbeat(const CanFrame& frame);
+/// Decodes the payload of an emergency message. Error: kMalformed (length).
 [[nodiscard]] Result<Emergency> decode_emergency(const CanFrame& frame);
+/// Decodes an SDO request. Errors: kMalformed (length or command specifier), kUnsupported (segmented or block
+/// transfer).
 [[nodiscard]] Result<SdoRequest> decode_sdo_request(const CanFrame& frame);
+/// Decodes an SDO response. Errors as decode_sdo_request().
 [[nodiscard]] Result<SdoResponse> decode_sdo_response(const CanFrame& frame);
 
-/// Little-endian numbers inside a frame; the caller has checked the length.
+/// A little-endian number at byte `at` of the data. The caller has checked the length.
 [[nodiscard]] std::uint16_t load_u16(const CanFrame& frame, std::size_t at);
+/// A little-endian number at byte `at` of the data. The caller has checked the length.
 [[nodiscard]] std::uint32_t load_u32(const CanFrame& frame, std::size_t at);
+/// Writes the low `bytes` of `value` at byte `at` of the data, little-endian. The frame must be long enough.
 void store(CanFrame& frame, std::size_t at, std::uint32_t value, std::size_t bytes);
 
 }  // namespace cairn::drive::canopen

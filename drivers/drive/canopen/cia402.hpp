@@ -34,30 +34,34 @@ enum class State : std::uint8_t {
   kFault,
   kUnknown,
 };
+/// The state in a statusword (object 6041); kUnknown for a pattern that the table does not have.
 [[nodiscard]] State state_of(std::uint16_t statusword);
+/// A name for messages.
 [[nodiscard]] std::string_view to_string(State state);
 
 /// Controlwords (CiA 402-2, table 28).
 inline constexpr std::uint16_t kDisableVoltage = 0x00, kQuickStop = 0x02, kShutdown = 0x06, kSwitchOn = 0x07,
                                kEnableOperation = 0x0F, kFaultReset = 0x80, kHalt = 0x100;
 
-/// The controlword that takes a drive one step towards operation; in a fault kDisableVoltage, whose change to
-/// kFaultReset is what resets it.
+/// The controlword that takes a motor controller one step towards operation. In a fault it is kDisableVoltage: the
+/// change from it to kFaultReset resets the fault.
 [[nodiscard]] std::uint16_t towards_operation(State state);
-/// The controlword that stops: quick stop as long as the drive moves by itself, then the voltage goes.
+/// The controlword that stops: quick stop while the drive is in operation, then disable voltage.
 [[nodiscard]] std::uint16_t towards_rest(State state);
 
-/// The PDOs as this master maps them: RPDO1 carries a whole order (6040, 60FF), so that stopping takes one frame.
+/// RPDO1 as this master maps it (6040, 60FF). It carries a whole order, so that stopping takes one frame.
 struct WheelOrder {
   std::uint16_t controlword = kDisableVoltage;
   std::int32_t target_velocity = 0;  ///< drive units
   friend bool operator==(const WheelOrder&, const WheelOrder&) = default;
 };
 inline constexpr std::uint8_t kOrderBytes = 6;
+/// RPDO1 to `node`.
 [[nodiscard]] CanFrame rpdo1(std::uint8_t node, const WheelOrder& order);
+/// The inverse, for simulation. Error: kMalformed (length).
 [[nodiscard]] Result<WheelOrder> decode_rpdo1(const CanFrame& frame);
 
-/// TPDO1 (6041, 6061, 603F), on SYNC.
+/// TPDO1 (6041, 6061, 603F), sent on SYNC.
 struct Status {
   std::uint16_t statusword = 0;
   std::int8_t mode = 0;
@@ -65,17 +69,21 @@ struct Status {
   friend bool operator==(const Status&, const Status&) = default;
 };
 inline constexpr std::uint8_t kStatusBytes = 5;
+/// TPDO1 of `node`, for simulation.
 [[nodiscard]] CanFrame tpdo1(std::uint8_t node, const Status& status);
+/// Error: kMalformed (length).
 [[nodiscard]] Result<Status> decode_tpdo1(const CanFrame& frame);
 
-/// TPDO2 (6064, 606C), on SYNC.
+/// TPDO2 (6064, 606C), sent on SYNC.
 struct Motion {
   std::int32_t position = 0;  ///< encoder counts; wraps
   std::int32_t velocity = 0;  ///< drive units
   friend bool operator==(const Motion&, const Motion&) = default;
 };
 inline constexpr std::uint8_t kMotionBytes = 8;
+/// TPDO2 of `node`, for simulation.
 [[nodiscard]] CanFrame tpdo2(std::uint8_t node, const Motion& motion);
+/// Error: kMalformed (length).
 [[nodiscard]] Result<Motion> decode_tpdo2(const CanFrame& frame);
 
 }  // namespace cairn::drive::cia402

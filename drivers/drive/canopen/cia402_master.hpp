@@ -7,8 +7,8 @@
 
 namespace cairn::drive::cia402 {
 
-/// Two or four CiA 402 motor controllers in profile velocity mode as one differential drive. It produces SYNC and its
-/// own heartbeat, which the nodes watch (1016, 6007): without it they stop by themselves.
+/// Two or four CiA 402 motor controllers in profile velocity mode as one differential drive. The master sends SYNC and
+/// a heartbeat. The nodes watch the heartbeat (1016, 6007) and stop by themselves without it.
 class Master final : public Protocol {
  public:
   static constexpr Duration kSyncPeriod = std::chrono::milliseconds(10);

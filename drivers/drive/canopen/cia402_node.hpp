@@ -12,8 +12,8 @@
 
 namespace cairn::drive::cia402 {
 
-/// One motor controller as its master sees it: configured after every boot-up, then taken through the power state
-/// machine. Pure: frames and time in, frames out.
+/// One motor controller, seen from the master. It is configured after every boot-up and then taken through the power
+/// state machine. Pure: frames and time in, frames out.
 class Node {
  public:
   enum class Phase : std::uint8_t {
@@ -29,8 +29,10 @@ class Node {
 
   Node(const Config& config, std::uint8_t id);
 
+  /// Takes any frame on the bus; those of other nodes are ignored. Error kMalformed: the frame was refused whole.
   Result<void> receive(const CanFrame& frame, Time arrival);
-  /// Sends the order when it changed in a way that cannot wait, else every kOrderPeriod. `target` in drive units.
+  /// Sends the order at once if it changed in a way that cannot wait, else every kOrderPeriod. `target` is the velocity
+  /// in drive units.
   void order(Time now, const Order& order, std::int32_t target, TxQueue& out);
   /// Goes on with configuration and supervision.
   void step(Time now, TxQueue& out);

@@ -20,18 +20,19 @@ class SdoClient {
 
   explicit SdoClient(std::uint8_t node) : node_(node) {}
 
-  /// Begin a transfer, dropping a running one.
+  /// Begins to read an object. A running transfer is dropped.
   void read(Object object) { begin(sdo_read(node_, object), object); }
+  /// Begins to write an object of `bytes` 1 … 4. A running transfer is dropped.
   void write(Object object, std::uint32_t value, std::uint8_t bytes) {
     begin(sdo_write(node_, object, value, bytes), object);
   }
-  /// Takes an answer; one that belongs to no running request is ignored.
+  /// Takes an answer. An answer that belongs to no running request is ignored.
   void receive(const CanFrame& frame);
   /// Sends what is due.
   void step(Time now, TxQueue& out);
 
   [[nodiscard]] State state() const { return state_; }
-  /// The answer: of kDone the value read, of kAborted the abort code.
+  /// The answer: in kDone the value read, in kAborted the abort code.
   [[nodiscard]] const SdoResponse& response() const { return response_; }
 
  private:

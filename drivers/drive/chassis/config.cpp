@@ -16,40 +16,42 @@ void declare_nodes(config::Section& s, Config& c) {
   s.flag("left_reversed", c.left_reversed, "the left motors count backwards when the robot goes forward");
   s.flag("right_reversed", c.right_reversed, "the same for the right motors");
   s.number("velocity_units_per_rad_s", c.velocity_units_per_rad_s, {0, 1e8}, "s/rad",
-           "60FF for 1 rad/s of the wheel, gear included; needed to enable a CiA 402 drive");
+           "object 60FF for 1 rad/s of the wheel, gear included; needed to enable a CiA 402 drive");
   s.number("position_counts_per_rad", c.position_counts_per_rad, {0, 1e8}, "1/rad",
-           "6064 for 1 rad of the wheel, gear included; needed for odometry");
-  s.number("acceleration_m_s2", c.acceleration_m_s2, {0.01, 20}, "m/s²", "6083 and 6084");
-  s.number("quick_stop_m_s2", c.quick_stop_m_s2, {0.01, 50}, "m/s²", "6085");
-  s.integer("heartbeat_ms", c.heartbeat_ms, {10, 1000}, "ms", "1017: period of the nodes' heartbeat");
+           "object 6064 for 1 rad of the wheel, gear included; needed for odometry");
+  s.number("acceleration_m_s2", c.acceleration_m_s2, {0.01, 20}, "m/s²", "ramps of speed: objects 6083 and 6084");
+  s.number("quick_stop_m_s2", c.quick_stop_m_s2, {0.01, 50}, "m/s²", "ramp of a quick stop: object 6085");
+  s.integer("heartbeat_ms", c.heartbeat_ms, {10, 1000}, "ms", "period of the nodes' heartbeat: object 1017");
   s.integer("host_heartbeat_ms", c.host_heartbeat_ms, {20, 1000}, "ms",
-            "1016: a node that does not hear this computer for so long stops by itself");
-  s.integer("vendor", c.vendor, {0, 2147483647}, "", "1018:1 that the nodes must have; 0: any");
-  s.integer("product", c.product, {0, 2147483647}, "", "1018:2 that the nodes must have; 0: any");
+            "a node that does not hear this computer for so long stops by itself: object 1016");
+  s.integer("vendor", c.vendor, {0, 2147483647}, "", "vendor of the nodes (object 1018:1); 0: any");
+  s.integer("product", c.product, {0, 2147483647}, "", "product of the nodes (object 1018:2); 0: any");
 }
 
 void declare_odometry(config::Section& s, Config& c) {
   s.number("travel_noise_m", c.travel_noise_m, {0, 1}, "m", "1 σ of one side's travel after 1 m");
   s.number("travel_scale", c.travel_scale, {0, 0.5}, "", "1 σ of the wheel radius, as a share");
   s.number("rotation_scale", c.rotation_scale, {0, 1}, "", "1 σ of the effective separation, as a share");
-  s.number("lateral_slip", c.lateral_slip, {0, 1}, "", "1 σ of sideways motion, as a share of what the sides go apart");
+  s.number("lateral_slip", c.lateral_slip, {0, 1}, "",
+           "1 σ of sideways motion, as a share of the difference in travel of the sides");
   s.number("ground_noise_m", c.ground_noise_m, {0, 1}, "m", "1 σ of the height after 1 m");
   s.number("ground_noise_rad", c.ground_noise_rad, {0, 1}, "rad", "1 σ of roll and pitch after 1 m");
   s.number("traction_m_s2", c.traction_m_s2, {0.1, 50}, "m/s²", "a wheel that changes its speed faster is slipping");
-  s.number("slip_factor", c.slip_factor, {0, 2}, "", "share of a slipping wheel's travel that is doubted");
+  s.number("slip_factor", c.slip_factor, {0, 2}, "", "share of a slipping wheel's travel that counts as uncertain");
 }
 
 }  // namespace
 
 void declare(config::Section& s, Config& c) {
-  s.choice("protocol", c.protocol, {"cia402", "agilex"}, "what the drive speaks");
+  s.choice("protocol", c.protocol, {"cia402", "agilex"}, "protocol of the motor controllers");
   s.text("interface", c.interface,
          "SocketCAN interface, configured and up: ip link set can0 up type can bitrate 500000");
   s.number("wheel_separation_m", c.wheel_separation_m, {0, 5}, "m",
            "effective distance of left and right wheels; for skid steering wider than they stand; needed to enable");
   s.number("wheel_radius_m", c.wheel_radius_m, {0, 2}, "m", "needed to enable a CiA 402 drive");
-  s.number("max_speed_m_s", c.max_speed_m_s, {0, 10}, "m/s", "faster commands are cut, keeping their curvature");
-  s.number("max_yaw_rate_rad_s", c.max_yaw_rate_rad_s, {0, 20}, "rad/s", "likewise");
+  s.number("max_speed_m_s", c.max_speed_m_s, {0, 10}, "m/s",
+           "faster commands are slowed down; the path keeps its curvature");
+  s.number("max_yaw_rate_rad_s", c.max_yaw_rate_rad_s, {0, 20}, "rad/s", "the same for turns");
   s.flag("ackermann", c.ackermann, "AgileX Hunter: steers its front wheels instead of driving differentially");
   s.number("wheelbase_m", c.wheelbase_m, {0.05, 5}, "m", "of an Ackermann robot");
   declare_nodes(s, c);

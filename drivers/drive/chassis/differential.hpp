@@ -20,12 +20,13 @@ struct Velocity {
 [[nodiscard]] inline WheelSpeeds wheel_speeds(Velocity body, double separation) {
   return {body.v - body.w * separation / 2, body.v + body.w * separation / 2};
 }
+/// The inverse.
 [[nodiscard]] inline Velocity body_velocity(WheelSpeeds wheels, double separation) {
   return {(wheels.left + wheels.right) / 2, (wheels.right - wheels.left) / separation};
 }
 
-/// Slows both down by one factor where either is above its limit, so that the path keeps its curvature. A velocity that
-/// is not finite becomes zero.
+/// If one of both is above its limit (m/s, rad/s), both are reduced by one factor, so that the path keeps its
+/// curvature. A velocity that is not finite becomes zero.
 [[nodiscard]] inline Velocity limited(Velocity wanted, double max_v, double max_w) {
   if (!std::isfinite(wanted.v) || !std::isfinite(wanted.w)) return {};
   double share = 1;
@@ -34,8 +35,8 @@ struct Velocity {
   return {wanted.v * share, wanted.w * share};
 }
 
-/// Angle in radians, to the left, of the inner front wheel of an Ackermann robot that moves so; 0 at rest, ±π/2 at
-/// most.
+/// Angle in radians, to the left, of the inner front wheel of an Ackermann robot that moves with `body`. It is 0 at
+/// rest and at most ±π/2. `wheelbase` and `track` in metres.
 [[nodiscard]] inline double inner_steering(Velocity body, double wheelbase, double track) {
   if (std::abs(body.v) < 1e-3 || body.w == 0) return 0;
   const double radius = std::abs(body.v / body.w);

@@ -22,18 +22,19 @@ class AppendFile {
   AppendFile& operator=(AppendFile&& other) noexcept;
   AppendFile(const AppendFile&) = delete;
   AppendFile& operator=(const AppendFile&) = delete;
-  /// Writes what is buffered; call close() to learn whether that worked.
+  /// Writes what is buffered. Call close() to know if that worked.
   ~AppendFile();
 
   /// The buffer, for appending the bytes of one record; end_record() completes it.
   [[nodiscard]] std::vector<std::byte>& buffer() { return buffer_; }
   /// After an I/O error this and every further call returns that error.
   [[nodiscard]] Result<void> end_record();
+  /// Appends `line` as one record. The caller gives the line end.
   [[nodiscard]] Result<void> append_line(std::string_view line);
 
   /// Hands everything buffered to the operating system.
   [[nodiscard]] Result<void> flush();
-  /// Flushes, syncs to the disk (unless told not to) and closes. Says so when any write since create() failed.
+  /// Flushes, syncs to the disk (unless `sync` is false) and closes. Returns the error of any write since create().
   [[nodiscard]] Result<void> close(bool sync = true);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }

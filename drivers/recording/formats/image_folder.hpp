@@ -33,13 +33,14 @@ struct ImageIndexEntry {
                                              std::vector<ImageIndexEntry>& entries);
 [[nodiscard]] std::string to_csv(const ImageIndexEntry& entry);  ///< one line with its end
 
-/// Replays such a folder: every picture as the packet that a device would have sent (drivers/camera/frame.hpp), its
-/// arrival the stamp, its sequence the place in the index.
+/// Replays such a folder. Each picture becomes the packet that a device would have sent (drivers/camera/frame.hpp),
+/// with the stamp as its arrival and the place in the index as its sequence.
 class ImageFolderSource final : public Source {
  public:
+  /// How the folder is replayed.
   struct Options {
     SourceId source{};
-    camera::FrameFormat deep = camera::FrameFormat::kY16;  ///< what 16-bit pictures are: kY16 or kZ16
+    camera::FrameFormat deep = camera::FrameFormat::kY16;  ///< format of 16-bit pictures: kY16 or kZ16
   };
   /// Reads `dir`/`index`, such as camera/data.csv. With a damaged index the entries before the damage are handed out,
   /// then the error once.
@@ -47,7 +48,7 @@ class ImageFolderSource final : public Source {
                                                                        const std::string& index,
                                                                        const Options& options);
 
-  /// A picture that cannot be read is one error; the next call goes on with the next one. Never waits.
+  /// Never waits. A picture that cannot be read is one error, and the next call goes on with the next picture.
   Result<Poll> next(Packet& packet, Duration timeout) override;
   [[nodiscard]] const std::vector<ImageIndexEntry>& entries() const { return entries_; }
 
@@ -63,8 +64,8 @@ class ImageFolderSource final : public Source {
   std::size_t next_ = 0;
 };
 
-/// Writes such a folder from packets with frames: JPEGs as they came, all else as PNG that gives the same pixels back
-/// (YUV converted to colour). A picture is in the index only when its file is whole.
+/// Writes such a folder from packets with frames. JPEGs are kept as they are. Other formats become PNG with the same
+/// pixels (YUV is converted to colour). A picture is in the index only if its file is whole.
 class ImageFolderWriter {
  public:
   /// Makes `folder`, its data.csv (an old one is emptied) and `folder`/data.

@@ -17,9 +17,8 @@ namespace cairn::recording {
 using Ipv4 = std::array<std::uint8_t, 4>;
 
 /// Writes UDP datagrams as a capture file that tcpdump, Wireshark and VeloView open: classic pcap with nanosecond
-/// stamps (magic 0xA1B23C4D), little-endian, link type Ethernet. Same calls → same bytes. Nothing before the first
-/// failed write is lost: the file is cut back to its last whole record.
-/// Format: https://www.tcpdump.org/manpages/pcap-savefile.5.html
+/// stamps (magic 0xA1B23C4D), little-endian, link type Ethernet. The same calls give the same bytes. If a write fails,
+/// the file is cut back to its last whole record. Format: https://www.tcpdump.org/manpages/pcap-savefile.5.html
 class PcapWriter {
  public:
   /// Creates or empties `path`.
@@ -31,7 +30,7 @@ class PcapWriter {
                                    std::span<const std::byte> payload, bool truncated = false);
   /// Hands everything buffered to the operating system.
   [[nodiscard]] Result<void> flush() { return file_.flush(); }
-  /// Flushes, syncs to the disk and closes. Says so when any write since create() failed.
+  /// Flushes, syncs to the disk and closes. Returns the error of any write since create().
   [[nodiscard]] Result<void> close() { return file_.close(); }
 
   [[nodiscard]] std::uint64_t packets() const { return packets_; }  ///< accepted so far

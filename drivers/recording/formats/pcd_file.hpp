@@ -26,6 +26,7 @@ struct PcdField {
   std::size_t offset = 0;  ///< of the column in a point's bytes (binary)
 };
 
+/// The header of a PCD file.
 struct PcdHeader {
   std::vector<PcdField> fields;
   std::size_t points = 0;
@@ -33,9 +34,11 @@ struct PcdHeader {
   bool ascii = false;
   std::size_t data_offset = 0;  ///< where the points begin in the file
 
+  /// The column of this name; null if there is none.
   [[nodiscard]] const PcdField* field(std::string_view name) const;
 };
 
+/// The points of a PCD file.
 struct PcdCloud {
   PointCloud cloud;                          ///< offsets count from the earliest point; ring 0 where there is none
   bool has_time = false;                     ///< there was a field time, t or timestamp
@@ -45,7 +48,8 @@ struct PcdCloud {
 
 inline constexpr std::size_t kMaxPcdBytes = std::size_t{256} << 20U;
 
-/// Reads the header alone; every size in it is checked against the bytes that are there.
+/// Reads only the header. Every size in it is checked against the bytes of the file. Errors: kMalformed, kTruncated,
+/// kUnsupported, kLimit.
 [[nodiscard]] Result<PcdHeader> parse_pcd_header(std::span<const std::byte> file, std::string_view name);
 
 /// Reads fields x y z, and where present intensity (or reflectivity), ring, and time (float seconds), t (integer

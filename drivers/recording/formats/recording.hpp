@@ -44,23 +44,24 @@ struct SourceEntry {
   std::uint16_t position_port = 8308;  ///< velodyne: UDP port of the position packets
   bool deskewed = false;               ///< scans: whoever recorded them compensated the motion already (KITTI)
 
-  /// Pose of the sensor in base_link; identity where the recording does not say.
+  /// Pose of the sensor in base_link; identity if the recording has none.
   [[nodiscard]] SE3 T_base_sensor() const {
     return base_sensor_xyz_rpy ? SE3::from_xyz_rpy(*base_sensor_xyz_rpy) : SE3();
   }
 };
 
-/// What recording.yaml says. Stamps in the native files are UTC where the format says so (pcap); the robot's monotonic
-/// time line is Time = UTC − realtime_offset. Simulated and imported recordings may choose an offset of zero.
+/// The content of recording.yaml. Stamps in pcap and candump files are UTC. On the robot's monotonic time line, Time =
+/// UTC − realtime_offset. Simulated and imported recordings may have an offset of zero.
 struct Recording {
   std::string robot;                    ///< letters, digits, `_`, `-`, `.`
   std::string profile;                  ///< robot profile it was made with; may be empty
   std::int64_t start_utc_ns = 0;        ///< wall time of the start, nanoseconds since 1970; metadata only
   std::int64_t realtime_offset_ns = 0;  ///< CLOCK_REALTIME − CLOCK_MONOTONIC at the start
-  std::int64_t time_shift_ns = 0;       ///< its times are so much later than in the recording that was played for it
+  std::int64_t time_shift_ns = 0;       ///< how much later its times are than in the recording that was played for it
   std::vector<SourceEntry> sources;
   std::string notes;
 
+  /// Nanoseconds since 1970.
   [[nodiscard]] std::int64_t utc_ns(Time t) const { return t.time_since_epoch().count() + realtime_offset_ns; }
 };
 

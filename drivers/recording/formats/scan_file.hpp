@@ -28,7 +28,7 @@ inline constexpr std::size_t kMaxIndexBytes = std::size_t{64} << 20U;
 
 /// One line of data.csv.
 struct ScanIndexEntry {
-  Time stamp{};      ///< end of the sweep on the recording's time line: when its bytes could be had
+  Time stamp{};      ///< end of the sweep on the time line of the recording
   std::string file;  ///< relative to the recording's folder
   ScanLayout layout = ScanLayout::kXyzi;
 };
@@ -47,7 +47,7 @@ inline constexpr std::string_view kScanIndexHeader = "# stamp_ns (end of the swe
 /// later than 2 s in the sweep are left out and counted. valid.end = arrival, valid.start = arrival − largest offset.
 class ScanFileDecoder final : public ScanDecoder {
  public:
-  /// `deskewed`: whoever recorded the data compensated the motion already.
+  /// `deskewed`: the data is motion-compensated already.
   explicit ScanFileDecoder(bool deskewed) : deskewed_(deskewed) {}
 
   Result<const Scan*> decode(const Packet& packet) override;

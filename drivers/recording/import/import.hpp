@@ -16,20 +16,21 @@
 // Foreign data → recording. Everything is copied, nothing linked; one packet or sweep is in memory at a time.
 namespace cairn::recording {
 
+/// What to import, and what the data itself does not say.
 struct ImportOptions {
-  std::filesystem::path source;
-  std::filesystem::path out;
-  std::string robot = "robot";
-  std::string model;               ///< of the sensor; empty: found out or left open
+  std::filesystem::path source;    ///< the file or folder to import
+  std::filesystem::path out;       ///< folder of the new recording
+  std::string robot = "robot";     ///< name of the robot
+  std::string model;               ///< of the sensor; empty: found out, or left open
   double rate_hz = 10;             ///< of sweeps that carry no time
-  std::optional<bool> deskewed{};  ///< overrides what is known of the data set
+  std::optional<bool> deskewed{};  ///< overrides what is known about the data set
   std::uint16_t data_port = 2368;  ///< velodyne-pcap: UDP destination ports to look for
   std::uint16_t position_port = 8308;
   Overwrite overwrite = Overwrite::kNo;
   std::function<void(std::uint64_t items)> progress{};  ///< called after every packet or sweep
 };
 
-/// What an import brought.
+/// The result of an import.
 struct ImportReport {
   std::uint64_t items = 0;            ///< packets or sweeps written
   std::uint64_t bytes = 0;            ///< of their payload
@@ -37,8 +38,8 @@ struct ImportReport {
   std::uint64_t ground_truth_poses = 0;
   std::string model;
   Time first{}, last{};       ///< arrival of the first and last item
-  std::vector<Error> damage;  ///< what could not be read; what was good is in the recording (at most kMaxDamage)
-  std::uint64_t damaged = 0;  ///< how many there were in all
+  std::vector<Error> damage;  ///< parts that could not be read, at most kMaxDamage; the good parts are in the recording
+  std::uint64_t damaged = 0;  ///< how many parts could not be read
   static constexpr std::size_t kMaxDamage = 16;
 };
 

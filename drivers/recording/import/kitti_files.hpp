@@ -30,6 +30,7 @@ template <class T>
 /// cannot be read or has none.
 [[nodiscard]] Result<std::vector<std::filesystem::path>> sorted_files(const std::filesystem::path& folder,
                                                                       std::string_view extension);
+/// A text file of at most 64 MiB. Errors: kNotFound, kIo, kLimit.
 [[nodiscard]] Result<std::string> read_text(const std::filesystem::path& path);
 
 template <class T>

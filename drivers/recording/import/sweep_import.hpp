@@ -6,18 +6,20 @@
 
 namespace cairn::recording {
 
-/// What the importers of sweeps have in common: a recording with one source of kind `scans`, sweep after sweep.
+/// Writes sweeps one after the other into a recording with one source of kind `scans`. All importers of sweeps use it.
 class SweepImport {
  public:
+  /// Makes the recording. `options` must outlive the result. `start_utc_ns`: nanoseconds since 1970; 0: not known.
+  /// Errors: those of RecordingWriter::create().
   [[nodiscard]] static Result<SweepImport> create(const ImportOptions& options, bool deskewed, std::string notes,
                                                   std::int64_t start_utc_ns = 0);
 
   /// Appends a sweep that ended at `end`. Ends must increase.
   [[nodiscard]] Result<void> add(Time end, const PointCloud& cloud, bool with_offset);
-  /// Notes what could not be read; the import goes on.
+  /// Notes a part that could not be read. The import goes on.
   void damaged(Error error);
   [[nodiscard]] ImportReport& report() { return report_; }
-  /// Closes the recording. Error when not a single sweep came through.
+  /// Closes the recording. Error when not one sweep was good.
   [[nodiscard]] Result<ImportReport> finish();
 
  private:

@@ -22,10 +22,9 @@ struct Datagram {
 inline constexpr int kLinkNull = 0, kLinkEthernet = 1, kLinkRawDlt = 12, kLinkRaw = 101, kLinkSll = 113,
                      kLinkIpv4 = 228, kLinkSll2 = 276;
 
-/// Finds the datagram in a captured frame. Understands Ethernet with any number of VLAN tags that fit, Linux cooked
-/// captures (both versions), raw IP and BSD loopback. Errors name the offset: kUnsupported (not UDP over IPv4, a
-/// fragment, or an unknown link type), kTruncated (the capture ends in a header), kMalformed (a header contradicts
-/// itself).
+/// Finds the UDP datagram in a captured frame. Reads Ethernet with any number of VLAN tags, Linux cooked captures (both
+/// versions), raw IP and BSD loopback. Errors name the offset: kUnsupported (not UDP over IPv4, a fragment, or an
+/// unknown link type), kTruncated (the capture ends in a header), kMalformed (a header contradicts itself).
 [[nodiscard]] Result<Datagram> udp_in_frame(int link_type, std::span<const std::byte> frame);
 
 }  // namespace cairn::velodyne

@@ -15,18 +15,20 @@ struct pcap;
 
 namespace cairn::velodyne {
 
-/// Replays the UDP datagrams of a capture file (pcap or pcapng, nanosecond precision) as fast as they are asked for.
-/// Packet::arrival is the record's time, so the recording's time line is what its clock was (UTC in a tcpdump).
+/// Replays the UDP datagrams of a capture file (pcap or pcapng, nanosecond precision) as fast as it is called.
+/// Packet::arrival is the time of the record: UTC in a file of tcpdump.
 class PcapSource final : public Source {
  public:
+  /// Which datagrams are delivered.
   struct Options {
     SourceId source{};
-    std::vector<std::uint16_t> ports;             ///< destination ports to let through; empty: all
+    std::vector<std::uint16_t> ports;             ///< destination ports to deliver; empty: all
     std::optional<std::uint32_t> source_address;  ///< as in Datagram; none: any
   };
+  /// What happened to the records of the file.
   struct Counters {
-    std::uint64_t records = 0;
-    std::uint64_t delivered = 0;
+    std::uint64_t records = 0;    ///< read
+    std::uint64_t delivered = 0;  ///< as packets
     std::uint64_t filtered = 0;   ///< other ports or senders
     std::uint64_t foreign = 0;    ///< not UDP over IPv4, or fragments
     std::uint64_t malformed = 0;  ///< frames that contradict themselves or end in a header
@@ -42,8 +44,8 @@ class PcapSource final : public Source {
   PcapSource& operator=(const PcapSource&) = delete;
   ~PcapSource() override;
 
-  /// A record cut off by the file's end is the end. Any other damage is one Error with the offset, then the end.
-  /// Returns kTimeout after kMaxSkipped records that are not wanted; `timeout` itself is not used.
+  /// Never waits. A record that the end of the file cuts off counts as the end. Any other damage is one Error with the
+  /// offset, and then the end. Returns kTimeout after kMaxSkipped records that are not wanted.
   Result<Poll> next(Packet& packet, Duration timeout) override;
   [[nodiscard]] const Counters& counters() const { return counters_; }
 

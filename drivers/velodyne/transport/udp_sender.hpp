@@ -10,7 +10,7 @@
 
 namespace cairn::velodyne {
 
-/// Sends datagrams as a sensor does: what a recording is replayed over the wire with, to a robot on the bench.
+/// Sends datagrams as a sensor does. `cairn send` uses it for a robot on the bench.
 class UdpSender {
  public:
   /// `address`: IPv4, numbers and dots. Errors: kInvalidConfig, kIo.
@@ -19,7 +19,7 @@ class UdpSender {
   UdpSender(const UdpSender&) = delete;
   UdpSender& operator=(const UdpSender&) = delete;
 
-  /// Error kIo: the network refuses.
+  /// To `port` of the address. Error kIo: the network refuses.
   Result<void> send(std::span<const std::byte> payload, std::uint16_t port);
 
  private:

@@ -14,25 +14,26 @@ struct msghdr;
 
 namespace cairn::velodyne {
 
-/// A live sensor: its data and position datagrams as they arrive, with the kernel's receive stamps. Allocates nothing
-/// once the packet has grown.
+/// A live sensor: its data and position datagrams as they arrive, with the receive stamps of the kernel. Allocates
+/// nothing once the packet has grown.
 class UdpSource final : public Source {
  public:
+  /// What happened to the datagrams.
   struct Counters {
-    std::uint64_t delivered = 0;
+    std::uint64_t delivered = 0;     ///< as packets
     std::uint64_t foreign = 0;       ///< from another sender than Config::source_address
     std::uint64_t flooded = 0;       ///< above Config::max_packets_per_s
     std::uint64_t truncated = 0;     ///< longer than any Velodyne datagram; delivered, but marked
     std::uint64_t unstamped = 0;     ///< without a usable kernel stamp: stamped when read
-    std::uint64_t kernel_drops = 0;  ///< the receive buffer was full (SO_RXQ_OVFL); learnt with the next datagram
-    int receive_buffer_bytes = 0;    ///< what the kernel granted for one socket, its own bookkeeping included
+    std::uint64_t kernel_drops = 0;  ///< the receive buffer was full (SO_RXQ_OVFL); known with the next datagram
+    int receive_buffer_bytes = 0;    ///< granted by the kernel for one socket, its own bookkeeping included
   };
 
   /// Binds Config::data_port and Config::position_port (0: any free one) on Config::bind_address. `clock` must outlive
   /// the source. Errors: kInvalidConfig, kIo with the port and the remedy.
   static Result<std::unique_ptr<UdpSource>> open(const Config& config, SourceId source, const Clock& clock);
 
-  /// Looks at kMaxLooked datagrams at most, so a flood cannot hold the caller. Packet::channel is the port.
+  /// Reads at most kMaxLooked datagrams, so a flood cannot hold the caller. Packet::channel is the destination port.
   Result<Poll> next(Packet& packet, Duration timeout) override;
 
   [[nodiscard]] const Counters& counters() const { return counters_; }

@@ -47,11 +47,14 @@ struct GpioProfile {
   }
 };
 
+// Doxygen takes these overloads for one function, so they are left out of the API reference.
+/// \cond OVERLOADS
 void declare(config::Section& section, LidarProfile& profile);
 void declare(config::Section& section, CameraProfile& profile);
 void declare(config::Section& section, ThermalProfile& profile);
 void declare(config::Section& section, DepthProfile& profile);
 void declare(config::Section& section, DriveProfile& profile);
 void declare(config::Section& section, GpioProfile& profile);
+/// \endcond
 
 }  // namespace cairn

@@ -17,6 +17,7 @@
 // OctoMap keeps children as an array of eight pointers. The functions that touch it are few, but not virtual; as
 // members of a class template they can be specialised for our node, and everything else in OctoMap (iterators, search,
 // castRay, updateNode, readers, writers) goes through them. They must be declared before anything instantiates them.
+/// \cond OCTOMAP
 namespace octomap {
 using CairnTreeBase = OcTreeBaseImpl<cairn::SemanticNode, AbstractOccupancyOcTree>;
 
@@ -35,6 +36,7 @@ void CairnTreeBase::deleteNodeChild(cairn::SemanticNode* node, unsigned i);
 template <>
 void CairnTreeBase::deleteNodeRecurs(cairn::SemanticNode* node);
 }  // namespace octomap
+/// \endcond
 
 namespace cairn {
 
@@ -106,6 +108,7 @@ class SemanticOcTree : private NodePoolHolder, public octomap::OccupancyOcTreeBa
 
 }  // namespace cairn
 
+/// \cond OCTOMAP
 namespace octomap {
 
 template <>
@@ -126,3 +129,4 @@ inline const cairn::SemanticNode* CairnTreeBase::getNodeChild(const cairn::Seman
 }
 
 }  // namespace octomap
+/// \endcond
