@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kMinNeighbours = 5;  // occupied voxels for a normal
 constexpr float kDegree_rad = 0.0174532925F;
 constexpr int kHalfCircle_deg = 180;
-// And 100: the angle that two walks enclose at an edge (Alg. 2).
+// Least angle that two walks enclose at an edge (Alg. 2); the largest is 100°.
 constexpr float kSquarest_deg = 80;
 constexpr int kMaxWalk_voxels = 16;        // a bound on time; the book's d_T is 5 voxels
 constexpr float kLeastGain_voxels = 0.2F;  // a step of a walk that leads less far ends it

@@ -15,7 +15,9 @@ namespace {
 
 // The noise model. Its values were chosen on tests/bench/matching_covariance, seeds below 5000, so
 // that NEES/6 is near 1 (0.7 to 0.8 in random buildings of seeds from 5000 on). Each by itself is
-// by hand. Surfels of a plane that share voxels, as the errors show it; by geometry 9.
+// by hand.
+
+// Surfels of a plane that share voxels, as the errors show it; by geometry 9.
 constexpr double kShared = 4;
 // Standard deviation of the normal of a flat surfel; others' is larger.
 constexpr double kNormalNoise_rad = 0.1;

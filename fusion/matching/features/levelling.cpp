@@ -8,7 +8,8 @@
 namespace cairn::matching {
 namespace {
 
-// All chosen by hand, not tuned.
+// All of these are chosen by hand, not tuned.
+
 // A building has three: two of walls, one of floors.
 constexpr std::size_t kMostDirections = 3;
 // Cosines of 10° and 5°: whose normals are averaged.

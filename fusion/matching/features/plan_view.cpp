@@ -7,7 +7,8 @@
 namespace cairn::matching {
 namespace {
 
-// All chosen by hand, not tuned.
+// All of these are chosen by hand, not tuned.
+
 // In a column, for a mass of 1: two surfels wide and 1.6 m high.
 constexpr float kFullWall_surfels = 16;
 // Height of a column that was observed free, for an openness of 1.
