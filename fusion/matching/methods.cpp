@@ -17,7 +17,7 @@ Result<std::unique_ptr<Matcher>> make_matcher(std::string_view method, const Map
   if (method == "default") return std::make_unique<DefaultMatcher>(a, b);
   if (method == "global") return std::make_unique<GlobalMatcher>(a, b);
   if (method == "global_6dof") return std::make_unique<TiltedMatcher>(a, b);
-  return Error{Errc::kNotFound, "no such matching method", std::string(method)};
+  return Error{.code = Errc::kNotFound, .cause = "no such matching method", .where = std::string(method)};
 }
 
 }  // namespace cairn::matching

@@ -9,12 +9,12 @@
 #include "fusion/matching/matcher.hpp"
 #include "hal/result.hpp"
 
-// The methods that a robot may use. book/methods.hpp adds the book's methods, for comparison.
+// The methods of a robot. book/methods.hpp adds the book's, for comparison.
 namespace cairn::matching {
 
-/// Names that make_matcher() knows, the default first.
+/// The names that make_matcher() knows, the default first.
 [[nodiscard]] const std::vector<std::string_view>& method_names();
-/// Prepares the pair, which must outlive the matcher. Errc::kNotFound for an unknown method.
+/// Makes a matcher for two maps, which must outlive it. Errors: kNotFound for an unknown method.
 Result<std::unique_ptr<Matcher>> make_matcher(std::string_view method, const MapFeatures& a, const MapFeatures& b);
 
 }  // namespace cairn::matching

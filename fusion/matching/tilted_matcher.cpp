@@ -13,19 +13,20 @@
 namespace cairn::matching {
 namespace {
 
-constexpr double kSure = 0.8;  // of a match after which no other is looked for
+// Probability of a match after which no other is looked for. By hand, not tuned.
+constexpr double kSure = 0.8;
 
-/// A map in a frame whose z may be upwards.
+/// A map in a frame whose z may be upwards, with its features.
 struct Levelled {
   std::unique_ptr<SemanticOcTree> map;
   std::unique_ptr<MapFeatures> features;
 };
 
-Result<Levelled> level(const SemanticOcTree& map, const SE3& T_level_map) {
+Result<Levelled> level_map(const SemanticOcTree& map, const SE3& T_level_map) {
   // Not owned: the caller's map outlives this.
   const std::shared_ptr<const SemanticOcTree> view(std::shared_ptr<const SemanticOcTree>{}, &map);
   merging::Contributions alone;
-  merging::offer(alone, 0, {1, view, T_level_map});
+  merging::offer(alone, 0, {.version = 1, .map = view, .T_fused_map = T_level_map});
   auto turned = merging::merge(alone);
   if (!turned) return turned.error();
   auto features = MapFeatures::build(**turned);
@@ -33,7 +34,7 @@ Result<Levelled> level(const SemanticOcTree& map, const SE3& T_level_map) {
   return Levelled{*std::move(turned), std::make_unique<MapFeatures>(*std::move(features))};
 }
 
-/// Whichever way up each of them may be.
+/// Each turn, and the same upside down.
 std::vector<SE3> both_ways(const std::vector<SE3>& turns) {
   const SE3 upside_down(Eigen::Vector3d(1, -1, -1).asDiagonal(), Eigen::Vector3d::Zero());
   std::vector<SE3> all;
@@ -42,7 +43,7 @@ std::vector<SE3> both_ways(const std::vector<SE3>& turns) {
   return all;
 }
 
-/// Such as one at the end of the tree's range.
+/// The result for a map that cannot be turned, such as one at the end of the tree's range.
 MatchResult not_levelled(const Error& why) {
   MatchResult result;
   result.T_a_b = anywhere();
@@ -64,11 +65,11 @@ Result<MatchResult> TiltedMatcher::match(const std::optional<UncertainPose>& ini
   std::vector<Levelled> all_b;  // as far as they were needed
   std::optional<MatchResult> best;
   for (const SE3& turn_a : levellings(a_.fine())) {
-    const auto a = level(a_.map(), turn_a);
+    const auto a = level_map(a_.map(), turn_a);
     if (!a) return not_levelled(a.error());
     for (std::size_t i = 0; i < turns_b.size(); ++i) {
       if (i == all_b.size()) {
-        auto b = level(b_.map(), turns_b[i]);
+        auto b = level_map(b_.map(), turns_b[i]);
         if (!b) return not_levelled(b.error());
         all_b.push_back(*std::move(b));
       }

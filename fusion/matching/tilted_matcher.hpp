@@ -8,11 +8,12 @@
 
 namespace cairn::matching {
 
-/// All six degrees of freedom: neither map's gravity need be known, as with a camera without an inertial unit or a
-/// robot that started on its side. Both maps are levelled in each way that what they hold suggests (levellings()), the
-/// second one upside down, too, and each pair is matched as GlobalMatcher does, until one is all but certain; else the
-/// best of them, by score, is the result. It is in the maps' own frames. Up to eighteen times GlobalMatcher's cost.
-/// Levelling is by nearest voxels, so that a pose is a little less exact. Never believes a guess.
+/// Matches two maps whose gravity is not known, in all six degrees of freedom. Examples are a
+/// camera without an inertial unit, and a robot that started on its side. Both maps are turned
+/// upright in each way that their surfaces suggest (levellings()), and b upside down, too. Each
+/// pair is matched by GlobalMatcher, until one is probably right. Otherwise the result with the
+/// best score is taken. The result is in the maps' own frames. Takes up to 18 times GlobalMatcher's
+/// time. Maps are turned voxel by voxel, so a pose is a little less exact. It does not use a guess.
 class TiltedMatcher final : public Matcher {
  public:
   /// `a` and `b` must outlive the matcher.

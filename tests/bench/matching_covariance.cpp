@@ -18,7 +18,9 @@
 namespace cairn::missions {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180, kMetres = 75, kLeastOverlap = 0.2;
+constexpr double kDegree_rad = std::numbers::pi / 180;
+constexpr double kDrive_m = 75;        // of each robot, at most
+constexpr double kLeastOverlap = 0.2;  // of a pair that counts (4.21)
 
 simulator::World world_of(const std::string& kind, std::uint64_t seed) {
   if (kind == "rooms") return make_building(Copies::kNone, seed);
@@ -40,8 +42,9 @@ void account(Sums& s, const std::string& name, const matching::Look& look, const
   std::printf(
       "%-9s overlap %.2f NEES/6 %6.2f | error %7.4f %7.4f %7.4f m %7.3f %7.3f %7.3f deg | sigma %.4f %.4f %.4f m "
       "%.3f %.3f %.3f deg\n",
-      name.c_str(), look.evidence.overlap, nees, e[0], e[1], e[2], e[3] / kDegree, e[4] / kDegree, e[5] / kDegree,
-      sigma[0], sigma[1], sigma[2], sigma[3] / kDegree, sigma[4] / kDegree, sigma[5] / kDegree);
+      name.c_str(), look.evidence.overlap, nees, e[0], e[1], e[2], e[3] / kDegree_rad, e[4] / kDegree_rad,
+      e[5] / kDegree_rad, sigma[0], sigma[1], sigma[2], sigma[3] / kDegree_rad, sigma[4] / kDegree_rad,
+      sigma[5] / kDegree_rad);
   std::fflush(stdout);
   ++s.pairs;
   s.nees += nees;
@@ -53,7 +56,7 @@ void account(Sums& s, const std::string& name, const matching::Look& look, const
 
 void run(const std::string& kind, std::uint64_t seed, int scans, Sums& sums) {
   const Site site(world_of(kind, seed));
-  Explorer a(site, 10 * seed, kMetres), b(site, 10 * seed + 1, kMetres);
+  Explorer a(site, 10 * seed, kDrive_m), b(site, 10 * seed + 1, kDrive_m);
   a.advance(scans);
   b.advance(scans);
   const SE3 truth = a.T_map_world() * b.T_map_world().inverse();

@@ -18,7 +18,8 @@
 namespace cairn::matching {
 namespace {
 
-constexpr double kSuccessM = 0.6, kSuccessRad = 6 * std::numbers::pi / 180;
+// Error of a right match, at most: the book's protocol (section 4.6.3).
+constexpr double kSuccess_m = 0.6, kSuccess_rad = 6 * std::numbers::pi / 180;
 
 double uniform(std::mt19937& random, double low, double high) {
   return low + (high - low) * static_cast<double>(random()) / 4294967296.0;
@@ -35,8 +36,9 @@ std::vector<support::MapPair> pairs(unsigned seed) {
   }
   for (const std::string name : {"fr_079", "geb079"})
     if (const auto map = load_map(support::recorded_data("octomap") / (name + ".bt"))) {
-      const auto cut = protocol::halves(**map, name, {uniform(random, 0.2, 0.6), uniform(random, -3, 3), seed});
-      out.push_back({name, cut.a, cut.b, cut.T_a_b});
+      const auto cut = protocol::halves(
+          **map, name, {.overlap = uniform(random, 0.2, 0.6), .yaw = uniform(random, -3, 3), .seed = seed});
+      out.push_back({.name = name, .a = cut.a, .b = cut.b, .T_a_b = cut.T_a_b});
     }
   return out;
 }
@@ -55,7 +57,7 @@ void print(const std::string& name, const Matcher& matcher, const SE3& initial, 
   bool right = false;
   if (truth != nullptr) {
     const Vector6 error = (r->T_a_b.mean.inverse() * *truth).log();
-    right = error.head<3>().norm() <= kSuccessM && error.tail<3>().norm() <= kSuccessRad;
+    right = error.head<3>().norm() <= kSuccess_m && error.tail<3>().norm() <= kSuccess_rad;
   }
   const Evidence& e = r->evidence;
   std::printf("%s,%d,%.4f,%.4f,%.4f,%d,%.5f,%.5f,%.4f,%.4f,%d,%.5f,%d\n", name.c_str(), right, e.overlap,
@@ -63,7 +65,8 @@ void print(const std::string& name, const Matcher& matcher, const SE3& initial, 
               e.weakest_translation, e.uniqueness, r->accepted, r->probability_correct, r->book_accepted);
 }
 
-/// fr_079 and geb079 are maps of the same building: a match of them is not wrong, but nobody measured what is right.
+/// fr_079 and geb079 are maps of the same building: a match of them is not wrong, but nobody
+/// measured what is right.
 bool one_building(const std::string& a, const std::string& b) { return a.ends_with("079") && b.ends_with("079"); }
 
 void run(unsigned seed) {

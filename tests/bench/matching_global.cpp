@@ -26,9 +26,17 @@ namespace {
 
 using simulator::Random;
 
-constexpr double kDegree = std::numbers::pi / 180, kMetres = 90, kDropped = 0.2;
-constexpr int kBoxes = 12, kScansPerLook = 12, kLooks = 4;
+// What is measured, not tuned.
+constexpr double kDegree_rad = std::numbers::pi / 180;
+constexpr double kDrive_m = 90;  // of each robot, at most
+// Share of b's occupied voxels.
+constexpr double kDropped = 0.2;
+constexpr int kBoxes = 12;  // that each visit moves
+// Stops of 1.5 m between looks.
+constexpr int kScansPerLook = 12, kLooks = 4;
+// Occupied, in each map of a look.
 constexpr std::size_t kLeastVoxels = 30'000;
+// Bounds of the table's rows, overlap (4.21).
 constexpr std::array<double, 5> kShares{1.01, 0.45, 0.30, 0.15, 0.05};
 
 struct Row {
@@ -92,7 +100,7 @@ void look(const Explorer& a, const Explorer& b, const std::string& method, Rando
   const SE3 error = found->T_a_b.mean.inverse() * truth;
   // Where b's robot is: the frames' origins may be 20 m away.
   const Eigen::Vector3d at = b.T_map_world() * Eigen::Vector3d(b.at().x(), b.at().y(), 0);
-  const double off_m = (error * at - at).norm(), off_deg = rotation_angle(error) / kDegree;
+  const double off_m = (error * at - at).norm(), off_deg = rotation_angle(error) / kDegree_rad;
   Row& r = rows[row];
   ++r.looks;
   if (off_m <= 0.5 && off_deg <= 3) {
@@ -127,7 +135,7 @@ void run(const std::string& method, std::uint64_t first, int buildings, double l
   for (std::uint64_t seed = first; seed < first + static_cast<std::uint64_t>(buildings); ++seed) {
     const Site of_a = visit(seed, 31), of_b = visit(seed, 32);
     Random random(seed, 33);
-    Explorer a(of_a, 2 * seed, kMetres, voxel_m, 0), b(of_b, 2 * seed + 1, kMetres, voxel_m, lean_deg);
+    Explorer a(of_a, 2 * seed, kDrive_m, voxel_m, 0), b(of_b, 2 * seed + 1, kDrive_m, voxel_m, lean_deg);
     for (int i = 0; i < kLooks; ++i) {
       a.advance(kScansPerLook);
       b.advance(kScansPerLook);

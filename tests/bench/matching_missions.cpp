@@ -30,8 +30,16 @@ namespace {
 using matching::Hypothesis;
 using matching::Standing;
 
-constexpr int kChecks = 9, kScansPerCheck = 5, kBins = 10;
-constexpr double kMetres = 75, kShared = 0.45, kApart = 0.1, kDegree = std::numbers::pi / 180;
+// What is measured, not tuned.
+// Decisions of a mission, and stops of 1.5 m between them.
+constexpr int kChecks = 9, kScansPerCheck = 5;
+constexpr int kBins = 10;        // of the calibration error
+constexpr double kDrive_m = 75;  // of each robot, at most
+// Overlap (4.21) from which on robots should merge; below which not.
+constexpr double kShared = 0.45, kApart = 0.1;
+constexpr double kDegree_rad = std::numbers::pi / 180;
+// Error of a right pose, at most: the book's protocol (section 4.6.3).
+constexpr double kSuccess_m = 0.6, kSuccess_rad = 6 * kDegree_rad;
 
 struct Mission {
   std::string name;
@@ -47,7 +55,7 @@ struct Mission {
   }
   [[nodiscard]] bool right(const SE3& T) const {
     const Vector6 e = error(T);
-    return one_site && e.head<3>().norm() <= 0.6 && e.tail<3>().norm() <= 6 * kDegree;
+    return one_site && e.head<3>().norm() <= kSuccess_m && e.tail<3>().norm() <= kSuccess_rad;
   }
 };
 
@@ -113,7 +121,7 @@ void print_csv(const Mission& m, int check) {
                 m.name.c_str(), m.one_site, check, m.right(h.T_a_b.mean), m.overlap, static_cast<int>(h.standing),
                 h.agreements, h.ground_m2, h.probability_correct, e.overlap, e.inlier_ratio, e.structure_inliers,
                 e.structure_pairs, e.agreeing_m2, e.conflict, e.reverse_conflict, e.weakest_translation, e.uniqueness,
-                e.score, x.head<3>().norm(), x.tail<3>().norm() / kDegree,
+                e.score, x.head<3>().norm(), x.tail<3>().norm() / kDegree_rad,
                 x.dot(h.T_a_b.covariance.ldlt().solve(x)) / 6);
     for (const double s : sigmas) std::printf(",%.2f", s);
     std::printf(",%s\n", h.reason.c_str());
@@ -168,7 +176,7 @@ void close(const Mission& m, Figures& f) {
   const Vector6 x = m.error(accepted->T_a_b.mean);
   f.nees.push_back(x.dot(accepted->T_a_b.covariance.ldlt().solve(x)) / 6);
   f.error_m.push_back(x.head<3>().norm());
-  f.error_deg.push_back(x.tail<3>().norm() / kDegree);
+  f.error_deg.push_back(x.tail<3>().norm() / kDegree_rad);
 }
 
 simulator::World world_of(const std::string& kind, std::uint64_t id, std::size_t i) {
@@ -185,7 +193,7 @@ void run(const std::string& kind, std::uint64_t seed, std::size_t sites, double 
     const std::uint64_t id = 100 * seed + i;
     all.push_back(std::make_unique<Site>(world_of(kind, id, i)));
     for (const std::uint64_t k : {std::uint64_t{0}, std::uint64_t{1}})
-      robots.push_back(std::make_unique<Explorer>(*all.back(), 10 * id + k, kMetres, voxel_m));
+      robots.push_back(std::make_unique<Explorer>(*all.back(), 10 * id + k, kDrive_m, voxel_m));
   }
   std::vector<Mission> missions;
   for (std::size_t i = 0; i < sites; ++i)

@@ -19,7 +19,7 @@
 namespace cairn::matching {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kDegree_rad = std::numbers::pi / 180;
 
 struct Figures {
   int starts = 0, successes = 0, accepted = 0, wrongly_accepted = 0, book_accepted = 0, book_wrongly = 0;
@@ -81,7 +81,7 @@ void run(const support::MapPair& pair, std::string_view method, int count) {
       std::printf(
           "%d err %.3f %.3f (%.3f %.3f %.3f) | in %.2f n %d conf %.4f rev %.4f weak %.3f uniq %.2f ov %.2f q %.2f p "
           "%.3f %s\n",
-          i, error.head<3>().norm(), error.tail<3>().norm() / kDegree, error[0], error[1], error[2],
+          i, error.head<3>().norm(), error.tail<3>().norm() / kDegree_rad, error[0], error[1], error[2],
           e.structure_inliers, e.structure_pairs, e.conflict, e.reverse_conflict, e.weakest_translation, e.uniqueness,
           e.overlap, e.inlier_ratio, r->probability_correct, r->reason.c_str());
     }
@@ -98,7 +98,8 @@ std::vector<support::MapPair> pairs(const std::string& wanted, unsigned seed, do
       std::printf("%s\n", to_string(map.error()).c_str());
       continue;
     }
-    const auto cut = protocol::halves(**map, name, {share, (79 + 51.0 * seed) * kDegree, seed});
+    const auto cut =
+        protocol::halves(**map, name, {.overlap = share, .yaw = (79 + 51.0 * seed) * kDegree_rad, .seed = seed});
     out.push_back({name, cut.a, cut.b, cut.T_a_b});
   }
   for (const support::Scene& scene : support::all_scenes())

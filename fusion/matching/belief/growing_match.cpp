@@ -8,16 +8,10 @@
 #include "fusion/matching/default_matcher.hpp"
 
 namespace cairn::matching {
-namespace {
-
-constexpr double kGrowth = 1.2;
-constexpr std::size_t kLeastSurfels = 1500, kMostFound = 4, kMostNear = 2;
-
-}  // namespace
 
 bool GrowingMatch::due(const MapFeatures& a, const MapFeatures& b) {
-  const auto grown = [](std::size_t now, std::size_t then) {
-    return static_cast<double>(now) >= kGrowth * static_cast<double>(then);
+  const auto grown = [&](std::size_t now, std::size_t then) {
+    return static_cast<double>(now) >= config_.growth * static_cast<double>(then);
   };
   if (!grown(a.fine().size(), searched_a_) && !grown(b.fine().size(), searched_b_)) return false;
   searched_a_ = a.fine().size();
@@ -28,8 +22,8 @@ bool GrowingMatch::due(const MapFeatures& a, const MapFeatures& b) {
 void GrowingMatch::update(const MapFeatures& a, const MapFeatures& b, Budget& budget,
                           const std::optional<UncertainPose>& given) {
   const auto guess = given && worth_following(*given) ? given : std::nullopt;
-  if (std::min(a.fine().size(), b.fine().size()) < kLeastSurfels) return;
-  const DefaultMatcher matcher(a, b);
+  if (std::min(a.fine().size(), b.fine().size()) < config_.least_surfels) return;
+  const DefaultMatcher matcher(a, b, config_.matcher);
   if (!matcher.comparable()) return;
   std::vector<Look> looks;
   std::vector<SE3> known;
@@ -52,8 +46,8 @@ void GrowingMatch::update(const MapFeatures& a, const MapFeatures& b, Budget& bu
     }
   };
   if (due(a, b)) {
-    if (guess) search(guess, kMostNear);
-    search({}, kMostFound);
+    if (guess) search(guess, config_.most_near);
+    search({}, config_.most_found);
   }
   hypotheses_.take(std::move(looks), guess);
 }

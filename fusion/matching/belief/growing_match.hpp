@@ -1,28 +1,49 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <optional>
 
 #include "fusion/matching/belief/pending.hpp"
 #include "fusion/matching/features/map_features.hpp"
+#include "fusion/matching/matcher_config.hpp"
 #include "hal/budget.hpp"
 
 namespace cairn::matching {
 
-/// Keeps an eye on two maps that grow: what is pending is looked at again each time, which is cheap, and the maps are
-/// searched anew whenever one of them has grown by a fifth.
+/// Settings of GrowingMatch.
+struct GrowingMatchConfig {
+  MatcherConfig matcher;
+  BeliefConfig belief;
+  /// The maps are searched again when one of them has so many times the surfels of the last search.
+  /// Chosen by hand, not tuned.
+  double growth = 1.2;
+  /// Fine surfels that each map must have for a comparison. Chosen by hand, not tuned.
+  std::size_t least_surfels = 1500;
+  std::size_t most_found = 4;  ///< new places of a search; chosen by hand, not tuned
+  std::size_t most_near = 2;   ///< new places of a search near a guess; chosen by hand, not tuned
+};
+
+/// Follows two maps while they grow. Each update weighs the known places again, which is cheap. The
+/// maps are searched again only when one of them has grown by a fifth.
 class GrowingMatch {
  public:
-  /// To be called when the maps have grown. A map with too little in it makes it wait. A guess of T_a_b (see guess.hpp)
-  /// is searched first, and then everywhere as without one: it may be wrong.
+  explicit GrowingMatch(const GrowingMatchConfig& config = {})
+      : config_(config), hypotheses_(config.belief, config.matcher.acceptance) {}
+
+  /// To be called when the maps have grown. It waits while a map holds too little. A guess of T_a_b
+  /// (see guess.hpp) is searched first. The search everywhere follows all the same, because the
+  /// guess may be wrong.
   void update(const MapFeatures& a, const MapFeatures& b, Budget& budget,
               const std::optional<UncertainPose>& guess = {});
 
   [[nodiscard]] const PendingHypotheses& hypotheses() const { return hypotheses_; }
 
  private:
+  /// Whether a search is due. If so, it counts as done.
   [[nodiscard]] bool due(const MapFeatures& a, const MapFeatures& b);
 
+  GrowingMatchConfig config_;
   PendingHypotheses hypotheses_;
   std::size_t searched_a_ = 0, searched_b_ = 0;  // surfels at the last search
 };

@@ -6,19 +6,26 @@
 #include <cmath>
 #include <numbers>
 
+#include "fusion/matching/search/prior_modes.hpp"
+
 namespace cairn::matching {
 namespace {
 
-constexpr double kLargestSigmaM = 20.0 / 3;  // see PriorModes::near()
-constexpr double kNearest99 = 16.81;         // χ² of 6 degrees of freedom
-constexpr double kNearest99Of2 = 9.21, kNearest99Of1 = 2.576;
-constexpr double kPlacesWithinM = 10, kHeadings = 4;
+constexpr double kChi2Of6 = 16.81;  // 99 % bound of χ² with 6 degrees of freedom
+constexpr double kChi2Of2 = 9.21;   // the same with 2
+constexpr double kNormal = 2.576;   // 99 % bound of a standard normal, both ways
+// Edge of the square in which wrong poses lie. Chosen by hand, not tuned.
+constexpr double kPlaces_m = 10;
+constexpr double kHeadings = 4;  // of a wrong pose: buildings have right angles
 
 double largest_sigma_m(const UncertainPose& guess) { return std::sqrt(guess.covariance.diagonal().head<2>().sum()); }
 
 }  // namespace
 
-bool worth_following(const UncertainPose& guess) { return largest_sigma_m(guess) <= kLargestSigmaM; }
+bool worth_following(const UncertainPose& guess) {
+  constexpr CoarseSearchConfig kSearch;  // what it can cover
+  return largest_sigma_m(guess) <= kSearch.most_xy_m / kSearch.sigmas;
+}
 
 double squared_deviation(const UncertainPose& guess, const SE3& T_a_b) {
   const SE3 off = guess.mean.inverse() * T_a_b;
@@ -27,12 +34,12 @@ double squared_deviation(const UncertainPose& guess, const SE3& T_a_b) {
   return xi.dot(guess.covariance.ldlt().solve(xi));
 }
 
-bool agrees(const UncertainPose& guess, const SE3& T_a_b) { return squared_deviation(guess, T_a_b) <= kNearest99; }
+bool agrees(const UncertainPose& guess, const SE3& T_a_b) { return squared_deviation(guess, T_a_b) <= kChi2Of6; }
 
 double chance_agreement(const UncertainPose& guess) {
   const double ellipse = std::sqrt(std::max(0.0, guess.covariance.topLeftCorner<2, 2>().determinant()));
-  const double place = kNearest99Of2 * ellipse / (kPlacesWithinM * kPlacesWithinM);
-  const double half_turn = kNearest99Of1 * std::sqrt(guess.covariance(5, 5));
+  const double place = kChi2Of2 * ellipse / (kPlaces_m * kPlaces_m);
+  const double half_turn = kNormal * std::sqrt(guess.covariance(5, 5));
   const double turn = std::max(1 / kHeadings, half_turn / std::numbers::pi);
   return std::min(1.0, place) * std::min(1.0, turn);
 }

@@ -3,25 +3,26 @@
 
 #include "hal/se3.hpp"
 
-// A guess of T_a_b that two maps are compared with: both robots' deployments, a GPS fix, a survey. Its covariance is of
-// the right perturbation (m, rad). Guesses are right as a rule, and sometimes altogether wrong: nobody looks after
-// them.
+// A guess of T_a_b from outside of the maps: both robots' deployments, a GPS fix, a survey. Its
+// covariance is of the right perturbation (m, rad). Most guesses are right, and some are altogether
+// wrong.
 namespace cairn::matching {
 
-/// The share of guesses that are altogether wrong.
+/// The share of guesses that are altogether wrong. Chosen by hand, not tuned.
 inline constexpr double kWrongGuess = 0.05;
 
-/// Whether a search near it covers three of its standard deviations, and finds more than a search without it.
+/// Whether a search near the guess covers three of its standard deviations. If not, a search
+/// without the guess finds as much.
 [[nodiscard]] bool worth_following(const UncertainPose& guess);
 
-/// χ² of a pose by the guess, 6 degrees of freedom: place and turn are taken one by one, so that a heading of which
-/// nothing is known speaks against no place.
+/// Squared deviation of a pose from the guess: χ² with 6 degrees of freedom. Place and turn are
+/// compared one by one, so that an unknown heading does not count against any place.
 [[nodiscard]] double squared_deviation(const UncertainPose& guess, const SE3& T_a_b);
-/// Whether a pose is one of the 99 % nearest to the guess.
+/// Whether the guess agrees with a pose: it is within the 99 % bound of squared_deviation().
 [[nodiscard]] bool agrees(const UncertainPose& guess, const SE3& T_a_b);
 
-/// The chance that a wrong pose agrees with the guess. Wrong poses are where something looks alike, in buildings the
-/// next room, in one of four headings: those within 10 m are counted with, all places alike.
+/// The chance that a wrong pose agrees with the guess, 0…1. Wrong poses are taken to lie anywhere
+/// within a square of 10 m around the truth, in one of four headings: the next room of a building.
 [[nodiscard]] double chance_agreement(const UncertainPose& guess);
 
 }  // namespace cairn::matching

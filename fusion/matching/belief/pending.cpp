@@ -10,30 +10,24 @@
 namespace cairn::matching {
 namespace {
 
-constexpr int kAgreements = 3;                              // to be accepted
-constexpr double kAgrees = 0.9;                             // least probability of an agreement,
-constexpr double kCertain = 0.99;                           // and of one that counts twice; wrong ones reach 0.988
-constexpr double kLeastGroundM2 = 60;                       // and the structure it needs
-constexpr double kNewGround = 0.1, kLeastNewGroundM2 = 10;  // what it must add to the last one's
-constexpr double kContradicted = 0.06;                      // share of structure in the other's free space
-constexpr int kContradictions = 2;                          // in a row, to be dropped
-constexpr double kRivalled = 0.15;   // probability of another place that keeps an agreement from counting,
-constexpr double kOverthrown = 0.5;  // and that suspends what was accepted
-
-bool contradicts(const Evidence& e) { return e.conflict + e.reverse_conflict > kContradicted; }
-
-bool on_new_ground(const Hypothesis& h, const Evidence& e) {
-  return e.agreeing_m2 >= std::max(kLeastGroundM2, h.ground_m2 + std::max(kLeastNewGroundM2, kNewGround * h.ground_m2));
+bool contradicts(const Evidence& e, const BeliefConfig& config) {
+  return e.conflict + e.reverse_conflict > config.contradicted;
 }
 
-/// By what they are and nothing else, so that equal rounds give equal answers whatever their order.
+bool on_new_ground(const Hypothesis& h, const Evidence& e, const BeliefConfig& config) {
+  const double more_m2 = std::max(config.new_ground_m2, config.new_ground_share * h.ground_m2);
+  return e.agreeing_m2 >= std::max(config.least_ground_m2, h.ground_m2 + more_m2);
+}
+
+/// An order by what the looks are and nothing else: equal rounds then give equal answers, in
+/// whatever order they came.
 bool before(const Look& x, const Look& y) {
   if (x.evidence.score != y.evidence.score) return x.evidence.score > y.evidence.score;
   const Vector6 a = x.T_a_b.mean.xyz_rpy(), b = y.T_a_b.mean.xyz_rpy();
   return std::lexicographical_compare(a.begin(), a.end(), b.begin(), b.end());
 }
 
-/// The looks at different places, best first, each knowing how far ahead it is of its best rival.
+/// The looks at different places, best first. Each has its uniqueness against its best rival.
 std::vector<Look> rivals(std::vector<Look> looks) {
   std::sort(looks.begin(), looks.end(), before);
   std::vector<Look> places;
@@ -62,9 +56,10 @@ void suspend(Hypothesis& h, const std::string& why) {
   h.reason = why;
 }
 
-/// What a look on new ground adds. One that is all but certain counts twice, but no look decides alone.
-int weight_of(const Hypothesis& h, int needed) {
-  const int weight = h.probability_correct >= kCertain ? 2 : 1;
+/// Agreements that a look on new ground adds. A certain one counts twice, but no look decides
+/// alone.
+int weight_of(const Hypothesis& h, int needed, const BeliefConfig& config) {
+  const int weight = h.probability_correct >= config.certain ? 2 : 1;
   return h.agreements > 0 ? weight : std::min(weight, needed - 1);
 }
 
@@ -74,11 +69,12 @@ std::string so_often(const Hypothesis& h, int needed) {
 }
 
 /// How many agreements it takes, by what a guess says of the place.
-int needed(const std::optional<UncertainPose>& guess, const SE3& T_a_b) {
-  if (!guess) return kAgreements;
-  if (!agrees(*guess, T_a_b)) return kAgreements + 1;
-  constexpr double kChanceOfOne = (1 - kAgrees) / kAgrees;  // that an agreement is of a wrong place
-  return chance_agreement(*guess) + kWrongGuess <= kChanceOfOne ? kAgreements - 1 : kAgreements;
+int needed(const std::optional<UncertainPose>& guess, const SE3& T_a_b, const BeliefConfig& config) {
+  if (!guess) return config.agreements;
+  if (!agrees(*guess, T_a_b)) return config.agreements + 1;
+  // Odds that an agreement is of a wrong place.
+  const double chance_of_one = (1 - config.agrees) / config.agrees;
+  return chance_agreement(*guess) + kWrongGuess <= chance_of_one ? config.agreements - 1 : config.agreements;
 }
 
 /// The probability of a rival at T_rival of one at T, where the guess leaves only the latter.
@@ -88,22 +84,22 @@ double discounted(double probability, const std::optional<UncertainPose>& guess,
 }
 
 /// `rival`: the probability of the likeliest other place, discounted.
-void judge(Hypothesis& h, const Look& look, const Decision& now, double rival, int needed) {
+void judge(Hypothesis& h, const Look& look, const Decision& now, double rival, int needed, const BeliefConfig& config) {
   h.T_a_b = look.T_a_b;
   h.evidence = look.evidence;
   h.probability_correct = now.probability_correct;
-  h.contradictions = contradicts(look.evidence) ? h.contradictions + 1 : 0;
-  if (h.contradictions >= kContradictions) return drop(h, now.reason);
+  h.contradictions = contradicts(look.evidence, config) ? h.contradictions + 1 : 0;
+  if (h.contradictions >= config.contradictions) return drop(h, now.reason);
   if (h.standing == Standing::kAccepted) {
-    if (rival >= kOverthrown) suspend(h, "another pose has become likely");
+    if (rival >= config.overthrown) suspend(h, "another pose has become likely");
     return;
   }
-  const bool rivalled = rival >= kRivalled, agrees = h.probability_correct >= kAgrees && !rivalled;
+  const bool rivalled = rival >= config.rivalled, agrees = h.probability_correct >= config.agrees && !rivalled;
   h.reason = agrees ? so_often(h, needed) : rivalled ? "another pose may be as good" : now.reason;
   if (h.earned && !agrees) h.agreements = 0;
-  if (!agrees || !(h.earned || on_new_ground(h, look.evidence))) return;
+  if (!agrees || !(h.earned || on_new_ground(h, look.evidence, config))) return;
   h.ground_m2 = std::max(h.ground_m2, look.evidence.agreeing_m2);
-  h.agreements += weight_of(h, needed);
+  h.agreements += weight_of(h, needed, config);
   h.reason = so_often(h, needed);
   if (h.agreements >= needed) h.standing = Standing::kAccepted;
 }
@@ -126,13 +122,13 @@ Hypothesis& PendingHypotheses::held_or_new(const SE3& T_a_b) {
 void PendingHypotheses::take(std::vector<Look> looks, const std::optional<UncertainPose>& guess) {
   const auto places = rivals(std::move(looks));
   std::vector<Decision> decisions;
-  for (const Look& look : places) decisions.push_back(decide(look.evidence));
+  for (const Look& look : places) decisions.push_back(decide(look.evidence, acceptance_));
   for (std::size_t i = 0; i < places.size(); ++i) {
     const SE3& T = places[i].T_a_b.mean;
     double rival = 0;
     for (std::size_t j = 0; j < places.size(); ++j)
       if (j != i) rival = std::max(rival, discounted(decisions[j].probability_correct, guess, places[j].T_a_b.mean, T));
-    judge(held_or_new(T), places[i], decisions[i], rival, needed(guess, T));
+    judge(held_or_new(T), places[i], decisions[i], rival, needed(guess, T, config_), config_);
   }
   allow_one();
   put_in_order();

@@ -10,45 +10,79 @@
 
 namespace cairn::matching {
 
+/// Settings of PendingHypotheses. They were chosen on the seeds of tests/bench/matching_missions on
+/// which decide() was fitted. The benchmark measures them on other seeds.
+struct BeliefConfig {
+  /// Agreements of an accepted hypothesis. With two on ample ground, the wrong half of a
+  /// half-turned building was accepted in 2 of 6 missions.
+  int agreements = 3;
+  double agrees = 0.9;  ///< least probability of a look that agrees
+  /// Least probability of one that counts twice; wrong looks reach 0.988.
+  double certain = 0.99;
+  double least_ground_m2 = 60;  ///< structure that a look needs to agree, m²
+  /// Structure that a look must add to the last agreement's, as a share and in m²: the larger of
+  /// the two.
+  double new_ground_share = 0.1, new_ground_m2 = 10;
+  /// Share of structure in the other's free space from which on a look contradicts.
+  double contradicted = 0.06;
+  /// Looks in a row that contradict, after which a hypothesis is dropped.
+  int contradictions = 2;
+  double rivalled = 0.15;  ///< probability of another place from which on a look does not agree
+  /// Probability of another place from which on an accepted hypothesis is suspended.
+  double overthrown = 0.5;
+};
+
+/// Standing of a hypothesis.
 enum class Standing { kPending, kAccepted, kDropped };
 
-/// One place where map b may lie in map a, and what is held for and against it so far.
+/// One place where map b may lie in map a, and what is known for and against it.
 struct Hypothesis {
-  UncertainPose T_a_b;             ///< of the newest look
-  Evidence evidence;               ///< of the newest look; unique among all that was looked at with it
+  UncertainPose T_a_b;  ///< of the newest look
+  /// Of the newest look; its uniqueness is among all places of that round.
+  Evidence evidence;
   double probability_correct = 0;  ///< within 0.6 m and 6° of the truth, by the newest look
   Standing standing = Standing::kPending;
   std::string reason;      ///< of its standing, for people
-  int agreements = 0;      ///< looks that agreed, each on new ground; those that are all but certain count twice
-  double ground_m2 = 0;    ///< structure that agreed at the last of them
-  bool earned = false;     ///< has been accepted once, on ground that was new then
-  int contradictions = 0;  ///< looks in a row that did not
+  int agreements = 0;      ///< looks that agreed, each on new ground; certain ones count twice
+  double ground_m2 = 0;    ///< structure that agreed in the last of them, m²
+  bool earned = false;     ///< it was accepted before, on ground that was new then
+  int contradictions = 0;  ///< last looks in a row that contradicted
 };
 
-/// Where one map may lie in another while both grow. No single comparison decides: a hypothesis is accepted when it has
-/// agreed three times, or twice if one of them was all but certain, each time on new ground and while no other place
-/// was at all likely; it is dropped when the maps contradict it twice in a row, and an accepted one is suspended when
-/// another place becomes likely. What was accepted once has shown itself on new ground: it is accepted again after as
-/// many agreements in a row on any, so that maps that do not grow any more can still come together. Where geometry
-/// repeats, rivals are as good as each other and none is accepted, until something tells them apart. A guess of the
-/// pose counts as one agreement where that is as unlikely by chance, against a place that it excludes as one, and makes
-/// likely rivals that it excludes less so by the odds that the guess is wrong: a copy of the place that fits as well as
-/// itself still keeps both pending. A pure function of the rounds it was given; within a round the order of the looks
-/// does not matter. The rules were chosen on the seeds that decide() was fitted on; tests/bench/matching_missions
-/// measures them on others.
+/// The places where one map may lie in another, while both grow. No single comparison decides.
+/// - Accepted: a hypothesis that agreed three times, each time on new ground and while no other
+///   place was likely. A certain look counts twice, but never decides alone.
+/// - Dropped: one that the maps contradict twice in a row.
+/// - Suspended: an accepted one, when another place becomes likely.
+/// - Accepted again: one that was accepted before, after as many agreements in a row on any ground.
+///   So maps that do not grow any more can still come together.
+///
+/// Where geometry repeats, rivals are equally good, and none is accepted until something tells them
+/// apart.
+///
+/// A guess of the pose saves one agreement if it would hardly agree by chance. A place that
+/// contradicts it needs one more. Rivals that contradict it become less likely, by the odds that
+/// the guess is wrong. Two places that fit equally well stay pending all the same.
+///
+/// The state is a pure function of the rounds. The order of looks within a round does not matter.
 class PendingHypotheses {
  public:
+  /// Hypotheses that are kept, at most. Bounds on memory and time. Chosen by hand, not tuned.
   static constexpr std::size_t kMostPending = 6, kMostDropped = 6;
 
-  /// One round: a look at every place that was compared while the maps stood still. What is held but was not looked at
-  /// stays as it is. `guess`: see guess.hpp.
+  /// `acceptance`: what looks are decided with; see decide().
+  explicit PendingHypotheses(const BeliefConfig& config = {}, const AcceptanceConfig& acceptance = {})
+      : config_(config), acceptance_(acceptance) {}
+
+  /// Takes in one round: the looks at all places that were compared while the maps stood still.
+  /// Hypotheses without a look stay as they are. `guess`: see guess.hpp.
   void take(std::vector<Look> looks, const std::optional<UncertainPose>& guess = {});
 
-  /// The accepted one, then pending by falling probability, then dropped, oldest first.
+  /// The accepted one, then the pending by falling probability, then the dropped, oldest first.
   [[nodiscard]] std::span<const Hypothesis> all() const { return all_; }
-  /// Those to look at again: accepted and pending.
+  /// The places to look at again: of the accepted and the pending.
   [[nodiscard]] std::vector<SE3> places() const;
-  /// Nothing while none is.
+  /// Null if none is accepted. Valid until the next take().
   [[nodiscard]] const Hypothesis* accepted() const;
 
  private:
@@ -56,6 +90,8 @@ class PendingHypotheses {
   void allow_one();
   void put_in_order();
 
+  BeliefConfig config_;
+  AcceptanceConfig acceptance_;
   std::vector<Hypothesis> all_;
 };
 

@@ -10,16 +10,19 @@
 namespace cairn::matching {
 namespace {
 
-constexpr double kLoopWorth = 4;                        // log-odds
-constexpr double kBendM = 0.15, kBendRad = 0.026;       // of two maps, standard deviations
-constexpr double kMostCertain = 0.999, kLeast = 0.001;  // no claim is believed or doubted more
+// All chosen by hand, not tuned.
+constexpr double kLoopWorth = 4;  // log-odds that a closed loop adds: of 0.98
+// Standard deviations of the error between two maps that is due to odometry in each.
+constexpr double kBend_m = 0.15, kBend_rad = 0.026;
+// Probabilities: no claim counts more or less.
+constexpr double kMostCertain = 0.999, kLeastCertain = 0.001;
 
 double log_odds(double p) {
-  const double bounded = std::clamp(p, kLeast, kMostCertain);
+  const double bounded = std::clamp(p, kLeastCertain, kMostCertain);
   return std::log(bounded / (1 - bounded));
 }
 
-/// Chooses among claims, the surest first, each with and without.
+/// Chooses among claims by branch and bound: each with and without, the surest first.
 class Chooser {
  public:
   explicit Chooser(std::vector<Claim> surest_first) : claims_(std::move(surest_first)) {
@@ -30,7 +33,7 @@ class Chooser {
     choose(0, 0);
   }
   [[nodiscard]] const std::vector<std::size_t>& best() const { return best_; }
-  /// The claims along the shortest way between two robots, none where there is none.
+  /// The claims along the shortest way between two robots; empty if there is none.
   [[nodiscard]] std::vector<std::size_t> way(const std::vector<std::size_t>& among, int from, int to) const;
   [[nodiscard]] const Claim& claim(std::size_t i) const { return claims_[i]; }
 
@@ -65,7 +68,7 @@ std::vector<std::size_t> Chooser::way(const std::vector<std::size_t>& among, int
     int robot;
     std::size_t before, claim;
   };
-  std::vector<Step> reached{{from, 0, 0}};
+  std::vector<Step> reached{{.robot = from, .before = 0, .claim = 0}};
   for (std::size_t at = 0; at < reached.size(); ++at) {
     if (reached[at].robot == to) {
       std::vector<std::size_t> back;
@@ -78,7 +81,7 @@ std::vector<std::size_t> Chooser::way(const std::vector<std::size_t>& among, int
       if (c.a != reached[at].robot && c.b != reached[at].robot) continue;
       const int next = c.a == reached[at].robot ? c.b : c.a;
       const bool known = std::any_of(reached.begin(), reached.end(), [&](const Step& s) { return s.robot == next; });
-      if (!known) reached.push_back({next, at, i});
+      if (!known) reached.push_back({.robot = next, .before = at, .claim = i});
     }
   }
   return {};
@@ -100,7 +103,7 @@ bool Chooser::closes(const std::vector<std::size_t>& loop, const Claim& last) co
 
 UncertainPose bent(const UncertainPose& pose) {
   Vector6 sigma;
-  sigma << kBendM, kBendM, kBendM, kBendRad, kBendRad, kBendRad;
+  sigma << kBend_m, kBend_m, kBend_m, kBend_rad, kBend_rad, kBend_rad;
   return {pose.mean, pose.covariance + Matrix6(sigma.cwiseAbs2().asDiagonal())};
 }
 

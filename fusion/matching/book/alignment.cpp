@@ -15,11 +15,12 @@ void Alignment::add(const Eigen::Vector3d& source, const Eigen::Vector3d& target
 }
 
 SE3 Alignment::solve() const {
-  if (pairs_ < 3 || !(weight_ > 0)) return {};
+  if (pairs_ < kLeastPairs || !(weight_ > 0)) return {};
   const Eigen::Vector3d source = source_ / weight_, target = target_ / weight_;
   const Eigen::Matrix3d spread = products_ / weight_ - target * source.transpose();
   const Eigen::JacobiSVD<Eigen::Matrix3d> svd(spread, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double handed = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;  // no mirror image
+  // No mirror image.
+  const double handed = (svd.matrixU() * svd.matrixV().transpose()).determinant() < 0 ? -1 : 1;
   const Eigen::Matrix3d R = svd.matrixU() * Eigen::Vector3d(1, 1, handed).asDiagonal() * svd.matrixV().transpose();
   return SE3(R, target - R * source);
 }

@@ -11,11 +11,22 @@
 namespace cairn::matching {
 namespace {
 
-constexpr float kDensityCells = 5;
-constexpr int kIterations = 30, kGlances = 4, kMostCorrespondences = 8;
+constexpr float kDensityRadius_cells = 5;  // the book leaves the radius out
+// Of the climb, at most; the protocol's (section 4.6.3).
+constexpr int kIterations = 30;
+// Of these with σ of one voxel. Chosen by hand, not tuned.
+constexpr int kLastIterations = 5;
+// Iterations from each mode. Chosen by hand, not tuned.
+constexpr int kGlances = 4;
+// c_i (Alg. 3), at most: a bound on time. The book sees 3.57.
+constexpr int kMostCorrespondences = 8;
+// About so many in a glance. Chosen by hand, not tuned.
 constexpr std::size_t kGlanceVoxels = 1000;
-constexpr double kFirstSigmaM = 0.5, kSigmas = 3;
-const double kNoPartner = std::exp(-0.5 * 2 * 2);  // weight of a partner at 2σ
+// The book leaves σ out. With 1 m the descent slid like ICP.
+constexpr double kFirstSigma_m = 0.5;
+constexpr double kGate_sigmas = 3;  // of a partner: 99.7 %
+// Weight of a partner at 2σ. Chosen by hand, not tuned.
+const double kNoPartner = std::exp(-0.5 * 2 * 2);
 
 std::vector<int> densities(const PointGrid& grid, const std::vector<Eigen::Vector3f>& at, float radius) {
   std::vector<int> all;
@@ -30,10 +41,13 @@ double mean(const std::vector<int>& values) {
 
 }  // namespace
 
-/// The dense map's density enters as its mean: while nothing is known of the pose, no voxel is nearest to another.
+// The dense map's density enters as its mean: while the pose is unknown, no voxel is nearest to
+// another.
 Em::Em(const MapFeatures& a, const MapFeatures& b)
-    : VoxelMatcher(a, b), modes_(a, b), points_b_(centres_of(voxels_b()), static_cast<float>(4 * resolution())) {
-  const auto radius = kDensityCells * static_cast<float>(resolution());
+    : VoxelMatcher(a, b),
+      modes_(a, b),
+      points_b_(centres_of(voxels_b()), static_cast<float>(kGridCell_voxels * resolution())) {
+  const auto radius = kDensityRadius_cells * static_cast<float>(resolution());
   auto some_a = sample(std::span<const Eigen::Vector3f>(points_a().points()), kMostSources);
   auto some_b = sample(std::span<const Eigen::Vector3f>(points_b_.points()), kMostSources);
   const auto of_a = densities(points_a(), some_a, radius), of_b = densities(points_b_, some_b, radius);
@@ -53,7 +67,7 @@ double Em::mean_correspondences() const { return mean(correspondences_); }
 std::optional<SE3> Em::step(const SE3& T, const UncertainPose& prior, double sigma, std::size_t stride) const {
   const SE3 T_dense_sparse = sparse_is_b_ ? T : T.inverse();
   const PointGrid& dense = sparse_is_b_ ? points_a() : points_b_;
-  const double gate = std::min(static_cast<double>(kGateM), kSigmas * sigma);
+  const double gate = std::min(static_cast<double>(kGate_m), kGate_sigmas * sigma);
   Matrix6 H = Matrix6::Zero();
   Vector6 g = Vector6::Zero();
   int pairs = 0;
@@ -70,7 +84,8 @@ std::optional<SE3> Em::step(const SE3& T, const UncertainPose& prior, double sig
       total += w;
     }
     if (near.empty() || !(total > 0)) continue;
-    // In b's frame, so that the parameters are a right perturbation of T whichever map is the sparse one.
+    // In b's frame, so that the parameters are a right perturbation of T whichever map is the
+    // sparse one.
     const Eigen::Vector3d in_b = sparse_is_b_ ? x : Eigen::Vector3d(target / total);
     const Eigen::Vector3d in_a = sparse_is_b_ ? Eigen::Vector3d(target / total) : x;
     const Eigen::Vector3d e = in_b - T.inverse() * in_a;
@@ -91,8 +106,8 @@ std::optional<SE3> Em::step(const SE3& T, const UncertainPose& prior, double sig
 }
 
 SE3 Em::climb(SE3 T, const UncertainPose& prior, Budget& budget) const {
-  const double shrink = std::pow(resolution() / kFirstSigmaM, 1.0 / (kIterations - 5));
-  double sigma = kFirstSigmaM;
+  const double shrink = std::pow(resolution() / kFirstSigma_m, 1.0 / (kIterations - kLastIterations));
+  double sigma = kFirstSigma_m;
   for (int i = 0; i < kIterations && budget.one_more(); ++i, sigma = std::max(resolution(), sigma * shrink)) {
     const auto s = step(T, prior, sigma, 1);
     if (!s) return T;
@@ -109,7 +124,7 @@ SE3 Em::descend(const UncertainPose& prior, Budget& budget) const {
   for (SE3 T : modes_.near(prior)) {
     if (!budget.one_more()) return best;
     for (int i = 0; i < kGlances; ++i)
-      if (const auto s = step(T, prior, kFirstSigmaM, stride)) T = T * *s;
+      if (const auto s = step(T, prior, kFirstSigma_m, stride)) T = T * *s;
     if (const double s = score(T); s > most) {
       most = s;
       best = T;

@@ -6,19 +6,24 @@
 
 namespace cairn::matching {
 
-/// Expectation–maximisation for maps of different sensors (ch. 5). Each voxel of the sparse map is paired with as many
-/// of the dense one as their local densities say (Alg. 3), softly: ω_ij = exp(−d²/2σ²), normalised (E-step), where a
-/// partner at 2σ counts as much as having none: maps that overlap in part would otherwise be dragged onto each other.
-/// The M-step is Gauss–Newton on the weighted distances with the prior p(T) = N(T₀, Σ₀) (5.4, 5.8). EM climbs to the
-/// nearest maximum of the posterior, and a prior of metres holds many: each mode of the maps' correlation is climbed a
-/// little with few voxels, the best of them, free space considered, to the top. σ shrinks to a voxel. Density is the
-/// number of occupied neighbours within five voxels, of the dense map its mean (the book takes the nearest voxel's,
-/// which means little while the pose is unknown); the sparser map gives the voxels.
+/// Expectation–maximisation for maps of different sensors (ch. 5).
+/// - Each voxel of the sparse map is paired with as many of the dense one as their local densities
+///   say (Alg. 3). Density is the number of occupied neighbours within five voxels. That of the
+///   dense map is its mean; the book takes the nearest voxel's, which means little while the pose
+///   is unknown.
+/// - E-step: weights ω_ij = exp(−d²/2σ²), normalised. Having no partner counts as much as a partner
+///   at 2σ. Otherwise maps that overlap in part are dragged onto each other.
+/// - M-step: Gauss–Newton on the weighted distances, with the prior p(T) = N(T₀, Σ₀) (5.4, 5.8).
+///
+/// EM climbs to the nearest maximum of the posterior, and a prior of metres holds many. So each
+/// mode of PriorModes is climbed a little with few voxels. The best one by score() is climbed to
+/// the top, while σ shrinks to a voxel.
 class Em final : public VoxelMatcher {
  public:
   Em(const MapFeatures& a, const MapFeatures& b);
 
-  /// Mean number of pairs of a voxel of the sparse map: what falls as it fills (book: 3.57 → 2.15).
+  /// Mean number of pairs of a voxel of the sparse map. It falls as that map fills (book: 3.57 to
+  /// 2.15).
   [[nodiscard]] double mean_correspondences() const;
 
  private:
@@ -31,7 +36,7 @@ class Em final : public VoxelMatcher {
   PriorModes modes_;
   bool sparse_is_b_;
   PointGrid points_b_;
-  std::vector<Eigen::Vector3f> sparse_;  // those of the sparse map's voxels that look for partners
+  std::vector<Eigen::Vector3f> sparse_;  // voxels of the sparse map that look for partners
   std::vector<int> correspondences_;     // c_i of each, at least 1
 };
 

@@ -9,12 +9,13 @@
 #include "fusion/matching/matcher.hpp"
 #include "hal/result.hpp"
 
-// Every method: those of a robot (fusion/matching/methods.hpp) and those of the book (Yue & Wang, ch. 3 to 5).
+// Every method: those of a robot (fusion/matching/methods.hpp) and those of the book (Yue & Wang,
+// ch. 3 to 5).
 namespace cairn::matching {
 
-/// Names that make_any_matcher() knows: method_names(), then the book's.
+/// The names that make_any_matcher() knows: method_names(), then the book's.
 [[nodiscard]] const std::vector<std::string_view>& all_method_names();
-/// Prepares the pair, which must outlive the matcher. Errc::kNotFound for an unknown method.
+/// Makes a matcher for two maps, which must outlive it. Errors: kNotFound for an unknown method.
 Result<std::unique_ptr<Matcher>> make_any_matcher(std::string_view method, const MapFeatures& a, const MapFeatures& b);
 
 }  // namespace cairn::matching

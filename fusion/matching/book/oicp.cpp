@@ -14,13 +14,13 @@ Oicp::Oicp(const MapFeatures& a, const MapFeatures& b, const Stages& stages)
 
 /// The right perturbation that brings the source's voxels onto the planes of their nearest ones.
 std::optional<SE3> Oicp::plane_step(const SE3& T) const {
-  Matrix6 H = 1e-6 * Matrix6::Identity();
+  Matrix6 H = kDamping * Matrix6::Identity();
   Vector6 g = Vector6::Zero();
   int pairs = 0;
   const Eigen::Matrix3d Rt = T.rotation().transpose();
   for (const Voxel& v : sources_b()) {
     const Eigen::Vector3d x = v.centre.cast<double>(), at = T * x;
-    const int i = points_a().nearest(at.cast<float>(), kGateM);
+    const int i = points_a().nearest(at.cast<float>(), kGate_m);
     if (i == PointGrid::kNone) continue;
     const auto k = static_cast<std::size_t>(i);
     const Eigen::Vector3d n = Rt * normals_a_[k].cast<double>();
@@ -44,7 +44,7 @@ SE3 Oicp::descend(const UncertainPose& prior, Budget& budget) const {
   }
   double weight = std::numeric_limits<double>::infinity(), mean_squared = 0;
   for (int i = 0; i < stages_.closed_iterations && budget.one_more(); ++i) {
-    const auto step = closed_form_step(T, kGateM, i == 0 || !stages_.occupancy ? 0 : weight, false, mean_squared);
+    const auto step = closed_form_step(T, kGate_m, i == 0 || !stages_.occupancy ? 0 : weight, false, mean_squared);
     if (!step) return T;
     T = *step * T;
     weight = std::min(weight, mean_squared / entropy_a());

@@ -5,18 +5,24 @@
 
 namespace cairn::matching {
 
-/// Occupancy iterative closest point (ch. 3), as printed: 15 iterations of point-to-plane ICP (3.2), then up to 35 with
-/// pairs that are nearest in (x, y, z, √ω_o·p) (3.9) and the closed form. ω_o = MSE/H(m) (3.16, k = 1) never grows, as
-/// the proof of convergence needs. For comparison: it descends from one start, and to the nearest parallel wall.
+/// Occupancy iterative closest point (ch. 3), as printed:
+/// 1. 15 iterations of point-to-plane ICP (3.2).
+/// 2. Up to 35 iterations with pairs that are nearest in (x, y, z, √ω_o·p) (3.9), in closed form.
+///
+/// ω_o = MSE/H(m) (3.16, k = 1) never grows, which the proof of convergence needs. The method
+/// descends from one start, often to the nearest parallel wall.
 class Oicp : public VoxelMatcher {
  public:
   Oicp(const MapFeatures& a, const MapFeatures& b) : Oicp(a, b, {}) {}
 
  protected:
   struct Stages {
+    /// Of the two stages, at most (section 3.4.1).
     int plane_iterations = 15, closed_iterations = 35;
-    bool occupancy = true;  ///< counts in the association of the second stage
+    /// Counts in the association of the second stage.
+    bool occupancy = true;
   };
+  static constexpr int kIterations = 30;  ///< of ICP (section 4.6.3)
   Oicp(const MapFeatures& a, const MapFeatures& b, const Stages& stages);
 
  private:
@@ -27,14 +33,16 @@ class Oicp : public VoxelMatcher {
   std::vector<Eigen::Vector3f> normals_a_;
 };
 
-/// ICP between voxels, point to point, and point to plane: the book's Table 4.3, 30 iterations each.
+/// ICP between voxels, point to point or point to plane: the book's Table 4.3, 30 iterations each.
 class Icp final : public Oicp {
  public:
-  Icp(const MapFeatures& a, const MapFeatures& b) : Oicp(a, b, {0, 30, false}) {}
+  Icp(const MapFeatures& a, const MapFeatures& b)
+      : Oicp(a, b, {.plane_iterations = 0, .closed_iterations = kIterations, .occupancy = false}) {}
 };
 class PlaneIcp final : public Oicp {
  public:
-  PlaneIcp(const MapFeatures& a, const MapFeatures& b) : Oicp(a, b, {30, 0, false}) {}
+  PlaneIcp(const MapFeatures& a, const MapFeatures& b)
+      : Oicp(a, b, {.plane_iterations = kIterations, .closed_iterations = 0, .occupancy = false}) {}
 };
 
 }  // namespace cairn::matching

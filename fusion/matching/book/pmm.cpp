@@ -9,8 +9,12 @@
 namespace cairn::matching {
 namespace {
 
-constexpr int kEdgeIterations = 15, kVoxelIterations = 15, kEdgeIterationsAlone = 30;
-constexpr float kVoxelGateM = 0.5F;
+// Of the first level: the book needs about 15 (section 4.6.2).
+constexpr int kEdgeIterations = 15;
+constexpr int kVoxelIterations = 15;        // of the second level: both make the protocol's 30
+constexpr int kEdgeIterationsAlone = 30;    // the protocol's (section 4.6.3)
+constexpr float kVoxelGate_m = 0.5F;        // of the second level. The book leaves it out
+constexpr double kEdgeGridCell_voxels = 5;  // edge of a cell of PointGrid. For time only
 
 }  // namespace
 
@@ -19,10 +23,10 @@ Pmm::Pmm(const MapFeatures& a, const MapFeatures& b, bool probabilistic)
       probabilistic_(probabilistic),
       edges_a_(structural_edges(voxels_a(), a.resolution())),
       edges_b_(structural_edges(voxels_b(), b.resolution())),
-      edge_points_a_(centres_of(edges_a_.voxels), static_cast<float>(5 * resolution())) {}
+      edge_points_a_(centres_of(edges_a_.voxels), static_cast<float>(kEdgeGridCell_voxels * resolution())) {}
 
 std::optional<SE3> Pmm::edge_step(const SE3& T, const Weights& weights, double& mean_squared) const {
-  Matrix6 H = 1e-6 * Matrix6::Identity();
+  Matrix6 H = kDamping * Matrix6::Identity();
   Vector6 g = Vector6::Zero();
   double squares = 0;
   int pairs = 0;
@@ -33,10 +37,11 @@ std::optional<SE3> Pmm::edge_step(const SE3& T, const Weights& weights, double& 
     const Voxel& v = edges_b_.voxels[s];
     const Eigen::Vector3d x = v.centre.cast<double>(), at = T * x;
     const Eigen::Vector3f direction = Rf * edges_b_.directions[s];
-    const int i = edge_points_a_.nearest(at.cast<float>(), kGateM, [&](int k, float squared) {
+    const int i = edge_points_a_.nearest(at.cast<float>(), kGate_m, [&](int k, float squared) {
       const auto r = static_cast<std::size_t>(k);
       const float p = edges_a_.voxels[r].occupancy - v.occupancy;
-      const float along = std::abs(edges_a_.directions[r].dot(direction));  // |τ_r ∓ τ_s|² = 2 − 2|τ_r·τ_s|
+      // |τ_r ∓ τ_s|² = 2 − 2|τ_r·τ_s|.
+      const float along = std::abs(edges_a_.directions[r].dot(direction));
       return squared + w_o * p * p + w_t * (2 - 2 * std::min(along, 1.0F));
     });
     if (i == PointGrid::kNone) continue;
@@ -60,7 +65,7 @@ std::optional<SE3> Pmm::edge_step(const SE3& T, const Weights& weights, double& 
 }
 
 SE3 Pmm::match_edges(SE3 T, int iterations, Budget& budget) const {
-  const double entropy = std::max(1e-3, book_map_entropy(edges_a_.voxels));
+  const double entropy = std::max(kLeastEntropy_bits, book_map_entropy(edges_a_.voxels));
   const double quality = 0.5 * (edges_a_.quality + edges_b_.quality);
   double least = std::numeric_limits<double>::infinity(), mean_squared = 0;
   for (int i = 0; i < iterations && budget.one_more(); ++i) {
@@ -78,7 +83,7 @@ SE3 Pmm::descend(const UncertainPose& prior, Budget& budget) const {
   SE3 T = match_edges(prior.mean, kEdgeIterations, budget);
   double mean_squared = 0, weight = 0;
   for (int i = 0; i < kVoxelIterations && budget.one_more(); ++i) {
-    const auto step = closed_form_step(T, kVoxelGateM, weight, true, mean_squared);
+    const auto step = closed_form_step(T, kVoxelGate_m, weight, true, mean_squared);
     if (!step) return T;
     T = *step * T;
     weight = i == 0 ? mean_squared / entropy_a() : std::min(weight, mean_squared / entropy_a());

@@ -15,9 +15,22 @@
 namespace cairn::matching {
 namespace {
 
-constexpr std::size_t kMinNeighbours = 5;
-constexpr float kDegree = 0.0174532925F;
-constexpr int kMaxWalk = 16;  // voxels; the book's d_T is 5 of them
+// The book leaves all of these out but the angles. Chosen by hand, not tuned.
+constexpr std::size_t kMinNeighbours = 5;  // occupied voxels for a normal
+constexpr float kDegree_rad = 0.0174532925F;
+constexpr int kHalfCircle_deg = 180;
+// Least angle that two walks enclose at an edge (Alg. 2); the largest is 100°.
+constexpr float kSquarest_deg = 80;
+constexpr int kMaxWalk_voxels = 16;        // a bound on time; the book's d_T is 5 voxels
+constexpr float kLeastGain_voxels = 0.2F;  // a step of a walk that leads less far ends it
+constexpr float kLeastWalk = 0.5F;         // of d_T, for a walk to count
+// Of the neighbours that give an edge its direction (4.5).
+constexpr double kEdgeRadius_cells = 5;
+constexpr double kOutlierCell_voxels = 5;  // edge of a cell of PointGrid. For time only
+// What an edge voxel without neighbours counts as its mean distance.
+constexpr double kOutlierGate_voxels = 50;
+constexpr double kUniform = 12;    // a uniform distribution of width d has variance d²/12
+constexpr double kHalfVoxel2 = 4;  // (d/2)² = d²/4
 
 /// Voxels by their keys.
 class Surface {
@@ -36,8 +49,8 @@ class Surface {
     for (const std::uint64_t step : ball_)
       if (const int i = index_.find(home + step); i != CellIndex::kNone) use(static_cast<std::size_t>(i));
   }
-  /// What to add to pack() of a key to come to that of its neighbour; no sum overflows, keys have fewer bits than
-  /// pack().
+  /// The difference of pack() between a key and that of a neighbour. Sums do not overflow, because
+  /// keys have fewer bits than pack() allows.
   [[nodiscard]] static std::uint64_t step_of(const Eigen::Vector3i& step) {
     return pack(step) - pack(Eigen::Vector3i::Zero());
   }
@@ -68,8 +81,8 @@ class Paths {
   [[nodiscard]] Eigen::Vector3f walk(std::size_t from, const Eigen::Vector3f& direction, float length, float d) const {
     const Eigen::Vector3f& start = voxels_[from].centre;
     std::size_t at = from;
-    for (int step = 0; step < kMaxWalk && (voxels_[at].centre - start).norm() < length; ++step) {
-      const std::size_t next = step_along(at, direction, 0.2F * d);
+    for (int step = 0; step < kMaxWalk_voxels && (voxels_[at].centre - start).norm() < length; ++step) {
+      const std::size_t next = step_along(at, direction, kLeastGain_voxels * d);
       if (next == at) break;
       at = next;
     }
@@ -116,7 +129,7 @@ std::vector<Eigen::Vector3f> normals_of(const Surface& surface, std::span<const 
   return normals;
 }
 
-/// Those voxels whose normals differ from their neighbours' by more than κ on average (4.4).
+/// The voxels whose normals differ from their neighbours' by more than κ on average (4.4).
 std::vector<std::size_t> candidates(const Surface& surface, std::span<const Voxel> voxels,
                                     std::span<const Eigen::Vector3f> normals, double min_angle_cost) {
   std::vector<std::size_t> found;
@@ -136,14 +149,14 @@ std::vector<std::size_t> candidates(const Surface& surface, std::span<const Voxe
 bool turns_a_corner(const Paths& paths, std::size_t v, const Eigen::Vector3f& n, double d, const EdgeOptions& options) {
   const Eigen::Vector3f u = n.unitOrthogonal(), w = n.cross(u);
   const auto length = static_cast<float>(options.trace_m);
-  for (int degrees = 0; degrees < 180; degrees += options.step_deg) {
-    const float theta = kDegree * static_cast<float>(degrees);
+  for (int degrees = 0; degrees < kHalfCircle_deg; degrees += options.step_deg) {
+    const float theta = kDegree_rad * static_cast<float>(degrees);
     const Eigen::Vector3f direction = std::cos(theta) * u + std::sin(theta) * w;
     const Eigen::Vector3f a = paths.walk(v, direction, length, static_cast<float>(d));
     const Eigen::Vector3f b = paths.walk(v, -direction, length, static_cast<float>(d));
     const float norms = a.norm() * b.norm();
-    if (a.norm() < 0.5F * length || b.norm() < 0.5F * length) continue;
-    if (std::abs(a.dot(b)) <= std::cos(80 * kDegree) * norms) return true;
+    if (a.norm() < kLeastWalk * length || b.norm() < kLeastWalk * length) continue;
+    if (std::abs(a.dot(b)) <= std::cos(kSquarest_deg * kDegree_rad) * norms) return true;
   }
   return false;
 }
@@ -151,11 +164,11 @@ bool turns_a_corner(const Paths& paths, std::size_t v, const Eigen::Vector3f& n,
 std::vector<Voxel> without_outliers(const std::vector<Voxel>& voxels, double d, int k) {
   std::vector<Eigen::Vector3f> points;
   for (const Voxel& v : voxels) points.push_back(v.centre);
-  const PointGrid grid(points, static_cast<float>(5 * d));
+  const PointGrid grid(points, static_cast<float>(kOutlierCell_voxels * d));
   std::vector<double> distances;
   std::vector<PointGrid::Neighbour> near;
   double sum = 0, squares = 0;
-  const auto gate = static_cast<float>(50 * d);
+  const auto gate = static_cast<float>(kOutlierGate_voxels * d);
   for (const Eigen::Vector3f& p : points) {
     grid.nearest(p, gate, static_cast<std::size_t>(k + 1), near);  // the first is the point itself
     double mean = near.size() < 2 ? static_cast<double>(gate) : 0;
@@ -175,7 +188,7 @@ std::vector<Voxel> without_outliers(const std::vector<Voxel>& voxels, double d, 
 
 /// Directions and covariances from the edge voxels around each (4.5, 4.8, 4.14).
 void describe(StructuralEdges& edges, double d) {
-  const Surface line(edges.voxels, 5);
+  const Surface line(edges.voxels, kEdgeRadius_cells);
   double quality = 0;
   for (const Voxel& v : edges.voxels) {
     Eigen::Vector3f sum = Eigen::Vector3f::Zero();
@@ -188,7 +201,7 @@ void describe(StructuralEdges& edges, double d) {
       n += 1;
     });
     const Eigen::Vector3f mean = sum / n;
-    const auto quantisation = static_cast<float>(d * d / 12);  // variance of a place within a voxel
+    const auto quantisation = static_cast<float>(d * d / kUniform);
     const Eigen::Matrix3f spread = squares / n - mean * mean.transpose() + quantisation * Eigen::Matrix3f::Identity();
     Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
     solver.computeDirect(spread);
@@ -202,7 +215,7 @@ void describe(StructuralEdges& edges, double d) {
 }  // namespace
 
 Eigen::Matrix3f voxel_covariance(const Voxel& voxel, double resolution_m) {
-  return static_cast<float>(resolution_m * resolution_m / 4) / voxel.occupancy * Eigen::Matrix3f::Identity();
+  return static_cast<float>(resolution_m * resolution_m / kHalfVoxel2) / voxel.occupancy * Eigen::Matrix3f::Identity();
 }
 
 std::vector<Eigen::Vector3f> voxel_normals(std::span<const Voxel> voxels, double radius_cells) {

@@ -15,7 +15,10 @@ std::vector<Eigen::Vector3f> centres_of(const std::vector<Voxel>& voxels) {
   return centres;
 }
 
-bool negligible(const SE3& step) { return step.translation().norm() < 1e-4 && rotation_angle(step) < 1e-5; }
+bool negligible(const SE3& step) {
+  constexpr double kStep_m = 1e-4, kStep_rad = 1e-5;  // chosen by hand, not tuned
+  return step.translation().norm() < kStep_m && rotation_angle(step) < kStep_rad;
+}
 
 VoxelMatcher::VoxelMatcher(const MapFeatures& a, const MapFeatures& b)
     : judge_(a, b), resolution_(std::max(a.resolution(), b.resolution())), points_a_({}, 0), entropy_a_(0) {
@@ -25,8 +28,8 @@ VoxelMatcher::VoxelMatcher(const MapFeatures& a, const MapFeatures& b)
   voxels_a_ = *std::move(of_a);
   voxels_b_ = *std::move(of_b);
   sources_b_ = sample(std::span<const Voxel>(voxels_b_), kMostSources);
-  points_a_ = PointGrid(centres_of(voxels_a_), static_cast<float>(4 * resolution_));
-  entropy_a_ = std::max(1e-3, book_map_entropy(voxels_a_));
+  points_a_ = PointGrid(centres_of(voxels_a_), static_cast<float>(kGridCell_voxels * resolution_));
+  entropy_a_ = std::max(kLeastEntropy_bits, book_map_entropy(voxels_a_));
 }
 
 Result<MatchResult> VoxelMatcher::match(const std::optional<UncertainPose>& initial, Budget& budget) const {

@@ -3,15 +3,15 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace cairn::matching {
 namespace {
 
-constexpr float kSameNormal = 0.7F;  // |cos| between normals of one surface
-constexpr float kPairCells = 2.5F;   // gate of a pair
-constexpr double kConflictWeight = 2, kMismatchWeight = 0.25;
-constexpr double kDiscredit = 3, kLeastCredit = 0.15;
+// Where free space is looked for before and behind a surfel: just beyond its own cell, and one
+// voxel on for walls that fill more than a cell. Chosen by hand, not tuned.
+constexpr std::array kLookAhead_cells{1.25F, 2.0F};
 
 struct Moved {
   explicit Moved(const SE3& T) : R(T.rotation().cast<float>()), t(T.translation().cast<float>()) {}
@@ -29,17 +29,19 @@ int in_free_space(const FreeSpace& free, std::span<const Surfel> structure, cons
 double share(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
 /// The pairs of the book's overlap and inlier test.
-void count_pairs(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T, Evidence& out) {
+void count_pairs(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T, float pair_cells,
+                 Evidence& out) {
   const Moved move(T);
   const auto cell = static_cast<float>(std::max(target.cell_m, source.cell_m));
   int pairs = 0, inliers = 0;
   for (const Surfel& s : source.sample) {
     const Eigen::Vector3f q = move(s.point);
-    const int i = nearest.nearest(q, kPairCells * cell);
+    const int i = nearest.nearest(q, pair_cells * cell);
     if (i == NearestGrid::kNone) continue;
     ++pairs;
     const Surfel& r = target.surfels[static_cast<std::size_t>(i)];
     const float variance = 0.5F * (1 / r.occupancy + 1 / s.occupancy);
+    // (4.20); a cell is the book's 0.2 m where voxels have 0.1 m.
     inliers += (q - r.point).squaredNorm() < cell * cell * variance ? 1 : 0;
   }
   const double n_source = static_cast<double>(source.sample.size());
@@ -54,26 +56,28 @@ struct Meetings {
   [[nodiscard]] int all() const { return agree + differ + in_free; }
 
   int agree = 0, differ = 0, in_free = 0;
-  int beside = 0;                                     // in free space too, but near a surface that may be its own
-  Eigen::Matrix2d normals = Eigen::Matrix2d::Zero();  // Σ n nᵀ, horizontal part, of those that agree
+  // In free space, but near a surface that may be its own.
+  int beside = 0;
+  Eigen::Matrix2d normals = Eigen::Matrix2d::Zero();  // Σ n nᵀ, horizontal part, of what agrees
 };
 
 Meetings meet(const Party& target, const NearestGrid& nearest, const Party& source, std::span<const Surfel> structure,
-              const SE3& T) {
+              const SE3& T, const EvidenceConfig& config) {
   const Moved move(T);
   const auto cell = static_cast<float>(std::max(target.cell_m, source.cell_m));
+  const float agree_m = config.agree_cells * cell;
   Meetings m;
   for (const Surfel& s : structure) {
     const Eigen::Vector3f q = move(s.point);
-    const int i = nearest.nearest(q, kPairCells * cell);
+    const int i = nearest.nearest(q, config.pair_cells * cell);
     if (i == NearestGrid::kNone) {
       m.in_free += target.free.contains(q) ? 1 : 0;
       continue;
     }
     const Surfel& r = target.surfels[static_cast<std::size_t>(i)];
-    const bool near = (q - r.point).squaredNorm() < cell * cell;
+    const bool near = (q - r.point).squaredNorm() < agree_m * agree_m;
     m.beside += !near && target.free.contains(q) ? 1 : 0;
-    if (near && same_side(r, s, move.R * s.normal)) {
+    if (near && same_side(r, s, move.R * s.normal, config.same_normal)) {
       ++m.agree;
       const Eigen::Vector2d n = r.normal.head<2>().cast<double>();
       m.normals += n * n.transpose();
@@ -84,28 +88,25 @@ Meetings meet(const Party& target, const NearestGrid& nearest, const Party& sour
   return m;
 }
 
-}  // namespace
-
-namespace {
-
 double score_of(const Party& target, const NearestGrid& nearest, const Party& source, std::span<const Surfel> of_target,
-                std::span<const Surfel> of_source, const SE3& T) {
-  const Meetings m = meet(target, nearest, source, of_source, T);
+                std::span<const Surfel> of_source, const SE3& T, const EvidenceConfig& config) {
+  const Meetings m = meet(target, nearest, source, of_source, T, config);
   const auto n = static_cast<double>(of_source.size());
   const double reverse =
       share(in_free_space(source.free, of_target, T.inverse()), static_cast<double>(of_target.size()));
   // The target's conflicts count by their number, as the source's do.
   const double sizes = share(static_cast<double>(target.surfels.size()), static_cast<double>(source.surfels.size()));
-  const double sum =
-      share(m.agree - kMismatchWeight * m.differ - kConflictWeight * m.in_free, n) - kConflictWeight * reverse * sizes;
-  // A wrong pose of the same building agrees nearly as well as the right one; what gives it away is contradiction.
+  const double sum = share(m.agree - config.mismatch_weight * m.differ - config.conflict_weight * m.in_free, n) -
+                     config.conflict_weight * reverse * sizes;
+  // A wrong pose of the same building agrees nearly as well as the right one; what gives it away is
+  // contradiction.
   const double contradiction = share(m.in_free, m.all()) + reverse;
-  return sum > 0 ? sum * std::max(kLeastCredit, 1 - kDiscredit * contradiction) : sum;
+  return sum > 0 ? sum * std::max(config.least_credit, 1 - config.discredit * contradiction) : sum;
 }
 
 void face_free_space(Surfel& s, const FreeSpace& free, float cell_m) {
   int ahead = 0, behind = 0;
-  for (const float cells : {1.25F, 2.0F}) {
+  for (const float cells : kLookAhead_cells) {
     ahead += free.seen_free(s.point + cells * cell_m * s.normal) ? 1 : 0;
     behind += free.seen_free(s.point - cells * cell_m * s.normal) ? 1 : 0;
   }
@@ -116,9 +117,9 @@ void face_free_space(Surfel& s, const FreeSpace& free, float cell_m) {
 
 }  // namespace
 
-bool same_side(const Surfel& target, const Surfel& source, const Eigen::Vector3f& n) {
+bool same_side(const Surfel& target, const Surfel& source, const Eigen::Vector3f& n, float least_cosine) {
   const float cosine = target.normal.dot(n);
-  return (target.oriented && source.oriented ? cosine : std::abs(cosine)) > kSameNormal;
+  return (target.oriented && source.oriented ? cosine : std::abs(cosine)) > least_cosine;
 }
 
 std::vector<Surfel> facing_free_space(std::span<const Surfel> surfels, const FreeSpace& free, float cell_m) {
@@ -128,21 +129,23 @@ std::vector<Surfel> facing_free_space(std::span<const Surfel> surfels, const Fre
   return all;
 }
 
-double score(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T) {
-  return score_of(target, nearest, source, target.structure, source.structure, T);
+double score(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T,
+             const EvidenceConfig& config) {
+  return score_of(target, nearest, source, target.structure, source.structure, T, config);
 }
 
-double first_impression(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T) {
-  return score_of(target, nearest, source, target.few, source.few, T);
+double first_impression(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T,
+                        const EvidenceConfig& config) {
+  return score_of(target, nearest, source, target.few, source.few, T, config);
 }
 
-Evidence weigh(const Indexed& target, const Indexed& source, const SE3& T) {
+Evidence weigh(const Indexed& target, const Indexed& source, const SE3& T, const EvidenceConfig& config) {
   const Party &a = target.party, &b = source.party;
   Evidence out;
-  count_pairs(a, target.nearest, b, T, out);
-  const Meetings m = meet(a, target.nearest, b, b.structure, T);
-  const Meetings reverse = meet(b, source.nearest, a, a.structure, T.inverse());
-  out.score = score(a, target.nearest, b, T);
+  count_pairs(a, target.nearest, b, T, config.pair_cells, out);
+  const Meetings m = meet(a, target.nearest, b, b.structure, T, config);
+  const Meetings reverse = meet(b, source.nearest, a, a.structure, T.inverse(), config);
+  out.score = score(a, target.nearest, b, T, config);
   out.structure_pairs = m.agree;
   out.agreeing_m2 = b.structure_m2 * share(m.agree, static_cast<double>(b.structure.size()));
   out.structure_inliers = share(m.agree, m.agree + m.differ);
@@ -155,8 +158,10 @@ Evidence weigh(const Indexed& target, const Indexed& source, const SE3& T) {
 }
 
 double book_threshold(double overlap) {
-  if (overlap < 0.2) return 0.80;
-  return overlap > 0.6 ? 0.60 : 0.9 - overlap / 2;
+  constexpr double kLittle = 0.2, kMuch = 0.6;                      // overlap (4.21)
+  constexpr double kStrict = 0.80, kLenient = 0.60, kAtNone = 0.9;  // inlier ratio (4.21)
+  if (overlap < kLittle) return kStrict;
+  return overlap > kMuch ? kLenient : kAtNone - overlap / 2;
 }
 
 }  // namespace cairn::matching

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -11,60 +12,99 @@
 
 namespace cairn::matching {
 
-/// One map as a party to a comparison: surfels, those of them that are structure (a sample), and what it saw free.
+/// Settings of what is counted for and against a pose. A change of any of them changes the
+/// evidence, on which the probability of decide() was fitted. What is from a prototype was measured
+/// there on 13 pairs of maps with the book's 125 starts each.
+struct EvidenceConfig {
+  // Samples of each map, at most, and the least
+  std::size_t surfels = 8000;  ///< for the covariance and the book's test; from a prototype
+  /// Surfels of structure, for score and evidence; from a prototype.
+  std::size_t structure = 1500;
+  /// Of these, for a first impression; chosen by hand, not tuned.
+  std::size_t few = 300;
+  std::size_t least_structure = 60;  ///< a map with less is not matched; chosen by hand, not tuned
+  // Pairs. A cell is the larger of the two maps' fine cells.
+  float pair_cells = 2.5F;   ///< a surfel has a partner within this; chosen by hand, not tuned
+  float agree_cells = 1;     ///< a pair within this may agree; from a prototype (0.2 m)
+  float same_normal = 0.7F;  ///< least |cosine| between normals that agree; from a prototype
+  /// Of the look-up of partners; at least the largest gate of a refinement.
+  float reach_cells = 4;
+  // Score, in surfels that agree. A prototype found the same modes with 1 to 3 and 0.25 to 0.5.
+  double conflict_weight = 2;     ///< of structure in the other map's free space
+  double mismatch_weight = 0.25;  ///< of a pair that does not agree
+  /// A score falls by this times the share of conflicts, down to least_credit. It came in with
+  /// GlobalSearchConfig::best_swept: of 42 pairs without a prior, 38 instead of 30 were found.
+  double discredit = 3, least_credit = 0.15;
+};
+
+/// One map in a comparison.
 struct Party {
-  std::vector<Surfel> surfels;    ///< structure faces free space
+  std::vector<Surfel> surfels;    ///< all, with facing_free_space() applied
   std::vector<Surfel> sample;     ///< of all surfels
-  std::vector<Surfel> structure;  ///< of those that are structure
-  std::vector<Surfel> few;        ///< of these, for a first impression
-  FreeSpace free;
-  double cell_m;
-  double structure_m2 = 0;  ///< what all of the structure covers, a cell's face for each surfel
+  std::vector<Surfel> structure;  ///< sample of the surfels that are structure
+  std::vector<Surfel> few;        ///< smaller sample of these, for a first impression
+  FreeSpace free;                 ///< the map's
+  double cell_m = 0;              ///< edge of a fine cell, m
+  double structure_m2 = 0;        ///< surface of all structure, m²: a cell's face for each surfel
 };
 
 /// What speaks for and against a pose, counted over samples of both maps.
 struct Evidence {
-  double overlap = 0;              ///< ε = ½ (N_match/N_s + N_match/N_r) (4.21), pairs within 2.5 cells
-  double inlier_ratio = 0;         ///< of these pairs, those with a Mahalanobis distance (3.18, 4.20) below one cell
-  double structure_inliers = 0;    ///< of the structure that has a partner, what agrees in place and normal
-  int structure_pairs = 0;         ///< that agree
-  double agreeing_m2 = 0;          ///< surface of all the source's structure that agrees, from the sample's share
-  double conflict = 0;             ///< source structure in space the target saw free, over that plus what has a partner
-  double reverse_conflict = 0;     ///< the same of target structure, and of what is beside its partner by over a cell
-  double weakest_translation = 0;  ///< smallest eigenvalue of the mean n nᵀ (x, y) over agreeing structure, 0…½
-  double score = 0;                ///< see score()
-  double uniqueness = 1;           ///< 1 − score of the best other mode over this one's, 0…1
+  double overlap = 0;  ///< ε = ½ (N_match/N_s + N_match/N_r) (4.21), 0…1
+  /// Share of these pairs with a Mahalanobis distance (3.18, 4.20) below a cell.
+  double inlier_ratio = 0;
+  /// Share of the structure with a partner that agrees in place and normal.
+  double structure_inliers = 0;
+  int structure_pairs = 0;  ///< sampled structure of the source that agrees
+  /// Surface of the source's structure that agrees, m², from the sample's share.
+  double agreeing_m2 = 0;
+  /// Source structure in the target's free space, over that plus the structure with a partner, 0…1.
+  double conflict = 0;
+  /// The same of target structure in the source's free space. Structure there that lies more than a
+  /// cell beside its partner counts as well.
+  double reverse_conflict = 0;
+  /// Smallest eigenvalue of the mean n nᵀ (x, y) of what agrees, 0…½.
+  double weakest_translation = 0;
+  double score = 0;       ///< see score()
+  double uniqueness = 1;  ///< 1 − score of the best other place over this one's, 0…1
 };
 
-/// Score of a pose for ranking modes: +1 for each structure surfel of the source that agrees in place, normal and,
-/// where known, the side it was seen from,
-/// −¼ where it meets another surface, −2 where it stands in the target's free space, and −2 for target structure in
-/// the source's free space; per source surfel, and times 1 − 3·(share of conflicts), at least 0.15.
+/// Score of a pose, for ranking. Each sampled structure surfel of the source counts:
+/// - +1 if it agrees with the target in place, normal and, where known, the side it was seen from,
+/// - −mismatch_weight if it meets another surface,
+/// - −conflict_weight if it stands in the target's free space.
+///
+/// Target structure in the source's free space counts −conflict_weight, too. The mean over the
+/// source's surfels is then discounted by `discredit` for the share of conflicts.
 [[nodiscard]] double score(const Party& target, const NearestGrid& nearest, const Party& source,
-                           const SE3& T_target_source);
+                           const SE3& T_target_source, const EvidenceConfig& config = {});
 
-/// A rough score() over a few surfels, for sorting out hundreds of poses.
+/// A rough score() over a few surfels, for ranking hundreds of poses.
 [[nodiscard]] double first_impression(const Party& target, const NearestGrid& nearest, const Party& source,
-                                      const SE3& T_target_source);
+                                      const SE3& T_target_source, const EvidenceConfig& config = {});
 
-/// The surfels with the normals of structure turned to where free space was observed on one side only: two maps that
-/// meet back to back at a wall must not agree there.
+/// The surfels, with normals of structure turned to the side on which free space was observed,
+/// where that is one side only. Two maps that meet back to back at a wall do not agree there.
+/// `cell_m`: of the surfels, m.
 [[nodiscard]] std::vector<Surfel> facing_free_space(std::span<const Surfel> surfels, const FreeSpace& free,
                                                     float cell_m);
 
-/// A party, and what is nearest to any place in it.
+/// A party and the look-up of its surfels. Both are the caller's.
 struct Indexed {
   const Party& party;
   const NearestGrid& nearest;
 };
 
-/// Leaves `uniqueness` alone.
-[[nodiscard]] Evidence weigh(const Indexed& target, const Indexed& source, const SE3& T_target_source);
+/// The evidence for a pose. Its `uniqueness` is left at 1: that takes other poses.
+[[nodiscard]] Evidence weigh(const Indexed& target, const Indexed& source, const SE3& T_target_source,
+                             const EvidenceConfig& config = {});
 
-/// Whether two surfels may be of one surface seen from one side; `n`: the source's normal in the target's frame.
-[[nodiscard]] bool same_side(const Surfel& target, const Surfel& source, const Eigen::Vector3f& n);
+/// Whether two surfels may be of one surface that was seen from one side. `n`: the source's normal
+/// in the target's frame. `least_cosine`: see EvidenceConfig::same_normal.
+[[nodiscard]] bool same_side(const Surfel& target, const Surfel& source, const Eigen::Vector3f& n, float least_cosine);
 
-/// The book's threshold on the inlier ratio for an overlap (4.21): 0.80 below 0.2, 0.9 − ε/2 up to 0.6, then 0.60.
+/// The book's threshold on the inlier ratio for an overlap ε (4.21): 0.80 below 0.2, 0.9 − ε/2 up
+/// to 0.6, then 0.60.
 [[nodiscard]] double book_threshold(double overlap);
 
 }  // namespace cairn::matching

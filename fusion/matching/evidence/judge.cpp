@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "fusion/matching/evidence/acceptance.hpp"
 #include "fusion/matching/evidence/match_covariance.hpp"
 #include "fusion/matching/features/sample.hpp"
 #include "fusion/matching/features/structure.hpp"
@@ -13,49 +12,56 @@
 namespace cairn::matching {
 namespace {
 
-constexpr std::size_t kFinePoints = 8000, kVerifyPoints = 1500, kFewPoints = 300, kMinStructure = 60;
-constexpr float kNearCells = 4;
-constexpr double kSameM = 0.8, kSameRad = 0.07;
+// Standard deviations of a pose without a guess. All chosen by hand, not tuned.
+constexpr double kAnywhere_m = 100;         // along x and y: wider than what is matched
+constexpr double kAnywhereHeight_m = 3;     // a storey
+constexpr double kAnywhereTilt_rad = 0.03;  // 1.7°: how well a LiDAR's mapping holds gravity
+constexpr double kAnywhereHeading_rad = M_PI;
 
 }  // namespace
-
-bool same_place(const SE3& T, const SE3& other) {
-  const SE3 between = T.inverse() * other;
-  return between.translation().norm() < kSameM && rotation_angle(between) < kSameRad;
-}
 
 UncertainPose anywhere() {
   UncertainPose pose;
   Vector6 sigma;
-  sigma << 100, 100, 3, 0.03, 0.03, M_PI;
+  sigma << kAnywhere_m, kAnywhere_m, kAnywhereHeight_m, kAnywhereTilt_rad, kAnywhereTilt_rad, kAnywhereHeading_rad;
   pose.covariance = sigma.cwiseAbs2().asDiagonal();
   return pose;
 }
 
-Judge::Judge(const MapFeatures& a, const MapFeatures& b)
-    : a_(party_of(a)),
-      b_(party_of(b)),
+Judge::Judge(const MapFeatures& a, const MapFeatures& b, const EvidenceConfig& evidence,
+             const AcceptanceConfig& acceptance)
+    : config_(evidence),
+      acceptance_(acceptance),
+      a_(party_of(a, evidence)),
+      b_(party_of(b, evidence)),
       cell_m_(std::max(a.fine_m(), b.fine_m())),
-      near_a_(a.fine(), cell_m_, kNearCells * cell_m_),
-      near_b_(b.fine(), cell_m_, kNearCells * cell_m_) {}
+      near_a_(a.fine(), cell_m_, evidence.reach_cells * cell_m_),
+      near_b_(b.fine(), cell_m_, evidence.reach_cells * cell_m_) {}
 
-Party party_of(const MapFeatures& map) {
-  Party party{{}, {}, {}, {}, FreeSpace(map.map()), static_cast<double>(map.fine_m()), 0};
+Party party_of(const MapFeatures& map, const EvidenceConfig& config) {
+  Party party{.surfels = {},
+              .sample = {},
+              .structure = {},
+              .few = {},
+              .free = FreeSpace(map.map()),
+              .cell_m = static_cast<double>(map.fine_m())};
   party.surfels = facing_free_space(map.fine(), party.free, map.fine_m());
   const auto structure = structure_of(party.surfels);
   party.structure_m2 = static_cast<double>(structure.size()) * party.cell_m * party.cell_m;
-  party.sample = sample(std::span<const Surfel>(party.surfels), kFinePoints);
-  party.structure = sample(std::span<const Surfel>(structure), kVerifyPoints);
-  party.few = sample(std::span<const Surfel>(structure), kFewPoints);
+  party.sample = sample(std::span<const Surfel>(party.surfels), config.surfels);
+  party.structure = sample(std::span<const Surfel>(structure), config.structure);
+  party.few = sample(std::span<const Surfel>(structure), config.few);
   return party;
 }
 
 std::optional<Error> fault_of(const std::optional<UncertainPose>& initial) {
   if (!initial) return std::nullopt;
   if (!initial->mean.matrix().allFinite() || !initial->covariance.allFinite())
-    return Error{Errc::kInvalidConfig, "the initial pose is not finite", "initial pose"};
+    return Error{.code = Errc::kInvalidConfig, .cause = "the initial pose is not finite", .where = "initial pose"};
   if (Eigen::SelfAdjointEigenSolver<Matrix6>(initial->covariance).eigenvalues()[0] <= 0)
-    return Error{Errc::kInvalidConfig, "the initial covariance is not positive definite", "initial pose"};
+    return Error{.code = Errc::kInvalidConfig,
+                 .cause = "the initial covariance is not positive definite",
+                 .where = "initial pose"};
   return std::nullopt;
 }
 
@@ -69,13 +75,14 @@ MatchResult refused(const UncertainPose& prior, std::string reason) {
 std::optional<Result<MatchResult>> Judge::without_search(const std::optional<UncertainPose>& initial) const {
   if (auto fault = fault_of(initial)) return *std::move(fault);
   const UncertainPose prior = initial.value_or(anywhere());
-  if (a_.structure.size() < kMinStructure) return refused(prior, "map a holds too little structure");
-  if (b_.structure.size() < kMinStructure) return refused(prior, "map b holds too little structure");
+  if (a_.structure.size() < config_.least_structure) return refused(prior, "map a holds too little structure");
+  if (b_.structure.size() < config_.least_structure) return refused(prior, "map b holds too little structure");
   return std::nullopt;
 }
 
 Look Judge::look(const SE3& T_a_b, const Matrix6& prior_covariance) const {
-  return {{T_a_b, covariance(a_, near_a_, b_, T_a_b, prior_covariance)}, weigh({a_, near_a_}, {b_, near_b_}, T_a_b)};
+  return {{T_a_b, covariance(a_, near_a_, b_, T_a_b, prior_covariance, config_)},
+          weigh({a_, near_a_}, {b_, near_b_}, T_a_b, config_)};
 }
 
 MatchResult Judge::conclude(const SE3& T_a_b, const Matrix6& prior_covariance, double uniqueness,
@@ -89,7 +96,7 @@ MatchResult Judge::conclude(const SE3& T_a_b, const Matrix6& prior_covariance, d
   result.inlier_ratio = result.evidence.inlier_ratio;
   result.threshold = book_threshold(result.overlap);
   result.book_accepted = result.inlier_ratio > result.threshold;
-  const Decision decision = decide(result.evidence);
+  const Decision decision = decide(result.evidence, acceptance_);
   result.accepted = decision.accepted;
   result.probability_correct = decision.probability_correct;
   result.reason = decision.reason;

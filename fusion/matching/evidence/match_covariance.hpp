@@ -5,13 +5,17 @@
 
 namespace cairn::matching {
 
-/// The covariance of T (right perturbation, m and rad) that the residuals along the normals of agreeing surfels give,
-/// with the prior's covariance Σ₀: (H M⁻¹ H + Σ₀⁻¹)⁻¹, H = Σ w J Jᵀ and M the covariance of the gradient Σ w J r, with
-/// weight() of refine(). Residuals are not independent: neighbouring surfels share voxels, and a stretch of wall lies
-/// off by one common part of a voxel in each map. So r = b + ε with one b for each stretch and ε of variance s_ε²/w, M
-/// = s_ε² k Σ w J Jᵀ + s_b² Σ (ΣwJ)(ΣwJ)ᵀ over stretches, both variances as the residuals show them. A direction that
-/// no surface fixes keeps the prior's uncertainty.
+/// The covariance of T (right perturbation, m and rad): (H M⁻¹ H + Σ₀⁻¹)⁻¹.
+/// - H = Σ w J Jᵀ over the surfels that agree, with the weight() of refine(),
+/// - M is the covariance of the gradient Σ w J r of the residuals r along the normals,
+/// - Σ₀ is the prior's covariance. A direction that no surface fixes keeps its uncertainty.
+///
+/// Residuals are not independent. Neighbouring surfels share voxels, and a stretch of wall is off
+/// by one common part of a voxel in each map. So r = b + ε, with one b for each stretch and ε of
+/// variance s_ε²/w: M = s_ε² k Σ w J Jᵀ + s_b² Σ (ΣwJ)(ΣwJ)ᵀ over stretches. Both variances are
+/// taken from the residuals. tests/bench/matching_covariance compares the result with the errors.
 [[nodiscard]] Matrix6 covariance(const Party& target, const NearestGrid& nearest, const Party& source,
-                                 const SE3& T_target_source, const Matrix6& prior_covariance);
+                                 const SE3& T_target_source, const Matrix6& prior_covariance,
+                                 const EvidenceConfig& config = {});
 
 }  // namespace cairn::matching

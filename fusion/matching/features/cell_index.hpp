@@ -8,15 +8,17 @@
 
 namespace cairn::matching {
 
-/// Integer coordinates of a cubic cell, with 21 bits each, as one number. Its order is x, then y, then z.
+/// Integer coordinates of a cubic cell as one number, 21 bits each. Sorts by x, then y, then z.
 [[nodiscard]] inline std::uint64_t pack(const Eigen::Vector3i& cell) {
-  constexpr int kMiddle = 1 << 20;
-  constexpr std::uint64_t kMask = (std::uint64_t{1} << 21) - 1;
+  constexpr unsigned kBits = 21;  // of a coordinate: three fit into 64
+  constexpr int kMiddle = 1 << (kBits - 1);
+  constexpr std::uint64_t kMask = (std::uint64_t{1} << kBits) - 1;
   const auto part = [&](int v) { return static_cast<std::uint64_t>(v + kMiddle) & kMask; };
-  return part(cell.x()) << 42 | part(cell.y()) << 21 | part(cell.z());
+  return part(cell.x()) << 2 * kBits | part(cell.y()) << kBits | part(cell.z());
 }
 
-/// From cells to numbers ≥ 0: an open-addressing table that is never iterated, so no order depends on it.
+/// A map from cells to numbers ≥ 0: an open-addressing table. It is never iterated, so no result
+/// depends on its order.
 class CellIndex {
  public:
   static constexpr int kNone = -1;
@@ -29,7 +31,7 @@ class CellIndex {
   }
   [[nodiscard]] int find(const Eigen::Vector3i& cell) const { return find(pack(cell)); }
 
-  /// The number of this cell; `value` if it had none, which must then be ≥ 0.
+  /// The number of this cell. If it has none, it gets `value`, which must be ≥ 0.
   int find_or_insert(std::uint64_t key, int value) {
     if (2 * (size_ + 1) > keys_.size()) grow(2 * size_ + 2);
     std::size_t i = hash(key);
@@ -44,11 +46,16 @@ class CellIndex {
 
  private:
   [[nodiscard]] std::size_t hash(std::uint64_t key) const {
-    key *= 0x9E3779B97F4A7C15U;
-    return static_cast<std::size_t>(key ^ key >> 29) & mask_;
+    // 2⁶⁴ over the golden ratio (Knuth, TAOCP 3, 6.4).
+    constexpr std::uint64_t kGolden = 0x9E3779B97F4A7C15U;
+    // Brings high bits to where the mask looks.
+    constexpr unsigned kFold = 29;
+    key *= kGolden;
+    return static_cast<std::size_t>(key ^ key >> kFold) & mask_;
   }
   void grow(std::size_t expected) {
-    std::size_t capacity = 32;
+    constexpr std::size_t kLeastCapacity = 32;
+    std::size_t capacity = kLeastCapacity;
     while (capacity < 2 * expected) capacity *= 2;
     const std::vector<std::uint64_t> keys = std::move(keys_);
     const std::vector<int> values = std::move(values_);

@@ -8,9 +8,17 @@
 namespace cairn::matching {
 namespace {
 
+// All of these are chosen by hand, not tuned.
+
+// A building has three: two of walls, one of floors.
 constexpr std::size_t kMostDirections = 3;
-constexpr double kFirstGate = 0.985, kLastGate = 0.996;  // cosines of 10° and 5°
-constexpr double kApart = std::numbers::sqrt2 / 2;       // of 45°
+// Cosines of 10° and 5°: whose normals are averaged.
+constexpr double kFirstGate = 0.985, kLastGate = 0.996;
+constexpr double kApart = std::numbers::sqrt2 / 2;  // cosine of 45°, between two directions
+// Directions that are tried, about 6° apart.
+constexpr int kHalfSphere = 600;
+// Of the extent, a twentieth is cut off at either end.
+constexpr std::ptrdiff_t kOutermost = 20;
 
 using Vectors = std::vector<Eigen::Vector3d>;
 
@@ -21,12 +29,11 @@ Vectors flat_normals(std::span<const Surfel> surfels) {
   return normals;
 }
 
-/// Evenly over the upper half of a sphere, about 6° apart.
+/// Directions spread evenly over the upper half of a sphere (a Fibonacci lattice).
 Vectors half_sphere() {
-  constexpr int kCount = 600;
   Vectors directions;
-  for (int i = 0; i < kCount; ++i) {
-    const double z = (i + 0.5) / kCount, radius = std::sqrt(1 - z * z);
+  for (int i = 0; i < kHalfSphere; ++i) {
+    const double z = (i + 0.5) / kHalfSphere, radius = std::sqrt(1 - z * z);
     const double turn = std::numbers::pi * (3 - std::sqrt(5.0)) * i;
     directions.emplace_back(radius * std::cos(turn), radius * std::sin(turn), z);
   }
@@ -49,7 +56,7 @@ Eigen::Vector3d centred(const Vectors& normals, Eigen::Vector3d direction) {
   return direction;
 }
 
-/// Those that most surfaces face, of whatever lies around them.
+/// The directions that most surfaces face, most first.
 Vectors main_directions(const Vectors& normals) {
   Vectors found;
   const Vectors everywhere = half_sphere();
@@ -69,9 +76,9 @@ Vectors main_directions(const Vectors& normals) {
 double extent(std::span<const Surfel> surfels, const Eigen::Vector3d& direction) {
   std::vector<double> along;
   for (const Surfel& s : surfels) along.push_back(s.point.cast<double>().dot(direction));
-  const auto twentieth = static_cast<std::ptrdiff_t>(along.size() / 20);
+  const auto cut = static_cast<std::ptrdiff_t>(along.size()) / kOutermost;
   std::ranges::sort(along);
-  return *(along.end() - 1 - twentieth) - *(along.begin() + twentieth);
+  return *(along.end() - 1 - cut) - *(along.begin() + cut);
 }
 
 SE3 upwards(Eigen::Vector3d direction) {

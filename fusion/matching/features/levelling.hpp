@@ -9,10 +9,11 @@
 
 namespace cairn::matching {
 
-/// Turns of a map (T_level_map, without translation) that may put its gravity along z: one for each of at most three
-/// directions that many flat surfels face (either way), at least 45° apart. First that along which the map extends
-/// least: buildings and streets are wider than high. Which way up is not decided: the end that had the larger z stays
-/// above. The identity alone where nothing is flat.
+/// Turns of a map (T_level_map, without translation) that may bring its gravity along z.
+/// There is one for each direction that many flat surfels face: at most three, at least 45° apart.
+/// The direction in which the map extends least comes first: buildings are wider than high.
+/// It is not decided which way up the map is: the end with the larger z stays above.
+/// Gives the identity alone where nothing is flat.
 [[nodiscard]] std::vector<SE3> levellings(std::span<const Surfel> surfels);
 
 }  // namespace cairn::matching

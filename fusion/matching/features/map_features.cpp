@@ -7,12 +7,15 @@
 namespace cairn::matching {
 namespace {
 
-constexpr double kFineM = 0.2;
+// Powers of two: 0.2 m over 0.1 m counts as 2 whatever the rounding.
+constexpr double kRoundingSlack = 0.01;
+// Powers of two: 4 voxels for a fine cell, a tile's 8 for a coarse one.
+constexpr double kMostLevels = 2;
 
 /// 1, 2 or 4: a tile of 8 voxels then holds whole cells of both sizes.
-int voxels_per_fine_cell(double resolution_m) {
-  const double levels = std::floor(std::log2(kFineM / resolution_m) + 0.01);
-  return 1 << static_cast<int>(std::clamp(levels, 0.0, 2.0));
+int voxels_per_fine_cell(double fine_cell_m, double resolution_m) {
+  const double levels = std::floor(std::log2(fine_cell_m / resolution_m) + kRoundingSlack);
+  return 1 << static_cast<int>(std::clamp(levels, 0.0, kMostLevels));
 }
 
 template <class Entropy>
@@ -26,15 +29,15 @@ double weighted_log(double p) { return p > 0 ? -p * std::log2(p) : 0; }
 
 }  // namespace
 
-MapFeatures::MapFeatures(const SemanticOcTree& map, int voxels_per_fine_cell)
+MapFeatures::MapFeatures(const SemanticOcTree& map, int voxels_per_fine_cell, int min_normal_voxels)
     : map_(&map),
-      fine_grid_(voxels_per_fine_cell, static_cast<float>(map.getResolution())),
-      coarse_grid_(2 * voxels_per_fine_cell, static_cast<float>(map.getResolution())) {}
+      fine_grid_(voxels_per_fine_cell, static_cast<float>(map.getResolution()), min_normal_voxels),
+      coarse_grid_(2 * voxels_per_fine_cell, static_cast<float>(map.getResolution()), min_normal_voxels) {}
 
-Result<MapFeatures> MapFeatures::build(const SemanticOcTree& map) {
+Result<MapFeatures> MapFeatures::build(const SemanticOcTree& map, const FeatureConfig& config) {
   const auto voxels = occupied_voxels(map);
   if (!voxels) return voxels.error();
-  MapFeatures features(map, voxels_per_fine_cell(map.getResolution()));
+  MapFeatures features(map, voxels_per_fine_cell(config.fine_cell_m, map.getResolution()), config.min_normal_voxels);
   for (auto from = voxels->begin(); from != voxels->end();) {
     const TileKey tile = tile_of(*from);
     const auto to = std::find_if(from, voxels->end(), [&](const Voxel& v) { return tile_of(v) != tile; });

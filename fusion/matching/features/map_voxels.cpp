@@ -20,7 +20,9 @@ struct Cube {
     const auto bit = [&](unsigned axis) { return static_cast<int>(i >> axis & 1U); };
     return first + edge / 2 * Eigen::Vector3i(bit(0), bit(1), bit(2));
   }
-  [[nodiscard]] Cube child(unsigned i) const { return {node->block() + i, child_first(i), edge / 2}; }
+  [[nodiscard]] Cube child(unsigned i) const {
+    return {.node = node->block() + i, .first = child_first(i), .edge = edge / 2};
+  }
 };
 
 class Collector {
@@ -37,8 +39,10 @@ class Collector {
     const bool leaf = cube.node->block() == nullptr;
     if (leaf && !fits(cube)) return false;
     if (leaf && cube.edge <= 1 << TileKey::kVoxelBits) return add(cube), true;
-    for (unsigned i = 0; i < SemanticNode::kChildren; ++i)  // a leaf above tiles stands for each of them
-      if (!collect(leaf ? Cube{cube.node, cube.child_first(i), cube.edge / 2} : cube.child(i))) return false;
+    // A leaf above tiles stands for each of them.
+    for (unsigned i = 0; i < SemanticNode::kChildren; ++i)
+      if (!collect(leaf ? Cube{.node = cube.node, .first = cube.child_first(i), .edge = cube.edge / 2} : cube.child(i)))
+        return false;
     return true;
   }
   [[nodiscard]] std::vector<Voxel>& voxels() { return voxels_; }
@@ -54,7 +58,10 @@ class Collector {
       for (int y = 0; y < leaf.edge; ++y)
         for (int x = 0; x < leaf.edge; ++x) {
           const Eigen::Vector3i key = leaf.first + Eigen::Vector3i(x, y, z);
-          voxels_.push_back({(key.cast<float>().array() + 0.5F) * resolution_, key, p, leaf.node->label_id()});
+          voxels_.push_back({.centre = (key.cast<float>().array() + 0.5F) * resolution_,
+                             .key = key,
+                             .occupancy = p,
+                             .label_id = leaf.node->label_id()});
         }
   }
 
@@ -64,7 +71,7 @@ class Collector {
 };
 
 Cube root_of(const SemanticOcTree& map) {
-  return {map.getRoot(), Eigen::Vector3i::Constant(-kKeyOrigin), 2 * kKeyOrigin};
+  return {.node = map.getRoot(), .first = Eigen::Vector3i::Constant(-kKeyOrigin), .edge = 2 * kKeyOrigin};
 }
 
 }  // namespace
@@ -73,7 +80,8 @@ Result<std::vector<Voxel>> occupied_voxels(const SemanticOcTree& map, std::size_
   if (map.getRoot() == nullptr) return std::vector<Voxel>{};
   Collector collector(map, max_voxels);
   if (!collector.collect(root_of(map)))
-    return Error{Errc::kLimit, "too many occupied voxels", {}, {}, "more than " + std::to_string(max_voxels)};
+    return Error{
+        .code = Errc::kLimit, .cause = "too many occupied voxels", .detail = "more than " + std::to_string(max_voxels)};
   return std::move(collector.voxels());
 }
 
@@ -83,7 +91,7 @@ std::vector<Voxel> occupied_voxels(const SemanticOcTree& map, TileKey tile) {
   for (unsigned shift = 3 * (SemanticOcTree::kDepth - TileKey::kVoxelBits); shift > 0; shift -= 3) {
     const auto i = static_cast<unsigned>(tile.morton >> (shift - 3) & 7U);
     const bool leaf = cube.node->block() == nullptr;  // above the tile: it stands for the tile too
-    cube = {leaf ? cube.node : cube.node->block() + i, cube.child_first(i), cube.edge / 2};
+    cube = {.node = leaf ? cube.node : cube.node->block() + i, .first = cube.child_first(i), .edge = cube.edge / 2};
     if (!cube.node->present()) return {};
   }
   Collector collector(map, kMaxVoxels);
@@ -100,8 +108,9 @@ FreeSpace::FreeSpace(const SemanticOcTree& map)
     : root_(map.getRoot()),
       inverse_resolution_(static_cast<float>(1.0 / map.getResolution())),
       threshold_(map.getOccupancyThresLog()) {
-  const double levels = std::round(std::log2(std::max(kMarginVoxels, kMarginM / map.getResolution())));
-  margin_depth_ = SemanticOcTree::kDepth - static_cast<unsigned>(std::clamp(levels, 0.0, 16.0));
+  const double levels = std::round(std::log2(std::max(kMargin_voxels, kMargin_m / map.getResolution())));
+  margin_depth_ = SemanticOcTree::kDepth -
+                  static_cast<unsigned>(std::clamp(levels, 0.0, static_cast<double>(SemanticOcTree::kDepth)));
 }
 
 bool FreeSpace::free_at(const Eigen::Vector3f& point, unsigned margin_depth) const {

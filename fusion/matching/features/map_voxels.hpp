@@ -12,39 +12,43 @@
 
 namespace cairn::matching {
 
-inline constexpr int kKeyOrigin = 1 << (SemanticOcTree::kDepth - 1);  ///< tree key of the voxel from the origin on
+/// Tree key of the voxel whose lower corner is the map's origin: 2¹⁵.
+inline constexpr int kKeyOrigin = 1 << (SemanticOcTree::kDepth - 1);
 
 /// One occupied voxel, the unit of the book's maps (2.1).
 struct Voxel {
   Eigen::Vector3f centre;  ///< m, map frame
-  Eigen::Vector3i key;     ///< tree key less 2¹⁵: voxel k spans [k, k+1) edges
+  Eigen::Vector3i key;     ///< tree key less kKeyOrigin; voxel k spans [k, k+1) edges
   float occupancy;         ///< probability, in (0.5, 1]
   std::uint32_t label_id;  ///< as SemanticNode::label_id(); 0 for none
 };
 
-inline constexpr std::size_t kMaxVoxels = 5'000'000;  ///< of one map; a crafted file can claim 2⁴⁸
+/// Occupied voxels of one map, at most. A bound on memory: a crafted file can claim 2⁴⁸ voxels.
+inline constexpr std::size_t kMaxVoxels = 5'000'000;
 
-/// Every occupied voxel in depth-first order, in which the voxels of a tile are adjacent; a pruned leaf gives all that
-/// it stands for. Errc::kLimit above `max_voxels`.
+/// Every occupied voxel, depth first, so that the voxels of a tile are adjacent. A pruned leaf
+/// gives all voxels in it. Errors: kLimit above `max_voxels`.
 Result<std::vector<Voxel>> occupied_voxels(const SemanticOcTree& map, std::size_t max_voxels = kMaxVoxels);
 /// The occupied voxels of one tile, in the same order.
 [[nodiscard]] std::vector<Voxel> occupied_voxels(const SemanticOcTree& map, TileKey tile);
 [[nodiscard]] TileKey tile_of(const Voxel& voxel);
 
-/// What a map says about a place. Looks into the tree, which must outlive it and not be edited meanwhile; relies on
-/// the canonical form (an inner node is as occupied as its most occupied child).
+/// The free space of a map. It looks into the tree, which must outlive it. Nobody may edit the tree
+/// meanwhile. The tree must be canonical: an inner node is as occupied as its most occupied child.
 class FreeSpace {
  public:
+  /// The margin around a place that counts as free, the larger of the two. Two maps of one surface
+  /// often have it in neighbouring voxels, however large these are. Chosen by hand, not tuned.
+  static constexpr double kMargin_m = 0.4;
+  static constexpr double kMargin_voxels = 4;
+
   explicit FreeSpace(const SemanticOcTree& map);
 
-  /// Whether the voxel at `point` (m, map frame) was observed free and nothing occupied is in the cube around it that
-  /// the tree has as one node, of kMarginM or kMarginVoxels, whichever is more: two maps of one surface often have it
-  /// in voxels that are neighbours, however large these are.
+  /// Whether the voxel at `point` (m, map frame) was observed free, and the tree's node of the
+  /// margin's size around it holds nothing occupied.
   [[nodiscard]] bool contains(const Eigen::Vector3f& point) const { return free_at(point, margin_depth_); }
-  /// Whether the voxel at `point` itself was.
+  /// Whether the voxel at `point` (m, map frame) was observed free.
   [[nodiscard]] bool seen_free(const Eigen::Vector3f& point) const { return free_at(point, SemanticOcTree::kDepth); }
-
-  static constexpr double kMarginM = 0.4, kMarginVoxels = 4;
 
  private:
   [[nodiscard]] bool free_at(const Eigen::Vector3f& point, unsigned margin_depth) const;

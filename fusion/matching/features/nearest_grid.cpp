@@ -4,7 +4,10 @@
 namespace cairn::matching {
 namespace {
 
-constexpr float kMaxCell = 1 << 19;  // well inside of what pack() can tell apart
+// Coordinate of a cell, half of what pack() can tell apart.
+constexpr float kMaxCell = 1 << 19;
+constexpr std::size_t kSurfelsPerBrick = 8;  // a guess for the index's first size
+constexpr std::size_t kLeastBricks = 16;     // the same, of small maps
 
 Eigen::Vector3i brick_of(const Eigen::Vector3i& cell, int bits) {
   return {cell.x() >> bits, cell.y() >> bits, cell.z() >> bits};
@@ -13,7 +16,10 @@ Eigen::Vector3i brick_of(const Eigen::Vector3i& cell, int bits) {
 }  // namespace
 
 NearestGrid::NearestGrid(std::span<const Surfel> surfels, float cell_m, float reach_m)
-    : surfels_(surfels), cell_m_(cell_m), inverse_cell_(1.0F / cell_m), index_(surfels.size() / 8 + 16) {
+    : surfels_(surfels),
+      cell_m_(cell_m),
+      inverse_cell_(1.0F / cell_m),
+      index_(surfels.size() / kSurfelsPerBrick + kLeastBricks) {
   spread(reach_m);
 }
 

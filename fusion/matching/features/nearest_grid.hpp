@@ -11,27 +11,28 @@
 
 namespace cairn::matching {
 
-/// For every cell near a surface, the surfel nearest to the cell's centre, spread from the surfels outwards
-/// (brushfire). So one look-up finds a neighbour that is nearest up to the size of a cell. Memory grows with the
-/// surface, not with the volume: cells are kept in bricks of 8³, at most kMostBricks of them (400 MB); a map that is
-/// strewn over more has surfels that are not found.
+/// Finds the surfel nearest to a point, up to the size of a cell, with one look-up. Each cell near
+/// a surface keeps the surfel nearest to its centre (brushfire from the surfels outwards). Memory
+/// grows with the surface, not with the volume, because cells are kept in bricks of 8³.
 class NearestGrid {
  public:
   static constexpr int kNone = -1;
+  /// Bricks, at most: 400 MB. A bound on memory. In a larger map some surfels are not found.
   static constexpr std::size_t kMostBricks = 200'000;
 
-  /// Surfels up to `reach_m` away from a cell's centre are known to it. `surfels` must outlive the grid.
+  /// A cell knows surfels up to `reach_m` away from its centre. `surfels` must outlive the grid.
   NearestGrid(std::span<const Surfel> surfels, float cell_m, float reach_m);
 
-  /// Index of the surfel near `point` (m), or kNone where there is none within `gate_m`. Any float is safe.
+  /// Index of the surfel near `point` (m), or kNone where there is none within `gate_m`. Any float
+  /// is safe.
   [[nodiscard]] int nearest(const Eigen::Vector3f& point, float gate_m) const;
 
  private:
-  static constexpr int kBits = 3, kEdge = 1 << kBits;
+  static constexpr int kBits = 3, kEdge = 1 << kBits;  // cells along the edge of a brick
   using Brick = std::array<int, kEdge * kEdge * kEdge>;
 
   [[nodiscard]] static std::size_t slot(const Eigen::Vector3i& cell);
-  int* entry(const Eigen::Vector3i& cell);  // none beyond kMostBricks
+  int* entry(const Eigen::Vector3i& cell);  // null beyond kMostBricks
   void spread(float reach_m);
   void offer(const Eigen::Vector3i& cell, int surfel, float squared_reach, std::vector<Eigen::Vector3i>& changed);
   [[nodiscard]] float squared_distance(const Eigen::Vector3i& cell, int surfel) const;

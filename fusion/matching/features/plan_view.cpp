@@ -7,42 +7,56 @@
 namespace cairn::matching {
 namespace {
 
-constexpr int kMostColumns = 512;   // along an edge
-constexpr float kFullWall = 16;     // surfels in a column
-constexpr float kFullRoomM = 0.8F;  // height that was observed free
-constexpr float kUnclear = 0.5F;    // weight of a surfel that is neither upright nor level
-constexpr int kDegrees = 180, kBlur = 3;
-constexpr double kOneDegree = M_PI / 180;
+// All of these are chosen by hand, not tuned.
+
+// In a column, for a mass of 1: two surfels wide and 1.6 m high.
+constexpr float kFullWall_surfels = 16;
+// Height of a column that was observed free, for an openness of 1.
+constexpr float kFullRoom_m = 0.8F;
+constexpr float kUnclearWeight = 0.5F;  // of a surfel that is neither upright nor level, as a wall
+constexpr float kRim_columns = 1.5F;    // around the surfels
+constexpr int kRims_columns = 4;        // both rims, rounded up
+constexpr int kDegrees = 180;           // of the half circle of directions
+constexpr int kBlur_deg = 3;            // half width of the triangle that smooths the directions
+constexpr double kDegree_rad = M_PI / 180;
+constexpr float kFar_m = 1e9F;  // beyond every map
 
 }  // namespace
 
 PlanView::PlanView(std::span<const Surfel> surfels, const SemanticOcTree& map) {
   lay_out(surfels);
-  std::vector<Walls> walls(slot({0, size_.y()}));
-  for (const Surfel& s : surfels) {
-    if (is_level(s)) continue;
-    Walls& w = walls[slot(cell_of(s.point.head<2>()))];
-    const float weight = is_upright(s) ? 1 : kUnclear;
-    w.count += weight;
-    w.at += weight * s.point.head<2>();
-    if (s.oriented && is_upright(s)) w.facing += s.normal.head<2>().normalized();
-  }
+  std::vector<Walls> walls = walls_of(surfels);
   if (map.getRoot() != nullptr)
     add_room(map.getRoot(), Eigen::Vector3i::Constant(-kKeyOrigin), 2 * kKeyOrigin, map, walls);
   for (int y = 0; y < size_.y(); ++y)
-    for (int x = 0; x < size_.x(); ++x) {
-      const Walls& w = walls[slot({x, y})];
-      Column c;
-      c.mass = std::sqrt(std::min(1.0F, w.count / kFullWall));
-      c.at = w.count > 0 ? Eigen::Vector2f(w.at / w.count)
-                         : Eigen::Vector2f(corner_ + cell_m_ * Eigen::Vector2f(float(x) + 0.5F, float(y) + 0.5F));
-      if (w.count > 0) c.facing = c.mass / w.count * w.facing;
-      if (w.count < 1) c.open = std::min(1.0F, w.room_m3 / (kFullRoomM * cell_m_ * cell_m_));
-      if (c.mass > 0 || c.open > 0) columns_.push_back(c);
-    }
+    for (int x = 0; x < size_.x(); ++x)
+      if (const Column c = column_of(walls[slot({x, y})], x, y); c.mass > 0 || c.open > 0) columns_.push_back(c);
   stack_heights(surfels);
   look_around(surfels);
   measure();
+}
+
+std::vector<PlanView::Walls> PlanView::walls_of(std::span<const Surfel> surfels) const {
+  std::vector<Walls> walls(slot({0, size_.y()}));
+  for (const Surfel& s : surfels) {
+    if (s.level()) continue;
+    Walls& w = walls[slot(cell_of(s.point.head<2>()))];
+    const float weight = s.upright() ? 1 : kUnclearWeight;
+    w.count += weight;
+    w.at += weight * s.point.head<2>();
+    if (s.oriented && s.upright()) w.facing += s.normal.head<2>().normalized();
+  }
+  return walls;
+}
+
+PlanView::Column PlanView::column_of(const Walls& w, int x, int y) const {
+  Column c;
+  c.mass = std::sqrt(std::min(1.0F, w.count / kFullWall_surfels));
+  c.at = w.count > 0 ? Eigen::Vector2f(w.at / w.count)
+                     : Eigen::Vector2f(corner_ + cell_m_ * Eigen::Vector2f(float(x) + 0.5F, float(y) + 0.5F));
+  if (w.count > 0) c.facing = c.mass / w.count * w.facing;
+  if (w.count < 1) c.open = std::min(1.0F, w.room_m3 / (kFullRoom_m * cell_m_ * cell_m_));
+  return c;
 }
 
 void PlanView::lay_out(std::span<const Surfel> surfels) {
@@ -52,12 +66,12 @@ void PlanView::lay_out(std::span<const Surfel> surfels) {
     low = low.cwiseMin(s.point.head<2>());
     high = high.cwiseMax(s.point.head<2>());
   }
-  cell_m_ = std::max(cell_m_, (high - low).maxCoeff() / (kMostColumns - 4));
-  corner_ = low - Eigen::Vector2f::Constant(1.5F * cell_m_);
+  cell_m_ = std::max(cell_m_, (high - low).maxCoeff() / (kMost_columns - kRims_columns));
+  corner_ = low - Eigen::Vector2f::Constant(kRim_columns * cell_m_);
   size_ = cell_of(high) + Eigen::Vector2i::Constant(2);
 }
 
-/// What was observed free, in m³, added to the columns it lies in.
+/// Adds the space that was observed free, in m³, to the columns in which it lies.
 // NOLINTNEXTLINE(misc-no-recursion): as deep as the tree
 void PlanView::add_room(const SemanticNode* node, const Eigen::Vector3i& first, int edge, const SemanticOcTree& map,
                         std::vector<Walls>& walls) const {
@@ -89,7 +103,7 @@ void PlanView::stack_heights(std::span<const Surfel> surfels) {
   for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
   heights_.resize(surfels.size());
   std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
-  for (const Surfel& s : surfels) heights_[next[slot(cell_of(s.point.head<2>()))]++] = {s.point.z(), is_level(s)};
+  for (const Surfel& s : surfels) heights_[next[slot(cell_of(s.point.head<2>()))]++] = {s.point.z(), s.level()};
 }
 
 std::span<const PlanView::Height> PlanView::heights(const Eigen::Vector2f& at) const {
@@ -102,22 +116,22 @@ std::span<const PlanView::Height> PlanView::heights(const Eigen::Vector2f& at) c
 void PlanView::look_around(std::span<const Surfel> surfels) {
   std::vector<float> counts(kDegrees, 0.0F);
   for (const Surfel& s : surfels) {
-    if (!is_upright(s)) continue;
+    if (!s.upright()) continue;
     const double degrees =
-        std::atan2(static_cast<double>(s.normal.y()), static_cast<double>(s.normal.x())) / kOneDegree;
+        std::atan2(static_cast<double>(s.normal.y()), static_cast<double>(s.normal.x())) / kDegree_rad;
     counts[static_cast<std::size_t>(static_cast<int>(std::floor(degrees)) + 2 * kDegrees) % kDegrees] += 1;
   }
   directions_.assign(kDegrees, 0.0F);
   for (int i = 0; i < kDegrees; ++i)
-    for (int d = -kBlur; d <= kBlur; ++d)
-      directions_[static_cast<std::size_t>(i)] +=
-          counts[static_cast<std::size_t>((i + d + kDegrees) % kDegrees)] * static_cast<float>(kBlur + 1 - std::abs(d));
+    for (int d = -kBlur_deg; d <= kBlur_deg; ++d)
+      directions_[static_cast<std::size_t>(i)] += counts[static_cast<std::size_t>((i + d + kDegrees) % kDegrees)] *
+                                                  static_cast<float>(kBlur_deg + 1 - std::abs(d));
 }
 
 void PlanView::measure() {
   Eigen::Vector2f sum = Eigen::Vector2f::Zero();
   float mass = 0;
-  low_ = Eigen::Vector2f::Constant(1e9F);
+  low_ = Eigen::Vector2f::Constant(kFar_m);
   high_ = -low_;
   for (const Column& c : columns_) {
     if (c.mass == 0) continue;

@@ -11,31 +11,42 @@
 
 namespace cairn::matching {
 
-/// A map seen from above, in columns of 0.4 m (more, where it spreads over more than 512² of them): where walls stand,
-/// which way they face, where there is room. Gravity is along z of the map.
+/// A map seen from above, in columns: where walls stand, which way they face, and where there is
+/// room. Gravity must be along z of the map. All lengths are in m, in the map's frame.
 class PlanView {
  public:
+  /// Edge of a column, m. It grows where the map spreads over more than kMost_columns of them.
+  /// A prototype with 0.4 m and 3° of heading found the truth in 62 % of 60 pairs of maps.
+  /// With 0.25 m and 2° it found 65 % in twice the time.
+  static constexpr float kColumn_m = 0.4F;
+  /// Columns along an edge, at most. A bound on memory and time.
+  static constexpr int kMost_columns = 512;
+
   struct Column {
-    Eigen::Vector2f at;                                ///< m; middle of the walls, or of the column
-    float mass = 0;                                    ///< of walls, 0…1
-    Eigen::Vector2f facing = Eigen::Vector2f::Zero();  ///< their mean normal towards free space, times the mass
-    float open = 0;                                    ///< observed free and no wall, 0…1
+    Eigen::Vector2f at;  ///< m; middle of the walls, or of the column
+    float mass = 0;      ///< of walls, 0…1
+    /// Mean normal towards free space, times the mass.
+    Eigen::Vector2f facing = Eigen::Vector2f::Zero();
+    float open = 0;  ///< observed free and no wall, 0…1
   };
   struct Height {
-    float z;
-    bool level;  ///< a floor, a ceiling, a table
+    float z;     ///< m
+    bool level;  ///< of a floor, a ceiling or a table
   };
 
-  /// `surfels`: fine ones, facing free space where it is known which way that is.
+  /// `surfels`: the fine ones, with facing_free_space() applied.
   PlanView(std::span<const Surfel> surfels, const SemanticOcTree& map);
 
-  /// Those with walls or room, row by row.
+  /// The columns with walls or room, row by row.
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
-  [[nodiscard]] const Eigen::Vector2f& low() const { return low_; }  ///< of the walls, m
+  /// Corners of the box around the walls, m.
+  [[nodiscard]] const Eigen::Vector2f& low() const { return low_; }
   [[nodiscard]] const Eigen::Vector2f& high() const { return high_; }
+  /// Mean place of the walls, m.
   [[nodiscard]] const Eigen::Vector2f& middle() const { return middle_; }
-  [[nodiscard]] float radius() const { return radius_; }  ///< of the walls about the middle, m
-  /// Of the surfels in the column at a place.
+  /// Largest distance of a wall from the middle, m.
+  [[nodiscard]] float radius() const { return radius_; }
+  /// The heights of the surfels in the column at a place (m); empty outside of the plan.
   [[nodiscard]] std::span<const Height> heights(const Eigen::Vector2f& at) const;
   /// How many upright surfels face along each degree of the half circle, smoothed.
   [[nodiscard]] const std::vector<float>& directions() const { return directions_; }
@@ -49,6 +60,8 @@ class PlanView {
   void stack_heights(std::span<const Surfel> surfels);
   void add_room(const SemanticNode* node, const Eigen::Vector3i& first, int edge, const SemanticOcTree& map,
                 std::vector<Walls>& walls) const;
+  [[nodiscard]] std::vector<Walls> walls_of(std::span<const Surfel> surfels) const;
+  [[nodiscard]] Column column_of(const Walls& walls, int x, int y) const;
   void look_around(std::span<const Surfel> surfels);
   void measure();
   [[nodiscard]] Eigen::Vector2i cell_of(const Eigen::Vector2f& at) const {
@@ -59,7 +72,7 @@ class PlanView {
            static_cast<std::size_t>(cell.x());
   }
 
-  float cell_m_ = 0.4F;
+  float cell_m_ = kColumn_m;
   Eigen::Vector2f corner_ = Eigen::Vector2f::Zero();
   Eigen::Vector2i size_ = Eigen::Vector2i::Ones();
   std::vector<Column> columns_;
@@ -69,9 +82,5 @@ class PlanView {
   Eigen::Vector2f low_ = Eigen::Vector2f::Zero(), high_ = low_, middle_ = low_;
   float radius_ = 0;
 };
-
-/// Upright, level or neither; a surface that is not flat is neither.
-[[nodiscard]] inline bool is_upright(const Surfel& s) { return std::abs(s.normal.z()) < 0.4F && !s.normal.isZero(); }
-[[nodiscard]] inline bool is_level(const Surfel& s) { return std::abs(s.normal.z()) > 0.85F; }
 
 }  // namespace cairn::matching

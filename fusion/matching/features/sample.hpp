@@ -9,11 +9,12 @@
 
 namespace cairn::matching {
 
-/// At most `n` of the items, in their order: a fixed pseudo-random choice, because a fixed stride would fall into step
-/// with the grid.
+/// At most `n` of the items, in their order. The choice is pseudo-random and always the same.
+/// A fixed stride would fall into step with the grid.
 template <class Item>
 [[nodiscard]] std::vector<Item> sample(std::span<const Item> items, std::size_t n) {
-  std::mt19937 random(1);
+  constexpr unsigned kSeed = 1;
+  std::mt19937 random(kSeed);
   std::vector<Item> chosen;
   chosen.reserve(std::min(n, items.size()));
   // Selection sampling (Knuth, The Art of Computer Programming 2, algorithm 3.4.2S).

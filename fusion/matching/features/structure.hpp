@@ -8,7 +8,7 @@
 
 namespace cairn::matching {
 
-/// Those of the surfels that are structure; see Surfel::structure().
+/// The surfels that are structure, in their order; see Surfel::structure().
 [[nodiscard]] std::vector<Surfel> structure_of(std::span<const Surfel> surfels);
 
 }  // namespace cairn::matching

@@ -7,8 +7,11 @@
 namespace cairn::matching {
 namespace {
 
-constexpr int kTileVoxels = 1 << TileKey::kVoxelBits;
-constexpr int kMinVoxels = 5;  // in 27 cells, for a normal
+constexpr int kTile_voxels = 1 << TileKey::kVoxelBits;  // edge of a tile
+// Added to the spread's diagonal, in squared cells: keeps the eigenvalues of exact planes apart
+// from zero. Chosen by hand, not tuned.
+constexpr float kLeastSpread_cells2 = 1e-6F;
+constexpr float kUniformVariance = 12;  // a uniform distribution of width d has variance d²/12
 
 int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
@@ -21,8 +24,9 @@ void for_27(const Visit& visit) {
 
 }  // namespace
 
-SurfelGrid::SurfelGrid(int voxels_per_cell, float resolution_m)
+SurfelGrid::SurfelGrid(int voxels_per_cell, float resolution_m, int min_voxels)
     : voxels_per_cell_(voxels_per_cell),
+      min_voxels_(min_voxels),
       resolution_m_(resolution_m),
       cell_m_(static_cast<float>(voxels_per_cell) * resolution_m) {}
 
@@ -46,7 +50,7 @@ void SurfelGrid::clear_tile(TileKey tile) {
   Eigen::Vector3i first;
   for (unsigned axis = 0; axis < 3; ++axis)
     first[axis] = floor_div(static_cast<int>(tile.first_voxel(axis)) - kKeyOrigin, voxels_per_cell_);
-  const int edge = kTileVoxels / voxels_per_cell_;
+  const int edge = kTile_voxels / voxels_per_cell_;
   for (int x = 0; x < edge; ++x)
     for (int y = 0; y < edge; ++y)
       for (int z = 0; z < edge; ++z) {
@@ -107,16 +111,17 @@ Surfel SurfelGrid::fit(const Cell& cell) const {
     count += other.count;
   });
   const auto own = static_cast<float>(cell.count);
-  Surfel s{centre(cell) + cell.sum / own, Eigen::Vector3f::Zero(), 1.0F / 3.0F, cell.occupancy / own};
-  if (count < kMinVoxels) return s;
+  Surfel s{.point = centre(cell) + cell.sum / own, .variation = 1.0F / 3.0F, .occupancy = cell.occupancy / own};
+  if (count < min_voxels_) return s;
   const Eigen::Vector3f mean = sum / static_cast<float>(count);
   const Eigen::Matrix3f spread = squares / static_cast<float>(count) - mean * mean.transpose() +
-                                 1e-6F * cell_m_ * cell_m_ * Eigen::Matrix3f::Identity();
+                                 kLeastSpread_cells2 * cell_m_ * cell_m_ * Eigen::Matrix3f::Identity();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
   solver.computeDirect(spread);
   s.normal = solver.eigenvectors().col(0);
   s.variation = std::max(solver.eigenvalues()[0], 0.0F) / solver.eigenvalues().sum();
-  const float of_one_face = resolution_m_ * resolution_m_ / 12;  // the variance within a layer of voxels
+  // Within a layer of voxels.
+  const float of_one_face = resolution_m_ * resolution_m_ / kUniformVariance;
   s.half_thickness = std::sqrt(std::max(solver.eigenvalues()[0] - of_one_face, 0.0F));
   // The staircase of voxels along a slanted wall is an artefact of the grid.
   if (s.flat()) s.point -= s.normal * s.normal.dot(s.point - (centre(cell) + mean));

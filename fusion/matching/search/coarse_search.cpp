@@ -5,15 +5,20 @@
 #include <cmath>
 #include <limits>
 
+#include "fusion/matching/search/same_place.hpp"
+
 namespace cairn::matching {
 namespace {
 
-constexpr float kReachCells = 2.5F;    // of the field around a point, in σ; σ is one cell
-constexpr double kApartM = 0.8;        // modes nearer than this …
-constexpr double kApartRad = 0.0698;   // … and this are one
-constexpr double kMaxHeadings = 1000;  // any more would be finer than the cells of any map
+// Of the field around a point: beyond, it is below 0.05. By hand, not tuned.
+constexpr float kReach_sigmas = 2.5F;
+constexpr int kReach_cells = 3;          // the same, rounded up; σ is one cell
+constexpr int kMargin_cells = 3;         // around the points, for kReach_cells
+constexpr double kMaxHeadings = 1000;    // a finer step would move no point of any map by a cell
+constexpr double kRounding = 1e-9;       // of a quotient that should be whole
+constexpr float kFarthest_cells = 1e8F;  // what converts to an int safely
 
-int steps(double half_width, double step) { return static_cast<int>(std::ceil(half_width / step - 1e-9)); }
+int steps(double half_width, double step) { return static_cast<int>(std::ceil(half_width / step - kRounding)); }
 
 /// Scores of all poses of the window.
 struct Volume {
@@ -30,7 +35,7 @@ struct Volume {
 };
 
 struct Shift {
-  int yaw, x, y, z;
+  int yaw = 0, x = 0, y = 0, z = 0;
 };
 
 SE3 pose(const SE3& initial, const Volume& v, const Shift& s, double cell_m) {
@@ -58,17 +63,17 @@ void add_heading(const LikelihoodField& field, std::span<const Eigen::Vector3f> 
   const Eigen::Vector3i low(v.xy, v.xy, -v.z), high = field.size() - low;
   for (const Eigen::Vector3f& p : points) {
     const Eigen::Vector3f q = R * p + t;
-    if (q.hasNaN() || !((q / field.cell_m()).cwiseAbs().maxCoeff() < 1e8F)) continue;
+    if (q.hasNaN() || !((q / field.cell_m()).cwiseAbs().maxCoeff() < kFarthest_cells)) continue;
     const Eigen::Vector3i cell = field.cell(q);
     if ((cell.array() < low.array()).any() || (cell.array() >= high.array()).any()) continue;
     add_rows(field, cell, v, sums);
   }
 }
 
-/// Neighbours of a mode are the same mode.
+/// Takes a mode's neighbours out of the volume: the box of whole steps that same_place() spans.
 void blank(Volume& v, const Shift& at, double cell_m) {
-  const int yaw = std::max(1, static_cast<int>(std::lround(kApartRad / v.yaw_step)));
-  const int xy = std::max(1, static_cast<int>(std::lround(kApartM / cell_m)));
+  const int yaw = std::max(1, static_cast<int>(std::lround(kSamePlace_rad / v.yaw_step)));
+  const int xy = std::max(1, static_cast<int>(std::lround(kSamePlace_m / cell_m)));
   const int turn = static_cast<int>(std::lround(2 * M_PI / v.yaw_step));
   for (int a = -v.yaw; a <= v.yaw; ++a) {
     const int apart = std::abs(a - at.yaw);
@@ -84,8 +89,10 @@ Shift shift_of(const Volume& v, std::size_t i) {
   const auto plane = static_cast<std::size_t>(v.edge()) * static_cast<std::size_t>(v.edge());
   const auto in_heading = i % v.plane();
   const auto in_plane = static_cast<int>(in_heading % plane);
-  return {static_cast<int>(i / v.plane()) - v.yaw, in_plane % v.edge() - v.xy, in_plane / v.edge() - v.xy,
-          static_cast<int>(in_heading / plane) - v.z};
+  return {.yaw = static_cast<int>(i / v.plane()) - v.yaw,
+          .x = in_plane % v.edge() - v.xy,
+          .y = in_plane / v.edge() - v.xy,
+          .z = static_cast<int>(in_heading / plane) - v.z};
 }
 
 }  // namespace
@@ -93,7 +100,7 @@ Shift shift_of(const Volume& v, std::size_t i) {
 LikelihoodField::LikelihoodField(std::span<const Eigen::Vector3f> points, float cell_m, const SearchWindow& window)
     : cell_m_(cell_m) {
   lay_out(points, window);
-  const float unreached = kReachCells * kReachCells;
+  const float unreached = kReach_sigmas * kReach_sigmas;
   values_.assign(index(0, 0, size_.z()), unreached);
   for (const Eigen::Vector3f& p : points) splat(p);
   for (float& v : values_) v = v < unreached ? std::exp(-0.5F * v) : 0.0F;
@@ -109,7 +116,7 @@ void LikelihoodField::lay_out(std::span<const Eigen::Vector3f> points, const Sea
   for (;; cell_m_ *= 2) {
     const int xy = steps(window.xy_m, static_cast<double>(cell_m_)),
               z = steps(window.z_m, static_cast<double>(cell_m_));
-    margin_ = Eigen::Vector3i(2 * xy + 3, 2 * xy + 3, z + 3);
+    margin_ = Eigen::Vector3i(2 * xy + kMargin_cells, 2 * xy + kMargin_cells, z + kMargin_cells);
     first_ = (low / cell_m_).array().floor().cast<int>().matrix() - margin_;
     size_ = (high / cell_m_).array().floor().cast<int>().matrix() - first_ + margin_ + Eigen::Vector3i::Ones();
     if (size_.cast<double>().prod() <= kMaxCells) return;
@@ -119,14 +126,13 @@ void LikelihoodField::lay_out(std::span<const Eigen::Vector3f> points, const Sea
 void LikelihoodField::splat(const Eigen::Vector3f& point) {
   const Eigen::Vector3f scaled = point / cell_m_;
   const Eigen::Vector3i home = scaled.array().floor().cast<int>();
-  constexpr int kReach = 3;
-  for (int z = -kReach; z <= kReach; ++z)
-    for (int y = -kReach; y <= kReach; ++y) {
-      const Eigen::Vector3i start = home + Eigen::Vector3i(-kReach, y, z) - first_;
+  for (int z = -kReach_cells; z <= kReach_cells; ++z)
+    for (int y = -kReach_cells; y <= kReach_cells; ++y) {
+      const Eigen::Vector3i start = home + Eigen::Vector3i(-kReach_cells, y, z) - first_;
       float* row = values_.data() + index(start.x(), start.y(), start.z());
-      const Eigen::Vector3f d = (home + Eigen::Vector3i(-kReach, y, z)).cast<float>() - scaled;
+      const Eigen::Vector3f d = (home + Eigen::Vector3i(-kReach_cells, y, z)).cast<float>() - scaled;
       const float yz = (d.y() + 0.5F) * (d.y() + 0.5F) + (d.z() + 0.5F) * (d.z() + 0.5F);
-      for (int x = 0; x <= 2 * kReach; ++x) {
+      for (int x = 0; x <= 2 * kReach_cells; ++x) {
         const float dx = d.x() + 0.5F + static_cast<float>(x);
         row[x] = std::min(row[x], dx * dx + yz);
       }
@@ -138,10 +144,14 @@ std::vector<Mode> search(const LikelihoodField& field, std::span<const Eigen::Ve
   const auto cell_m = static_cast<double>(field.cell_m());
   const double yaw_step = std::max(window.yaw_step_rad, 2 * M_PI / kMaxHeadings);
   const double yaw = std::min(window.yaw_rad, M_PI);
-  Volume v{steps(yaw, yaw_step), steps(window.xy_m, cell_m), steps(window.z_m, cell_m), yaw_step, {}};
+  Volume v{.yaw = steps(yaw, yaw_step),
+           .xy = steps(window.xy_m, cell_m),
+           .z = steps(window.z_m, cell_m),
+           .yaw_step = yaw_step,
+           .scores = {}};
   v.scores.assign(static_cast<std::size_t>(2 * v.yaw + 1) * v.plane(), 0.0F);
   for (int a = -v.yaw; a <= v.yaw; ++a)
-    add_heading(field, points, pose(initial, v, {a, 0, 0, 0}, cell_m), v, v.heading(a));
+    add_heading(field, points, pose(initial, v, {.yaw = a}, cell_m), v, v.heading(a));
   std::vector<Mode> best;
   const double n = std::max<double>(1, static_cast<double>(points.size()));
   while (best.size() < static_cast<std::size_t>(modes)) {

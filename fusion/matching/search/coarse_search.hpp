@@ -10,11 +10,15 @@
 
 namespace cairn::matching {
 
-/// Poses around an initial one: moved by up to so much along x, y and z of the target's frame, and turned about the
-/// source's own z axis.
+/// The poses around an initial one that a search covers: moved along x, y and z of the target's
+/// frame, and turned about the source's z axis. PriorModes makes it from a prior.
 struct SearchWindow {
-  double xy_m = 2.4, z_m = 0, yaw_rad = 0.32;  ///< half widths
-  double yaw_step_rad = 0.026;                 ///< 1.5°
+  /// Half width along x and along y, m: the protocol's 2 m and a fifth more.
+  double xy_m = 2.4;
+  double z_m = 0;         ///< half width along z, m; 0: the height is known
+  double yaw_rad = 0.32;  ///< half width of the heading, rad: the protocol's 15° and a fifth more
+  /// Step of the heading, rad: 1.5°, which moves a point 10 m away by less than a cell.
+  double yaw_step_rad = 0.026;
 };
 
 /// A local maximum of the coarse score.
@@ -23,13 +27,16 @@ struct Mode {
   double score;  ///< mean of the field over the source's points, 0…1
 };
 
-/// exp(−d²/2σ²) of the distance d to the nearest point, sampled in cubic cells: how likely a surface is to be seen
-/// there. The cells grow, if they must, until the field fits into memory, whatever the map claims.
+/// How likely a surface is seen at a place: exp(−d²/2σ²) of the distance d to the nearest point,
+/// with σ of one cell. It is sampled in cubic cells. The cells grow until the field fits into
+/// memory.
 class LikelihoodField {
  public:
+  /// Cells of the field, at most: 80 MB. A bound on memory, whatever the map claims.
   static constexpr double kMaxCells = 2e7;
 
-  /// With a margin that a shift of the window never leaves.
+  /// `points` of the target, `cell_m` in m. The margin is so wide that no shift of the window
+  /// leaves it.
   LikelihoodField(std::span<const Eigen::Vector3f> points, float cell_m, const SearchWindow& window);
 
   [[nodiscard]] float cell_m() const { return cell_m_; }
@@ -56,9 +63,10 @@ class LikelihoodField {
   std::vector<float> values_;  // squared distances in cells while it is made
 };
 
-/// The `modes` best poses of the window that are more than 0.8 m or 4° apart, best first. Exhaustive (Olson's
-/// correlative scan matching in three dimensions): for each heading the points' rows of cells are added up, which
-/// gives all shifts at once. `points`: a few thousand of the source's, m. At least one mode, for any input.
+/// The `modes` best poses of the window that are different places (see same_place()), best first.
+/// The search is exhaustive: Olson's correlative scan matching (ICRA 2009), in three dimensions.
+/// For each heading, the points' rows of cells are added up, which gives all shifts at once.
+/// `points`: a few thousand of the source's, m. Gives at least one mode, for any input.
 [[nodiscard]] std::vector<Mode> search(const LikelihoodField& field, std::span<const Eigen::Vector3f> points,
                                        const SE3& initial, const SearchWindow& window, int modes);
 

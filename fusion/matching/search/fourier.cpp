@@ -7,7 +7,8 @@
 namespace cairn::matching {
 namespace {
 
-/// Row 2jm + k and the next but m of `to` from rows jm + k and lm further of `from`, l·m being half of the rows.
+/// Row 2jm + k and the next but m of `to` from rows jm + k and lm further of `from`, l·m being half
+/// of the rows.
 void butterfly(const ComplexImage& from, ComplexImage& to, int in, int half, int out, int m, double angle) {
   const auto re = static_cast<float>(std::cos(angle)), im = static_cast<float>(std::sin(angle));
   to.re.row(out) = from.re.row(in) + from.re.row(in + half);
@@ -27,9 +28,9 @@ void transform_columns(ComplexImage& image, ComplexImage& other) {
   }
 }
 
-/// In squares that fit into the cache.
+/// Square by square, so that each fits into the cache.
 void transpose(ComplexImage& image, ComplexImage& other) {
-  constexpr int kSquare = 16;
+  constexpr int kSquare = 16;  // pixels: a row of floats is one cache line of 64 bytes
   const int n = image.edge();
   for (int y = 0; y < n; y += kSquare)
     for (int x = 0; x < n; x += kSquare) {

@@ -5,7 +5,7 @@
 
 namespace cairn::matching {
 
-/// A square of complex numbers, real and imaginary parts apart, row by row.
+/// A square of complex numbers, row by row, with real and imaginary parts apart.
 struct ComplexImage {
   using Plane = Eigen::Array<float, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 
@@ -15,9 +15,10 @@ struct ComplexImage {
   Plane re, im;
 };
 
-/// The discrete Fourier transform in two dimensions, unnormalised: the spectrum lies transposed, at (kx, ky), and
-/// inverse_fourier() takes it back to edge² times the image. The edge is a power of two. Butterflies are taken of whole
-/// rows at once (Stockham's ordering), so that every operation is a long vector's.
+/// The discrete Fourier transform in two dimensions, in place and unnormalised. The edge must be a
+/// power of two. The spectrum lies transposed, at (kx, ky). inverse_fourier() gives edge² times the
+/// image. Whole rows are combined at once (Stockham's ordering), so that the compiler can
+/// vectorise.
 void fourier(ComplexImage& image);
 void inverse_fourier(ComplexImage& spectrum);
 

@@ -7,44 +7,47 @@
 #include <cmath>
 
 #include "fusion/matching/search/fourier.hpp"
+#include "fusion/matching/search/same_place.hpp"
 
 namespace cairn::matching {
 namespace {
 
-constexpr int kHeadings = 120;
-constexpr float kPixelM = 0.4F, kLargestPixelM = 0.5F;
-constexpr int kSmallestImage = 64, kLargestImage = 256;
-constexpr double kAlike = 0.4;  // of the best agreement of directions, for a heading to be tried
-constexpr float kFacing = 1;    // weight of facing walls against the walls alone
-/// Clutter is seen less repeatably than walls, so that outdoors free space must count less than indoors.
-constexpr std::array kRoomWeights{0.16F, 0.7F};
-constexpr std::size_t kPeaksPerHeading = 10;
-constexpr double kPlacesApartM = 0.8, kPlacesApartRad = 0.079;
+// A wider one asks for a larger image, while there is one. By hand, not tuned.
+constexpr float kWidestPixel_m = 0.5F;
+// Edges; powers of two, for fourier().
+constexpr int kSmallestImage_px = 64, kLargestImage_px = 256;
+// Of an image, for dab() and the drawing's offset.
+constexpr int kRim_px = 4;
+// Weight of the directions that walls face, against that of the walls alone. From a prototype,
+// which had both at 1.
+constexpr float kFacingWeight = 1;
+constexpr std::size_t kCircle_deg = 360;
 
 /// How well the directions of walls agree under each heading.
-std::vector<double> agreement(const PlanView& a, const PlanView& b) {
+std::vector<double> agreement(const PlanView& a, const PlanView& b, std::size_t headings) {
   const auto n = a.directions().size();
-  std::vector<double> all(kHeadings, 0.0);
+  std::vector<double> all(headings, 0.0);
   for (std::size_t k = 0; k < all.size(); ++k)
     for (std::size_t i = 0; i < n; ++i)
-      all[k] += static_cast<double>(a.directions()[(i + k * 360 / kHeadings) % n] * b.directions()[i]);
+      all[k] += static_cast<double>(a.directions()[(i + k * kCircle_deg / headings) % n] * b.directions()[i]);
   return all;
 }
 
-/// Where a plan is drawn: a's own place, or b's turned about its middle.
+/// The image on which a plan is drawn: a in its own place, or b turned about its middle.
 struct Canvas {
   float pixel_m;
   int edge;
 };
 
-Canvas canvas_of(const PlanView& a, const PlanView& b) {
+Canvas canvas_of(const PlanView& a, const PlanView& b, float pixel_m) {
   const float extent = (a.high() - a.low()).maxCoeff() + 2 * b.radius();
-  Canvas c{kPixelM, kSmallestImage};
-  while (c.edge < kLargestImage && extent > kLargestPixelM * static_cast<float>(c.edge - 4)) c.edge *= 2;
-  c.pixel_m = std::max(c.pixel_m, extent / static_cast<float>(c.edge - 4));
+  Canvas c{pixel_m, kSmallestImage_px};
+  while (c.edge < kLargestImage_px && extent > kWidestPixel_m * static_cast<float>(c.edge - kRim_px)) c.edge *= 2;
+  c.pixel_m = std::max(c.pixel_m, extent / static_cast<float>(c.edge - kRim_px));
   return c;
 }
 
+/// Adds `value` to the four pixels around `at`, by how near they are.
 void dab(ComplexImage::Plane& plane, const Eigen::Vector2f& at, float value) {
   const int x = static_cast<int>(at.x()), y = static_cast<int>(at.y());
   const float u = at.x() - static_cast<float>(x), v = at.y() - static_cast<float>(y);
@@ -55,7 +58,8 @@ void dab(ComplexImage::Plane& plane, const Eigen::Vector2f& at, float value) {
   plane(y + 1, x + 1) += value * u * v;
 }
 
-/// The spectrum of the same image mirrored in space and conjugated: what a real image does not change.
+/// The spectrum of the same image mirrored in space and conjugated: what a real image does not
+/// change.
 ComplexImage mirrored(const ComplexImage& s) {
   const int n = s.edge();
   ComplexImage out(n);
@@ -77,7 +81,7 @@ struct Drawing {
   ComplexImage facing;  // of x + i y
 };
 
-/// Two real images have shared one transform, as real and imaginary part.
+/// Parts the spectrum of two real images that shared one transform, as real and imaginary part.
 void part(ComplexImage& both, ComplexImage& second) {
   const ComplexImage m = mirrored(both);
   second.re = 0.5F * (both.im - m.im);
@@ -112,15 +116,16 @@ void add_product(const ComplexImage& a, const ComplexImage& b, ComplexImage& sum
   sum.im += a.im * b.re - a.re * b.im;
 }
 
-/// Spectrum whose real part, in space, is how well walls and the ways they face agree for each shift of b, and whose
-/// imaginary part is how much of either map's walls then stands in the other's room.
+/// Spectrum whose real part, in space, is how well walls and the ways they face agree for each
+/// shift of b, and whose imaginary part is how much of either map's walls then stands in the
+/// other's room.
 ComplexImage correlation(const Drawing& a, const Drawing& b) {
   const int n = a.walls.edge();
   ComplexImage agree(n), clash(n), faces(n);
   add_product(a.facing, b.facing, faces);
   const ComplexImage m = mirrored(faces);  // the real part of a complex correlation is what counts
-  agree.re = 0.5F * kFacing * (faces.re + m.re);
-  agree.im = 0.5F * kFacing * (faces.im + m.im);
+  agree.re = 0.5F * kFacingWeight * (faces.re + m.re);
+  agree.im = 0.5F * kFacingWeight * (faces.im + m.im);
   add_product(a.walls, b.walls, agree);
   add_product(a.walls, b.room, clash);
   add_product(a.room, b.walls, clash);
@@ -135,32 +140,33 @@ struct Peak {
 };
 
 /// The highest local maxima of an image that continues at its opposite edges.
-std::vector<Peak> peaks_of(const ComplexImage::Plane& image) {
+std::vector<Peak> peaks_of(const ComplexImage::Plane& image, std::size_t most) {
   const int n = static_cast<int>(image.rows());
   std::vector<Peak> best;
   const auto higher = [](const Peak& p, const Peak& q) { return p.score > q.score; };
   for (int y = 0; y < n; ++y)
     for (int x = 0; x < n; ++x) {
       const float score = image(y, x);
-      if (score <= 0 || (best.size() == kPeaksPerHeading && score <= best.back().score)) continue;
+      if (score <= 0 || (best.size() == most && score <= best.back().score)) continue;
       bool top = true;
       for (int k = 0; k < 9 && top; ++k) top = image((y + k / 3 - 1 + n) % n, (x + k % 3 - 1 + n) % n) <= score;
       if (!top) continue;
-      const Peak p{score, x, y};
+      const Peak p{.score = score, .x = x, .y = y};
       best.insert(std::upper_bound(best.begin(), best.end(), p, higher), p);
-      if (best.size() > kPeaksPerHeading) best.pop_back();
+      if (best.size() > most) best.pop_back();
     }
   return best;
 }
 
+/// The best `most` placements that are different places.
 std::vector<Placement> apart(std::vector<Placement> all, std::size_t most) {
   std::stable_sort(all.begin(), all.end(), [](const auto& p, const auto& q) { return p.score > q.score; });
   std::vector<Placement> kept;
   for (const Placement& p : all) {
     if (kept.size() == most) break;
     const bool near = std::any_of(kept.begin(), kept.end(), [&](const Placement& k) {
-      return std::hypot(p.x_m - k.x_m, p.y_m - k.y_m) < kPlacesApartM &&
-             std::abs(std::remainder(p.yaw_rad - k.yaw_rad, 2 * M_PI)) < kPlacesApartRad;
+      return same_place(std::hypot(p.x_m - k.x_m, p.y_m - k.y_m),
+                        std::abs(std::remainder(p.yaw_rad - k.yaw_rad, 2 * M_PI)));
     });
     if (!near) kept.push_back(p);
   }
@@ -169,17 +175,17 @@ std::vector<Placement> apart(std::vector<Placement> all, std::size_t most) {
 
 }  // namespace
 
-std::vector<Placement> sweep(const PlanView& a, const PlanView& b, std::size_t most, Budget& budget) {
-  const Canvas canvas = canvas_of(a, b);
+std::vector<Placement> sweep(const PlanView& a, const PlanView& b, const GlobalSearchConfig& config, Budget& budget) {
+  const Canvas canvas = canvas_of(a, b, config.pixel_m);
   const Eigen::Vector2f corner_b = Eigen::Vector2f::Constant(-b.radius());
   const Drawing of_a = draw(a, canvas, Eigen::Rotation2Df(0), Eigen::Vector2f::Zero(), a.low());
-  const std::vector<double> alike = agreement(a, b);
-  const double least = kAlike * *std::max_element(alike.begin(), alike.end());
-  std::array<std::vector<Placement>, kRoomWeights.size()> found;
-  for (int k = 0; k < kHeadings; ++k) {
+  const std::vector<double> alike = agreement(a, b, static_cast<std::size_t>(config.headings));
+  const double least = config.least_agreement * *std::max_element(alike.begin(), alike.end());
+  std::array<std::vector<Placement>, std::tuple_size_v<decltype(config.room_weights)>> found;
+  for (int k = 0; k < config.headings; ++k) {
     if (alike[static_cast<std::size_t>(k)] < least) continue;
     if (!budget.one_more()) break;
-    const double yaw = 2 * M_PI * k / kHeadings;
+    const double yaw = 2 * M_PI * k / config.headings;
     ComplexImage c =
         correlation(of_a, draw(b, canvas, Eigen::Rotation2Df(static_cast<float>(yaw)), b.middle(), corner_b));
     inverse_fourier(c);
@@ -188,75 +194,17 @@ std::vector<Placement> sweep(const PlanView& a, const PlanView& b, std::size_t m
       const int wrapped = shift > furthest ? shift - canvas.edge : shift;
       return static_cast<double>(low + b.radius() + canvas.pixel_m * static_cast<float>(wrapped));
     };
-    for (std::size_t w = 0; w < kRoomWeights.size(); ++w)
-      for (const Peak& p : peaks_of(c.re - kRoomWeights[w] * c.im))
-        found[w].push_back({yaw, metres(p.x, a.low().x()), metres(p.y, a.low().y()), p.score});
+    for (std::size_t w = 0; w < found.size(); ++w)
+      for (const Peak& p : peaks_of(c.re - config.room_weights[w] * c.im, config.peaks_per_heading))
+        found[w].push_back(
+            {.yaw_rad = yaw, .x_m = metres(p.x, a.low().x()), .y_m = metres(p.y, a.low().y()), .score = p.score});
   }
-  for (auto& of_weight : found) of_weight = apart(std::move(of_weight), most / kRoomWeights.size());
+  for (auto& of_weight : found) of_weight = apart(std::move(of_weight), config.placements / found.size());
   std::vector<Placement> all;
-  for (std::size_t i = 0; i < most; ++i)
+  for (std::size_t i = 0; i < config.placements; ++i)
     for (const auto& of_weight : found)
       if (i < of_weight.size()) all.push_back(of_weight[i]);
   return all;
-}
-
-namespace {
-
-constexpr float kBinM = 0.15F, kHighestM = 6;
-constexpr int kBins = 2 * static_cast<int>(kHighestM / kBinM) + 1;
-constexpr float kUprightVote = 0.25F;  // walls say little about height
-
-/// Votes for b's height in a.
-std::array<float, kBins> votes(const Placement& p, const PlanView& a, const PlanView& b,
-                               std::span<const Surfel> sample) {
-  std::array<float, kBins> all{};
-  const Eigen::Rotation2Df turn(static_cast<float>(p.yaw_rad));
-  const Eigen::Vector2f at(static_cast<float>(p.x_m), static_cast<float>(p.y_m));
-  for (const Surfel& s : sample) {
-    const bool level = is_level(s);
-    for (const PlanView::Height& h : a.heights(turn * (s.point.head<2>() - b.middle()) + at)) {
-      if (h.level != level) continue;
-      const float bin = (h.z - s.point.z() + kHighestM) / kBinM;
-      if (!(bin >= 0 && bin < kBins - 1)) continue;
-      const auto i = static_cast<std::size_t>(bin);
-      const float part = bin - static_cast<float>(i), weight = level ? 1 : kUprightVote;
-      all[i] += weight * (1 - part);
-      all[i + 1] += weight * part;
-    }
-  }
-  return all;
-}
-
-/// The two best, b's height in a.
-std::vector<double> heights_of(std::array<float, kBins> all) {
-  std::vector<double> best;
-  for (int k = 0; k < 2; ++k) {
-    const auto top = std::max_element(all.begin(), all.end());
-    if (*top <= 0) break;
-    const auto i = static_cast<int>(top - all.begin());
-    float sum = 0, moment = 0;
-    for (int j = std::max(0, i - 1); j <= std::min(kBins - 1, i + 1); ++j) {
-      sum += all[static_cast<std::size_t>(j)];
-      moment += all[static_cast<std::size_t>(j)] * static_cast<float>(j);
-    }
-    best.push_back(static_cast<double>(moment / sum * kBinM - kHighestM));
-    for (int j = std::max(0, i - 2); j <= std::min(kBins - 1, i + 2); ++j) all[static_cast<std::size_t>(j)] = 0;
-  }
-  return best;
-}
-
-}  // namespace
-
-std::vector<SE3> stand_up(std::span<const Placement> placements, const PlanView& a, const PlanView& b,
-                          std::span<const Surfel> sample) {
-  std::vector<SE3> poses;
-  for (const Placement& p : placements) {
-    const Eigen::Quaterniond turn(Eigen::AngleAxisd(p.yaw_rad, Eigen::Vector3d::UnitZ()));
-    const Eigen::Vector3d middle(static_cast<double>(b.middle().x()), static_cast<double>(b.middle().y()), 0);
-    for (const double z : heights_of(votes(p, a, b, sample)))
-      poses.emplace_back(turn, Eigen::Vector3d(p.x_m, p.y_m, z) - turn * middle);
-  }
-  return poses;
 }
 
 }  // namespace cairn::matching

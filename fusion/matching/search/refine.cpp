@@ -8,10 +8,13 @@
 namespace cairn::matching {
 namespace {
 
-constexpr float kThin = 0.999F;  // 1 less the variance along a normal over that across it
-constexpr int kMinPairs = 20;
-constexpr float kClutter = 0.1F;  // weight of a pair without a plane
-constexpr float kLevel = 0.85F;
+// 1 less the variance along a normal over that across it, as in generalised ICP (Segal et al., RSS
+// 2009: 0.001).
+constexpr float kThin = 0.999F;
+// Weight of a pair without a plane, which errs by three times as much. Chosen by hand, not tuned.
+constexpr float kClutterWeight = 0.1F;
+// On the diagonal of H: keeps a direction that no pair holds invertible.
+constexpr double kDamping = 1e-6;
 
 using Matrix36f = Eigen::Matrix<float, 3, 6>;
 using Matrix6f = Eigen::Matrix<float, 6, 6>;
@@ -42,14 +45,12 @@ float credit(float cost, float robust_m) {
 
 }  // namespace
 
-bool level(const Surfel& target, const Surfel& source) {
-  return std::abs(target.normal.z()) > kLevel && std::abs(source.normal.z()) > kLevel;
-}
+bool level(const Surfel& target, const Surfel& source) { return target.level() && source.level(); }
 
 float weight(const Surfel& target, const Surfel& source) {
   const auto height_variance = [](const Surfel& s) { return 1 - kThin * s.normal.z() * s.normal.z(); };
   if (level(target, source)) return 2 * (1 - kThin) / (height_variance(target) + height_variance(source));
-  return target.flat() && source.flat() ? 1 : kClutter;
+  return target.flat() && source.flat() ? 1 : kClutterWeight;
 }
 
 NormalEquations plane_to_plane(std::span<const Surfel> target, const NearestGrid& nearest,
@@ -83,14 +84,14 @@ NormalEquations plane_to_plane(std::span<const Surfel> target, const NearestGrid
 
 Refinement refine(std::span<const Surfel> target, const NearestGrid& nearest, std::span<const Surfel> source,
                   const SE3& initial, const RefineOptions& options, Budget& budget) {
-  Refinement out{initial, 0, 0};
+  Refinement out{.T_target_source = initial};
   float gate = options.gate_m;
   while (out.iterations < options.max_iterations && budget.one_more()) {
     const NormalEquations sum = plane_to_plane(target, nearest, source, out.T_target_source, gate, options.robust_m);
     ++out.iterations;
     out.pairs = sum.pairs;
-    if (sum.pairs < kMinPairs) break;
-    const Vector6 step = (sum.H + 1e-6 * Matrix6::Identity()).ldlt().solve(-sum.g);
+    if (sum.pairs < options.min_pairs) break;
+    const Vector6 step = (sum.H + kDamping * Matrix6::Identity()).ldlt().solve(-sum.g);
     if (!step.allFinite()) break;
     out.T_target_source = out.T_target_source * SE3::exp(step);
     const bool shrunk = gate <= options.last_gate_m;

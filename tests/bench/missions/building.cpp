@@ -19,9 +19,10 @@ using simulator::Placement;
 using simulator::Random;
 namespace scenes = simulator::scenes;
 
-constexpr double kHeight = 3, kDoor = 1.2;
+constexpr double kHeight_m = 3, kDoor_m = 1.2;  // of the floor, and the width of a door
 
-/// A room, its door side along its own x axis: x from 0 to width, y from 0 at the door wall to depth.
+/// A room, its door side along its own x axis: x from 0 to width, y from 0 at the door wall to
+/// depth.
 struct Room {
   double width, depth, door;
   std::uint64_t furniture;
@@ -50,7 +51,7 @@ void build_room(Mesh& mesh, const Placement& corner, const Room& room) {
     const Placement p = corner.at(x, y);
     return Vector2d(p.x, p.y);
   };
-  const scenes::Opening door[] = {{room.door, kDoor}};
+  const scenes::Opening door[] = {{room.door, kDoor_m}};
   scenes::wall(mesh, {at(0, 0), at(room.width, 0)}, door);
   scenes::wall(mesh, {at(0, 0), at(0, room.depth)});
   furnish(mesh, corner, room);
@@ -117,7 +118,7 @@ void clutter(Mesh& mesh, const Plan& plan, Random& random, int pieces) {
 void shell(simulator::World& world, const Plan& plan) {
   const double l = plan.length, w = plan.width;
   world.mesh.quad({0, 0, 0}, {l, 0, 0}, {l, w, 0}, {0, w, 0}, Material::kCarpet);
-  world.mesh.quad({0, 0, kHeight}, {l, 0, kHeight}, {l, w, kHeight}, {0, w, kHeight}, Material::kCeiling);
+  world.mesh.quad({0, 0, kHeight_m}, {l, 0, kHeight_m}, {l, w, kHeight_m}, {0, w, kHeight_m}, Material::kCeiling);
   const Vector2d corners[] = {{0, 0}, {l, 0}, {l, w}, {0, w}, {0, 0}};
   for (int i = 0; i < 4; ++i) scenes::wall(world.mesh, {corners[i], corners[i + 1]});
 }
@@ -173,7 +174,7 @@ simulator::World make_building(Copies copies, std::uint64_t seed) {
   shell(world, plan);
   corridor_places(world, plan);
   world.name = copies == Copies::kNone ? "rooms" : copies == Copies::kRooms ? "copied" : "turned";
-  world.inner_size = {plan.length, plan.width, kHeight};
+  world.inner_size = {plan.length, plan.width, kHeight_m};
   world.ground = [](double, double) { return 0.0; };
   world.bounds = world.mesh.bounds();
   return world;

@@ -10,9 +10,13 @@
 namespace cairn::missions {
 namespace {
 
-constexpr double kSensorHeight = 0.73, kNoiseM = 0.02, kLost = 0.01;
-constexpr int kRings = 16, kDirections = 900;
-constexpr std::uint64_t kFrameStream = 21, kNoiseStream = 22;
+// A Velodyne VLP-16 on a small robot.
+// Noise: standard deviation of a range.
+constexpr double kSensorHeight_m = 0.73, kNoise_m = 0.02;
+constexpr double kLost = 0.01;                                 // share of the ranges
+constexpr int kRings = 16, kDirections = 900;                  // of a scan
+constexpr double kNearest_m = 0.5, kFarthest_m = 60;           // range of the tracer
+constexpr std::uint64_t kFrameStream = 21, kNoiseStream = 22;  // of the random numbers
 
 simulator::Path stops_along(const simulator::Path& path, double every) {
   simulator::Path stops{path.front()};
@@ -29,7 +33,7 @@ simulator::Path stops_along(const simulator::Path& path, double every) {
 MappingConfig mapping(double resolution_m) {
   MappingConfig config;
   config.resolution_m = resolution_m;
-  config.max_range_m = Explorer::kRangeM;
+  config.max_range_m = Explorer::kRange_m;
   return config;
 }
 
@@ -45,15 +49,15 @@ SE3 lean(simulator::Random& random, double most_deg) {
 
 Site::Site(simulator::World w) : world(std::move(w)), plan(world), tracer(*simulator::Tracer::build(world.mesh)) {}
 
-Explorer::Explorer(const Site& site, std::uint64_t seed, double metres, double resolution_m, double lean_deg)
+Explorer::Explorer(const Site& site, std::uint64_t seed, double drive_m, double resolution_m, double lean_deg)
     : site_(site),
       seed_(seed),
       resolution_m_(resolution_m),
       workers_(1),
       mapper_(std::make_unique<Mapper>(mapping(resolution_m), workers_)) {
   const simulator::RoutePlanner planner(site.world, site.plan, seed);
-  const auto paths = planner.plan(1, metres);
-  if (paths) stops_ = stops_along(paths->front(), kStopM);
+  const auto paths = planner.plan(1, drive_m);
+  if (paths) stops_ = stops_along(paths->front(), kStop_m);
   simulator::Random random(seed, kFrameStream);
   Vector6 frame;
   frame << random.uniform(-10, 10), random.uniform(-10, 10), random.uniform(-0.5, 0.5), 0, 0,
@@ -78,7 +82,7 @@ void Explorer::advance(int scans) {
 }
 
 void Explorer::scan_at(const Eigen::Vector2d& at) {
-  const Eigen::Vector3d origin(at.x(), at.y(), site_.world.ground(at.x(), at.y()) + kSensorHeight);
+  const Eigen::Vector3d origin(at.x(), at.y(), site_.world.ground(at.x(), at.y()) + kSensorHeight_m);
   simulator::Random random(seed_, kNoiseStream, next_);
   const double first = random.uniform(0, 2 * std::numbers::pi);
   std::vector<Eigen::Vector3f> points;
@@ -87,9 +91,9 @@ void Explorer::scan_at(const Eigen::Vector2d& at) {
       const double azimuth = first + 2 * std::numbers::pi * k / kDirections,
                    up = (2.0 * ring - 15) * std::numbers::pi / 180;
       const Eigen::Vector3d ahead(std::cos(up) * std::cos(azimuth), std::cos(up) * std::sin(azimuth), std::sin(up));
-      const auto hit = site_.tracer.trace({origin, ahead}, 0.5, 60);
+      const auto hit = site_.tracer.trace({origin, ahead}, kNearest_m, kFarthest_m);
       if (!hit || random.uniform() < kLost) continue;
-      const double range = hit->distance + kNoiseM * random.normal_pair().first;
+      const double range = hit->distance + kNoise_m * random.normal_pair().first;
       const Eigen::Vector3d point = T_map_world_ * (origin + range * ahead);
       points.push_back(point.cast<float>());
     }

@@ -13,7 +13,7 @@
 
 namespace cairn::missions {
 
-/// A world with what a robot needs in order to drive in it and to see it.
+/// A world, with the plan for a robot that drives in it and the tracer for one that sees it.
 struct Site {
   explicit Site(simulator::World w);
 
@@ -22,25 +22,29 @@ struct Site {
   simulator::Tracer tracer;
 };
 
-/// A robot that roams a site and maps it: every 1.5 m it stops for a scan of sixteen lasers, 2 cm of noise on each
-/// range; its poses are exact. Its map's frame is turned and moved at random, and leans: a robot does not know gravity
-/// exactly, and floors that lie along a grid flatter who tells heights and leans.
+/// A robot that roams a site and maps it. Every 1.5 m it stops for a scan of sixteen lasers, with 2
+/// cm of noise on each range. Its poses are exact. Its map's frame is turned and moved at random,
+/// and leans. A robot does not know gravity exactly, and errors in height are too small for floors
+/// that lie along a grid.
 class Explorer {
  public:
-  static constexpr double kStopM = 1.5, kRangeM = 12, kLeanDeg = 0.5;
+  static constexpr double kStop_m = 1.5;    ///< between two scans
+  static constexpr double kRange_m = 12;    ///< of what is mapped
+  static constexpr double kLean_deg = 0.5;  ///< of the map's frame, at most
 
-  /// `site` must outlive it. `metres` is how far it drives, `lean_deg` by how much its frame leans at most, about a
-  /// level axis; from 90 on about any.
-  Explorer(const Site& site, std::uint64_t seed, double metres, double resolution_m = 0.1, double lean_deg = kLeanDeg);
+  /// `site` must outlive it. `drive_m`: how far it drives. `lean_deg`: how much its frame leans, at
+  /// most, about a level axis; from 90 on about any axis.
+  Explorer(const Site& site, std::uint64_t seed, double drive_m, double resolution_m = 0.1,
+           double lean_deg = kLean_deg);
 
   /// The next `scans` stops.
   void advance(int scans);
   [[nodiscard]] const matching::MapFeatures& features() const { return *features_; }
   [[nodiscard]] const SE3& T_map_world() const { return T_map_world_; }
-  /// Where it last took a scan, in the world.
+  /// Where it last took a scan, in the world (m).
   [[nodiscard]] Eigen::Vector2d at() const { return stops_[next_ == 0 ? 0 : next_ - 1]; }
-  /// From now on another map, empty and in the same frame, and the robot takes its pose to be wrong by `slip` in that
-  /// frame. Gives the map until now.
+  /// Gives the map until now and begins an empty one in the same frame. From now on the robot's
+  /// pose is wrong by `slip` in that frame.
   std::unique_ptr<SemanticOcTree> next_map(const SE3& slip);
 
  private:

@@ -12,7 +12,7 @@
 namespace cairn::matching {
 namespace {
 
-SE3 leaning(double roll, double pitch, double yaw) {
+SE3 leaning_frame(double roll, double pitch, double yaw) {
   Vector6 v;
   v << 0.037, -0.021, 0.03, roll, pitch, yaw;
   return SE3::from_xyz_rpy(v);
@@ -23,8 +23,10 @@ support::MapPair leaning_pair(const support::Scene& scene, const SE3& turn_a, co
   const support::Stretch of_a{0, 2.2, 14}, of_b{1.0, 3.2, 14};
   const SE3 T_a_world = turn_a * support::pose_on(scene.ride, of_a.from).inverse(),
             T_b_world = turn_b * support::pose_on(scene.ride, of_b.from).inverse();
-  return {scene.name, support::stretch_map(scene, of_a, T_a_world, 3, 0.1, 10),
-          support::stretch_map(scene, of_b, T_b_world, 4, 0.1, 10), T_a_world * T_b_world.inverse()};
+  return {.name = scene.name,
+          .a = support::stretch_map(scene, of_a, T_a_world, 3, 0.1, 10),
+          .b = support::stretch_map(scene, of_b, T_b_world, 4, 0.1, 10),
+          .T_a_b = T_a_world * T_b_world.inverse()};
 }
 
 struct Lean {
@@ -49,13 +51,13 @@ TEST_P(Tilted, IsFoundInAllSixDegreesOfFreedom) {
   EXPECT_GT(result->probability_correct, 0.5) << result->reason;
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, Tilted,
-                         testing::Values(Lean{"lobby", support::lobby(), leaning(0, 0, 0.7), leaning(0.6, -0.4, 2)},
-                                         Lean{"office", support::office(), leaning(-0.5, 0.3, 1),
-                                              leaning(0.4, 1.1, -2)},
-                                         Lean{"upside_down", support::office(), leaning(0.2, 0, 0.7),
-                                              leaning(std::numbers::pi - 0.3, 0.1, 1)}),
-                         [](const auto& lean) { return lean.param.name; });
+INSTANTIATE_TEST_SUITE_P(
+    Scenes, Tilted,
+    testing::Values(Lean{"lobby", support::lobby(), leaning_frame(0, 0, 0.7), leaning_frame(0.6, -0.4, 2)},
+                    Lean{"office", support::office(), leaning_frame(-0.5, 0.3, 1), leaning_frame(0.4, 1.1, -2)},
+                    Lean{"upside_down", support::office(), leaning_frame(0.2, 0, 0.7),
+                         leaning_frame(std::numbers::pi - 0.3, 0.1, 1)}),
+    [](const auto& lean) { return lean.param.name; });
 
 TEST(Tilted, OfMapsWithNothingInThemSaysSo) {
   const SemanticOcTree empty(0.1);
@@ -69,7 +71,7 @@ TEST(Tilted, OfMapsWithNothingInThemSaysSo) {
 
 TEST(Levelling, TurnsTheFloorUpwards) {
   const support::Scene scene = support::office();
-  const SE3 turn = leaning(0.3, -0.5, 0.4);
+  const SE3 turn = leaning_frame(0.3, -0.5, 0.4);
   const SE3 T_map_world = turn * support::pose_on(scene.ride, 0).inverse();
   const auto map = support::stretch_map(scene, {0, 2.2, 10}, T_map_world, 5, 0.1, 10);
   const auto turns = levellings(MapFeatures::build(*map)->fine());

@@ -10,11 +10,11 @@
 namespace cairn::merging {
 namespace {
 
-float fold2(Policy policy, double p, double q) {
+float fold_of_two(Policy policy, double p, double q) {
   const std::vector<float> opinions{log_odds(p), log_odds(q)};
   return fold(policy, opinions, {});
 }
-double fused(Policy policy, double p, double q) { return probability(fold2(policy, p, q)); }
+double fused_probability(Policy policy, double p, double q) { return probability(fold_of_two(policy, p, q)); }
 
 TEST(RelativeEntropy, IsTheBooksFormula) {
   EXPECT_NEAR(relative_entropy(0.7, 0.7), 0, 1e-15);
@@ -24,24 +24,26 @@ TEST(RelativeEntropy, IsTheBooksFormula) {
 }
 
 TEST(Fold, RelativeEntropyAveragesWhatAgreesAndKeepsTheSurerOtherwise) {
-  EXPECT_NEAR(fused(Policy::kRelativeEntropy, 0.8, 0.7), 0.75, 1e-6);  // 0.026 nats
-  EXPECT_NEAR(fused(Policy::kRelativeEntropyWeighted, 0.8, 0.7), (0.64 + 0.49) / 1.5, 1e-6);
-  EXPECT_NEAR(fused(Policy::kRelativeEntropy, 0.95, 0.6), 0.95, 1e-6);  // 0.33 nats: the larger p, as in the book
-  EXPECT_NEAR(fused(Policy::kRelativeEntropy, 0.6, 0.95), 0.95, 1e-6);
-  EXPECT_NEAR(fused(Policy::kRelativeEntropy, 0.6, 0.12), 0.12, 1e-6);  // a sure free observation clears a ghost
-  EXPECT_NEAR(fused(Policy::kRelativeEntropy, 0.9, 0.1), 0.9, 1e-6);    // equally sure: occupied
+  EXPECT_NEAR(fused_probability(Policy::kRelativeEntropy, 0.8, 0.7), 0.75, 1e-6);  // 0.026 nats
+  EXPECT_NEAR(fused_probability(Policy::kRelativeEntropyWeighted, 0.8, 0.7), (0.64 + 0.49) / 1.5, 1e-6);
+  EXPECT_NEAR(fused_probability(Policy::kRelativeEntropy, 0.95, 0.6), 0.95,
+              1e-6);  // 0.33 nats: the larger p, as in the book
+  EXPECT_NEAR(fused_probability(Policy::kRelativeEntropy, 0.6, 0.95), 0.95, 1e-6);
+  EXPECT_NEAR(fused_probability(Policy::kRelativeEntropy, 0.6, 0.12), 0.12,
+              1e-6);  // a sure free observation clears a ghost
+  EXPECT_NEAR(fused_probability(Policy::kRelativeEntropy, 0.9, 0.1), 0.9, 1e-6);  // equally sure: occupied
 }
 
 TEST(Fold, BayesAddsLogOddsWithinTheLimits) {
-  EXPECT_NEAR(fold2(Policy::kBayes, 0.7, 0.6), std::log(7.0 / 3) + std::log(1.5), 1e-6);
-  EXPECT_EQ(fold2(Policy::kBayes, 0.97, 0.97), Limits{}.max);
-  EXPECT_EQ(fold2(Policy::kBayes, 0.12, 0.12), Limits{}.min);
-  EXPECT_NEAR(fold2(Policy::kBayes, 0.7, 0.3), 0, 1e-6);
+  EXPECT_NEAR(fold_of_two(Policy::kBayes, 0.7, 0.6), std::log(7.0 / 3) + std::log(1.5), 1e-6);
+  EXPECT_EQ(fold_of_two(Policy::kBayes, 0.97, 0.97), Limits{}.max);
+  EXPECT_EQ(fold_of_two(Policy::kBayes, 0.12, 0.12), Limits{}.min);
+  EXPECT_NEAR(fold_of_two(Policy::kBayes, 0.7, 0.3), 0, 1e-6);
 }
 
 TEST(Fold, AverageAndStitch) {
-  EXPECT_NEAR(fused(Policy::kAverage, 0.9, 0.2), 0.55, 1e-6);
-  EXPECT_NEAR(fused(Policy::kStitch, 0.6, 0.9), 0.6, 1e-6);
+  EXPECT_NEAR(fused_probability(Policy::kAverage, 0.9, 0.2), 0.55, 1e-6);
+  EXPECT_NEAR(fused_probability(Policy::kStitch, 0.6, 0.9), 0.6, 1e-6);
 }
 
 TEST(Fold, EqualOpinionsStayToTheBit) {

@@ -10,7 +10,7 @@
 namespace cairn::merging {
 namespace {
 
-UncertainPose pose() {
+UncertainPose uncertain_pose() {
   UncertainPose T;
   T.mean = SE3::exp((Vector6() << 1, -2, 0.5, 0.3, -0.2, 0.9).finished());
   Matrix6 A;
@@ -21,7 +21,7 @@ UncertainPose pose() {
 }
 
 TEST(Moved, IsTheCovarianceOfManyDraws) {
-  const UncertainPose T = pose();
+  const UncertainPose T = uncertain_pose();
   const Position x{{3, 1, -2}, Eigen::Vector3d(4e-4, 1e-4, 2e-4).asDiagonal()};
   const Position y = moved(T, x);
   const Matrix6 root = T.covariance.llt().matrixL();

@@ -28,7 +28,7 @@ Tiles random_tiles(unsigned seed, unsigned robots) {
   return tiles;
 }
 
-SE3 pose(double x, double y, double z, double yaw) {
+SE3 map_pose(double x, double y, double z, double yaw) {
   Vector6 v;
   v << x, y, z, 0.01, -0.02, yaw;
   return SE3::from_xyz_rpy(v);
@@ -38,7 +38,7 @@ SubmapPoses poses_of(const Tiles& tiles, double shift = 0) {
   SubmapPoses poses;
   for (const auto& [submap, _] : tiles)
     poses[submap] =
-        submap.robot == 1 ? SE3() : pose(0.33 * static_cast<double>(submap.robot) + shift, -0.41, 0.07, 0.7);
+        submap.robot == 1 ? SE3() : map_pose(0.33 * static_cast<double>(submap.robot) + shift, -0.41, 0.07, 0.7);
   return poses;
 }
 
@@ -280,7 +280,7 @@ TEST(TeamMap, PosesThatCannotBeDoNotTakePart) {
   const Tiles tiles = random_tiles(9, 2);
   SubmapPoses poses = poses_of(tiles);
   for (auto& [submap, T] : poses)
-    if (submap.robot == 2) T = pose(1e9, 0, 0, 0);
+    if (submap.robot == 2) T = map_pose(1e9, 0, 0, 0);
   Tiles first;
   first[{1, 0}] = tiles.at({1, 0});
   EXPECT_EQ(differing_nodes(fused(tiles, poses)->map(), fused(first, poses_of(first))->map()), 0U);

@@ -15,12 +15,12 @@ float value_at(const SemanticOcTree& map, const Eigen::Vector3i& key) {
   return node == nullptr ? SemanticNode::kAbsent : node->getLogOdds();
 }
 
-void set(SemanticOcTree& map, const Eigen::Vector3i& key, float log_odds) {
+void set_voxel(SemanticOcTree& map, const Eigen::Vector3i& key, float log_odds) {
   const auto part = [&](int axis) { return static_cast<octomap::key_type>(key[axis]); };
   map.setNodeValue(octomap::OcTreeKey(part(0), part(1), part(2)), log_odds);
 }
 
-int voxel(const Eigen::Vector3i& key) {
+int index_of(const Eigen::Vector3i& key) {
   return tile_index(0, key.x() & 7) + tile_index(1, key.y() & 7) + tile_index(2, key.z() & 7);
 }
 
@@ -40,7 +40,7 @@ TEST(TileVoxels, WhatIsWrittenIsThereInTheTreeAndIsReadAgain) {
     TileVoxels tile = random_voxels(random), read;
     if (round == 0) tile.fill(2.0F);
     SemanticOcTree map(0.1);
-    set(map, {32760, 32760, 32760}, 0);  // nodes down to the tile, which is then emptied
+    set_voxel(map, {32760, 32760, 32760}, 0);  // nodes down to the tile, which is then emptied
     SemanticNode* leaf = map.getRoot();
     bool made = false;
     for (int depth = 0; depth < 13; ++depth) leaf = map.writer(0).child(leaf, depth == 0 ? 0 : 7, made);
@@ -54,7 +54,7 @@ TEST(TileVoxels, WhatIsWrittenIsThereInTheTreeAndIsReadAgain) {
     EXPECT_EQ(map.size(), map.calcNumNodes());
     for (int i = 0; i < kTileVoxels; ++i) {
       const Eigen::Vector3i key(32760 + (i & 7), 32760 + (i >> 3 & 7), 32760 + (i >> 6));
-      ASSERT_EQ(value_at(map, key), tile.at(static_cast<std::size_t>(voxel(key))));
+      ASSERT_EQ(value_at(map, key), tile.at(static_cast<std::size_t>(index_of(key))));
     }
   }
 }
@@ -75,7 +75,7 @@ TEST(TileWindow, HoldsWhatTheTreeHasWhateverWasHeldBefore) {
   const std::array coordinates{0, 5, 32767, 32768, 32768 + 9, 32768 + 128, 32768 + 129, 65535};
   const auto any = [&] { return coordinates.at(random() % coordinates.size()); };
   SemanticOcTree map(0.1);
-  for (int i = 0; i < 200; ++i) set(map, {any(), any(), any()}, static_cast<float>(random() % 5) - 2.0F);
+  for (int i = 0; i < 200; ++i) set_voxel(map, {any(), any(), any()}, static_cast<float>(random() % 5) - 2.0F);
   TileWindow window(map.getRoot());
   for (int i = 0; i < 2000; ++i) {
     const Eigen::Vector3i key(any(), any(), any()), tile = key.array() / kTileEdge;

@@ -9,7 +9,7 @@
 namespace cairn::protocol {
 namespace {
 
-constexpr std::uint64_t kMaxBytes = 64U << 20U;
+constexpr std::uint64_t kMaxBytes = 64U << 20U;  // of a file of attempts: a bound on memory
 
 Json to_json(const Attempt& a) {
   Json json = {{"start", a.start},         {"T_a_b", pose_to_json(a.T_a_b)}, {"error_m", a.error.m},

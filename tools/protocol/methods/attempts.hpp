@@ -11,7 +11,7 @@
 
 namespace cairn::protocol {
 
-/// What became of one start.
+/// The result from one start.
 struct Attempt {
   int start = 0;  ///< number in starts()
   SE3 T_a_b;
@@ -25,12 +25,13 @@ struct Attempt {
 /// One method on one pair of maps.
 struct MethodRun {
   std::string method;
-  double preparation_s = 0;               ///< CPU time once for the pair
-  std::optional<double> correspondences;  ///< of a voxel of the sparse map, where the method has several
+  double preparation_s = 0;  ///< CPU time once for the pair
+  /// Of a voxel of the sparse map, where the method has several.
+  std::optional<double> correspondences;
   std::vector<Attempt> attempts;
 };
 
-/// A JSON file that keeps every number's bits. Errors: those of the disk; kMalformed.
+/// A JSON file. Numbers keep all their bits. Errors: those of the disk; kMalformed.
 [[nodiscard]] Result<void> save_runs(const std::vector<MethodRun>& runs, const std::filesystem::path& path);
 [[nodiscard]] Result<std::vector<MethodRun>> load_runs(const std::filesystem::path& path);
 

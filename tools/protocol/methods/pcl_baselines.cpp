@@ -26,11 +26,11 @@ namespace {
 using Cloud = pcl::PointCloud<pcl::PointXYZ>;
 using NormalCloud = pcl::PointCloud<pcl::PointNormal>;
 
-constexpr double kGateM = 2;
-constexpr int kIterations = 30;
-constexpr std::size_t kMostSources = 20'000;
-constexpr double kNormalRadiusM = 0.35;  // as our own point-to-plane ICP has it
-constexpr float kNdtCellM = 1;
+constexpr double kGateM = 2;                  // the book's search gate (section 4.6.3)
+constexpr int kIterations = 30;               // the book's (section 4.6.3)
+constexpr std::size_t kMostSources = 20'000;  // VoxelMatcher::kMostSources
+constexpr double kNormalRadiusM = 0.35;       // as our own point-to-plane ICP has it
+constexpr float kNdtCellM = 1;                // PCL's tutorial. Chosen by hand, not tuned
 
 /// PCL keeps the number of iterations to itself.
 template <class Registration>
@@ -79,7 +79,8 @@ MethodRun run(const MapPair& pair, std::string method, int count, const SetUp& s
   set_up(registration);
   registration.setMaxCorrespondenceDistance(kGateM);
   typename Registration::Moved moved;
-  registration.setMaximumIterations(1);  // fills what PCL prepares on first use and keeps: trees and covariances
+  // Fills what PCL prepares on first use and keeps: trees and covariances.
+  registration.setMaximumIterations(1);
   registration.align(moved, pair.T_a_b.matrix().cast<float>());
   registration.setMaximumIterations(kIterations);
   run.preparation_s = to_seconds(thread_cpu_time() - began);

@@ -10,18 +10,19 @@
 
 namespace cairn::protocol {
 
-/// Our methods that a kind of pair is matched with, in the order of the tables.
+/// Our methods for a kind of pair, in the order of the tables.
 [[nodiscard]] std::vector<std::string> our_methods(const MapPair& pair);
 
-/// A match takes them tenths of a second or less, so that they are run from all starts, whatever is asked of the
-/// others.
+/// A match takes them tenths of a second or less, so that they are run from all starts, whatever is
+/// asked of the others.
 [[nodiscard]] bool is_fast(std::string_view method);
 
 /// Matches a pair by one of our methods from chosen_starts(count). Errors: those of make_matcher().
 [[nodiscard]] Result<MethodRun> run_method(const MapPair& pair, const std::string& method, int count);
 
-/// Root of the mean squared distance from b's occupied voxels, where a pose puts them, to a's nearest one, over those
-/// that have one within kRmsGateM, m (Table 5.2's measure; the book does not give its gate).
+/// Root of the mean squared distance (m) from b's occupied voxels at a pose to a's nearest one.
+/// Voxels with none within kRmsGateM do not count. It is Table 5.2's measure; the book does not
+/// give its gate.
 class VoxelDistance {
  public:
   explicit VoxelDistance(const MapPair& pair);

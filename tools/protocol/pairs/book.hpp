@@ -8,8 +8,9 @@
 
 namespace cairn::protocol {
 
-/// Numbers of Yue & Wang, "Collaborative Perception, Localization and Mapping for Autonomous Systems" (Springer 2021),
-/// for comparison. What is not in the text that this project has is left out.
+/// Numbers of Yue & Wang, "Collaborative Perception, Localization and Mapping for Autonomous
+/// Systems" (Springer 2021), for comparison. Numbers that the text at hand does not have are left
+/// out.
 
 /// Mean errors (Table 4.3).
 struct BookError {

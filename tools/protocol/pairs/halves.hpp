@@ -14,9 +14,13 @@ struct HalvesOptions {
   double resolution_m = 0.1, dropped = 0.2;
 };
 
-/// One map cut in two along its longer side. Each half is a copy with faults of its own: a share of its occupied voxels
-/// is missing, the others are moved by up to half a voxel, probabilities are drawn from 0.7…0.97; free space is carried
-/// over. b has a frame, and so a grid, of its own. The pair's overlap and counts are not filled in.
+/// Cuts one map in two along its longer side. Each half is a copy with faults of its own:
+/// - a share of its occupied voxels is missing,
+/// - the others are moved by up to half a voxel,
+/// - their probabilities are drawn from 0.7…0.97.
+///
+/// Free space is carried over. b has a frame, and so a grid, of its own. The pair's overlap and
+/// counts are not filled in.
 [[nodiscard]] MapPair halves(const SemanticOcTree& whole, std::string name, const HalvesOptions& options);
 
 }  // namespace cairn::protocol

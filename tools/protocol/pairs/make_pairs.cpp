@@ -19,6 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
+// Of what is mapped. Chosen by hand, not tuned.
 constexpr double kLidarRangeM = 20, kDepthRangeM = 10;
 
 MappingConfig mapping(double range_m) {
@@ -28,8 +29,8 @@ MappingConfig mapping(double range_m) {
   return config;
 }
 
-/// Of a frame that begins where the robot begins, turned and lifted a little: no wall is to lie along the grid, and the
-/// floor inside of a layer of voxels rather than between two.
+/// Of a frame that begins where the robot begins, turned and lifted a little: no wall is to lie
+/// along the grid, and the floor inside of a layer of voxels rather than between two.
 SE3 T_map_world(const SE3& T_world_start, double yaw) {
   Vector6 turned;
   turned << 0.037, -0.021, 0.03, 0, 0, yaw;
@@ -80,7 +81,8 @@ Result<void> make_scene(const PairsOptions& options, const BookScene& book) {
   return {};
 }
 
-/// The depth camera has seen the place; the LiDAR has turned a few times at rest, is half way, has seen it all, too.
+/// The depth camera has seen the place; the LiDAR has turned a few times at rest, is half way, has
+/// seen it all, too.
 Result<void> make_heterogeneous(const PairsOptions& options) {
   const fs::path recording = options.recordings / "rgbd" / "robot_1";
   const auto a = made(recording, {recording::kDepth, 0, 3600, 2}, 0.7, kDepthRangeM);

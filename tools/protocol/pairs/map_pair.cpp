@@ -20,7 +20,7 @@ using matching::PointGrid;
 using matching::Voxel;
 using Points = std::vector<Eigen::Vector3f>;
 
-constexpr std::uint64_t kMaxJsonBytes = 1U << 20U;
+constexpr std::uint64_t kMaxJsonBytes = 1U << 20U;  // of pair.json: a bound on memory
 
 std::vector<Voxel> voxels_of(const SemanticOcTree& map) {
   return matching::occupied_voxels(map).value_or(std::vector<Voxel>());

@@ -12,10 +12,13 @@
 
 namespace cairn::protocol {
 
-/// What a pair of maps is for.
-inline constexpr const char* kScene = "scene";      ///< Tables 4.3 to 4.5: two robots, or two halves of a map
+// The purposes of pairs of maps.
+
+/// Tables 4.3 to 4.5: two robots, or two halves of a map.
+inline constexpr const char* kScene = "scene";
 inline constexpr const char* kOverlap = "overlap";  ///< the same, cut to less and less overlap
-inline constexpr const char* kHeterogeneous = "heterogeneous";  ///< Table 5.2: b by LiDAR, a by a depth camera
+/// Table 5.2: b by LiDAR, a by a depth camera.
+inline constexpr const char* kHeterogeneous = "heterogeneous";
 
 /// Two maps of one place and where b's frame lies in a's.
 struct MapPair {
@@ -26,7 +29,8 @@ struct MapPair {
   std::size_t voxels_a = 0, voxels_b = 0, edges_a = 0, edges_b = 0;
 };
 
-/// Centres of the occupied voxels, m, in depth-first order; none of a map beyond matching::kMaxVoxels.
+/// Centres of the occupied voxels, m, in depth-first order. Empty for a map beyond
+/// matching::kMaxVoxels.
 [[nodiscard]] std::vector<Eigen::Vector3f> occupied_centres(const SemanticOcTree& map);
 
 /// Fills in overlap and counts from the maps.
@@ -36,13 +40,13 @@ void measure(MapPair& pair);
 [[nodiscard]] Result<void> save_pair(const MapPair& pair, const std::filesystem::path& dir);
 [[nodiscard]] Result<MapPair> load_pair(const std::filesystem::path& dir);
 
-/// The book's ε (4.21) at a pose: the mean, over both maps, of the share of occupied voxels that have one of the other
-/// map within the diagonal of a voxel.
+/// The book's ε (4.21) at a pose: the mean, over both maps, of the share of occupied voxels that
+/// have one of the other map within the diagonal of a voxel.
 [[nodiscard]] double overlap_of(const SemanticOcTree& a, const SemanticOcTree& b, const SE3& T_a_b);
 
-/// Both maps cut across `along` (in frame a) so that their overlap becomes `overlap`, or stays as it is where it is
-/// less from the outset: a keeps what lies below one plane, b what lies above another, both at the same distance from
-/// the middle of what the maps have in common.
+/// Cuts both maps across `along` (in frame a) so that their overlap becomes `overlap`. A smaller
+/// overlap stays as it is. a keeps what lies below one plane, b what lies above another. Both
+/// planes have the same distance from the middle of the common part.
 [[nodiscard]] MapPair cut_to_overlap(const MapPair& whole, const Eigen::Vector3d& along, double overlap);
 
 }  // namespace cairn::protocol

@@ -12,7 +12,7 @@
 
 namespace cairn::protocol {
 
-/// What of a simulated recording becomes a map.
+/// The part of a simulated recording that becomes a map.
 struct Portion {
   std::string_view kind;           ///< of source: recording::kVelodyne or recording::kDepth
   double from_s = 0, to_s = 3600;  ///< since the recording's first true pose
@@ -22,10 +22,10 @@ struct Portion {
 /// T_world_base when the recording begins, from its ground_truth.tum.
 [[nodiscard]] Result<SE3> first_true_pose(const std::filesystem::path& recording);
 
-/// The map that Cairn's own decoders and mapper make of a recording whose poses are known exactly: every point is
-/// placed by where base_link truly was when it was measured. Odometry has no part in it, so that the errors of a match
-/// are the matcher's own. `T_map_world` says where the map's frame lies. Errors: those of the files; kNotFound without
-/// a source of the kind; kMalformed without ground truth.
+/// The map that Cairn's decoders and mapper make of a recording, with the true pose of base_link
+/// for each point. Odometry has no part in it, so that the errors of a match are the matcher's own.
+/// `T_map_world` says where the map's frame lies. Errors: those of the files; kNotFound without a
+/// source of the kind; kMalformed without ground truth.
 [[nodiscard]] Result<std::shared_ptr<SemanticOcTree>> map_of_recording(const std::filesystem::path& recording,
                                                                        const Portion& portion, const SE3& T_map_world,
                                                                        const MappingConfig& config);

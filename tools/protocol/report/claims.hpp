@@ -8,7 +8,7 @@
 
 namespace cairn::protocol {
 
-/// Something that is asked of Cairn, or that the book says, and what this run says to it.
+/// One claim of the book, or one goal of Cairn, and the figure of this run for it.
 struct Claim {
   std::string claim;
   std::string figures;  ///< by which it holds or does not
@@ -16,7 +16,7 @@ struct Claim {
   bool books = false;  ///< the book says so
 };
 
-/// Those for which the outcome has the runs.
+/// The claims for which the outcome has the runs.
 [[nodiscard]] std::vector<Claim> claims_of(const Outcome& outcome);
 
 }  // namespace cairn::protocol

@@ -7,8 +7,8 @@
 
 namespace cairn::protocol {
 
-/// What a method reached on one pair of maps. Means and medians are over all starts, as in the book's Table 4.3, unless
-/// they say otherwise; zeros without attempts.
+/// The figures of one method on one pair of maps. Means and medians are over all starts, as in the
+/// book's Table 4.3, unless they say otherwise; zeros without attempts.
 struct Figures {
   int starts = 0;
   double success = 0;  ///< share of the starts, 0…1
@@ -22,14 +22,16 @@ struct Figures {
 };
 [[nodiscard]] Figures figures_of(const std::vector<Attempt>& attempts);
 
-/// A box plot's numbers: quartiles by linear interpolation, whiskers to the farthest value within 1.5 box heights.
+/// A box plot's numbers: quartiles by linear interpolation, whiskers to the farthest value within
+/// 1.5 box heights.
 struct Box {
   double low = 0, lower = 0, median = 0, upper = 0, high = 0, mean = 0;
   std::vector<double> outliers;  ///< ascending
 };
 /// `values` must not be empty.
 [[nodiscard]] Box box_of(std::vector<double> values);
-/// The value below which a share `q` of the values lies, between neighbours linearly. `sorted` must not be empty.
+/// The value below which a share `q` of the values lies, between neighbours linearly. `sorted` must
+/// not be empty.
 [[nodiscard]] double quantile(const std::vector<double>& sorted, double q);
 
 /// Share of successes among the starts at each distance from the truth, nearest first.

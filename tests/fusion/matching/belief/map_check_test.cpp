@@ -10,8 +10,8 @@ namespace cairn::matching {
 namespace {
 
 /// Three submaps of one ride through the lobby; before the last one the pose slipped.
-struct Ride {
-  explicit Ride(const SE3& slip) {
+struct SlippedRide {
+  explicit SlippedRide(const SE3& slip) {
     const support::Scene lobby = support::lobby();
     const SE3 frame = SE3::from_xyz_rpy((Vector6() << 0.037, -0.021, 0.03, 0, 0, 0.7).finished());
     for (int i = 0; i < 3; ++i)
@@ -30,14 +30,14 @@ struct Ride {
 };
 
 TEST(MapCheck, WhatWasMadeWithSoundPosesIsConsistent) {
-  const auto pairs = Ride({}).check();
+  const auto pairs = SlippedRide({}).check();
   ASSERT_GE(pairs.size(), 2U);
   for (const SubmapPair& p : pairs) EXPECT_TRUE(p.consistent) << p.first << p.second << " chi2 " << p.chi2 << p.reason;
 }
 
 TEST(MapCheck, ASlipIsFoundAndSaidHowLarge) {
   const SE3 slip = SE3::from_xyz_rpy((Vector6() << 0.35, -0.2, 0, 0, 0, 0.02).finished());
-  const auto pairs = Ride(slip).check();
+  const auto pairs = SlippedRide(slip).check();
   int found = 0;
   for (const SubmapPair& p : pairs) {
     EXPECT_FALSE(p.reason.empty());
@@ -58,11 +58,11 @@ TEST(MapCheck, NothingInCommonAndNothingAtAllSayNothing) {
   Budget budget = Budget::steps(10);
   EXPECT_TRUE(check_submaps(two, budget).empty());
   EXPECT_TRUE(check_submaps({}, budget).empty());
-  const auto far = Ride(SE3::from_xyz_rpy((Vector6() << 500, 0, 0, 0, 0, 0).finished())).check();
+  const auto far = SlippedRide(SE3::from_xyz_rpy((Vector6() << 500, 0, 0, 0, 0, 0).finished())).check();
   for (const SubmapPair& p : far) EXPECT_EQ(p.second, 1U);
 }
 
-TEST(MapCheck, EachPairIsAStep) { EXPECT_LE(Ride({}).check(1).size(), 1U); }
+TEST(MapCheck, EachPairIsAStep) { EXPECT_LE(SlippedRide({}).check(1).size(), 1U); }
 
 }  // namespace
 }  // namespace cairn::matching

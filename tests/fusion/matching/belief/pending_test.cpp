@@ -5,10 +5,12 @@
 
 #include <algorithm>
 
+#include "tests/fusion/matching/planar_pose.hpp"
+
 namespace cairn::matching {
 namespace {
 
-SE3 at(double x, double yaw = 0) { return SE3::from_xyz_rpy((Vector6() << x, 1, 0, 0, 0, yaw).finished()); }
+SE3 at(double x, double yaw = 0) { return planar_pose(x, 1, yaw); }
 
 /// A look that agrees as well as the truth does, on so much ground.
 Look agreeing(const SE3& T, double ground_m2) {
@@ -71,7 +73,7 @@ TEST(Pending, AnAgreementThatIsAllButCertainCountsTwiceButNeverAlone) {
 }
 
 /// Both robots were put down to within so much.
-UncertainPose guess(const SE3& T, double sigma_m) {
+UncertainPose guess_at(const SE3& T, double sigma_m) {
   UncertainPose guess{T, 0.0025 * Matrix6::Identity()};
   guess.covariance.topLeftCorner<3, 3>() = sigma_m * sigma_m * Eigen::Matrix3d::Identity();
   return guess;
@@ -79,9 +81,10 @@ UncertainPose guess(const SE3& T, double sigma_m) {
 
 TEST(Pending, AGuessCountsForAndAgainst) {
   const std::vector<std::pair<std::optional<UncertainPose>, int>> cases{{std::nullopt, 3},
-                                                                        {guess(at(0.3), 0.5), 2},
-                                                                        {guess(at(0.3), 5), 3},  // says too little
-                                                                        {guess(at(6), 0.5), 4}};
+                                                                        {guess_at(at(0.3), 0.5), 2},
+                                                                        // Says too little.
+                                                                        {guess_at(at(0.3), 5), 3},
+                                                                        {guess_at(at(6), 0.5), 4}};
   for (const auto& [known, needed] : cases) {
     PendingHypotheses pending;
     for (int i = 1; i <= 5; ++i) {
@@ -93,9 +96,9 @@ TEST(Pending, AGuessCountsForAndAgainst) {
 
 TEST(Pending, ACertainLookAndAGuessDoNotDecideAlone) {
   PendingHypotheses pending;
-  pending.take({certain(at(0), 100)}, guess(at(0.3), 0.5));
+  pending.take({certain(at(0), 100)}, guess_at(at(0.3), 0.5));
   EXPECT_EQ(pending.accepted(), nullptr);
-  pending.take({agreeing(at(0), 200)}, guess(at(0.3), 0.5));
+  pending.take({agreeing(at(0), 200)}, guess_at(at(0.3), 0.5));
   EXPECT_NE(pending.accepted(), nullptr);
 }
 
@@ -103,7 +106,7 @@ TEST(Pending, AGuessDoesNotDecideBetweenPlacesThatAreEquallyGood) {
   for (const double where : {0.0, 7.0}) {
     PendingHypotheses pending;
     for (const double ground : {100.0, 200.0, 300.0, 400.0})
-      pending.take({agreeing(at(0), ground), agreeing(at(7), ground)}, guess(at(where), 0.3));
+      pending.take({agreeing(at(0), ground), agreeing(at(7), ground)}, guess_at(at(where), 0.3));
     EXPECT_EQ(pending.accepted(), nullptr) << "it may be wrong";
   }
 }
@@ -115,7 +118,7 @@ TEST(Pending, AGuessRulesOutALesserRival) {
   for (const bool guessed : {false, true}) {
     PendingHypotheses pending;
     for (const double ground : {100.0, 200.0, 300.0})
-      pending.take({agreeing(at(0), ground), rival}, guessed ? std::optional(guess(at(0), 0.3)) : std::nullopt);
+      pending.take({agreeing(at(0), ground), rival}, guessed ? std::optional(guess_at(at(0), 0.3)) : std::nullopt);
     EXPECT_EQ(pending.accepted() != nullptr, guessed);
   }
 }
@@ -207,6 +210,17 @@ TEST(Pending, TheOrderWithinARoundDoesNotMatter) {
       EXPECT_EQ(other.all()[i].standing, first.all()[i].standing);
     }
   } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST(Pending, SettingsSayHowOftenAndOnWhatGround) {
+  BeliefConfig twice, on_much_ground;
+  twice.agreements = 2;
+  on_much_ground.least_ground_m2 = 250;
+  for (const auto& [config, accepted] : {std::pair{BeliefConfig{}, false}, {twice, true}, {on_much_ground, false}}) {
+    PendingHypotheses pending(config);
+    for (const double ground : {100.0, 200.0}) pending.take({agreeing(at(0), ground)});
+    EXPECT_EQ(pending.accepted() != nullptr, accepted);
+  }
 }
 
 TEST(Pending, KeepsAFewAndForgetsTheOldest) {

@@ -7,17 +7,19 @@
 #include <numeric>
 #include <random>
 
+#include "tests/fusion/matching/planar_pose.hpp"
+
 namespace cairn::matching {
 namespace {
 
-SE3 pose(double x, double y, double yaw) { return SE3::from_xyz_rpy((Vector6() << x, y, 0, 0, 0, yaw).finished()); }
-
 /// Robots of a team, where they truly are.
-const std::vector<SE3> kTruth{pose(0, 0, 0), pose(10, 3, 0.5), pose(-4, 8, 2), pose(6, -9, -1.2)};
+const std::vector<SE3> kTruePoses{planar_pose(0, 0, 0), planar_pose(10, 3, 0.5), planar_pose(-4, 8, 2),
+                                  planar_pose(6, -9, -1.2)};
 
 Claim claim(int a, int b, double probability, const SE3& off = {}) {
-  const auto of = [](int i) { return kTruth[static_cast<std::size_t>(i)]; };
-  return {a, b, {of(a).inverse() * of(b) * off, 1e-4 * Matrix6::Identity()}, probability};
+  const auto of = [](int i) { return kTruePoses[static_cast<std::size_t>(i)]; };
+  return {
+      .a = a, .b = b, .T_a_b = {of(a).inverse() * of(b) * off, 1e-4 * Matrix6::Identity()}, .probability = probability};
 }
 
 TEST(TeamConsistency, ClaimsThatCloseAreKept) {
@@ -28,37 +30,41 @@ TEST(TeamConsistency, ClaimsThatCloseAreKept) {
 }
 
 TEST(TeamConsistency, AWrongOneIsOutvotedThoughItSeemsSurest) {
-  const SE3 wrong = pose(5, 0, 3.1);
+  const SE3 wrong = planar_pose(5, 0, 3.1);
   const std::vector<Claim> claims{claim(0, 1, 0.999, wrong), claim(0, 2, 0.9), claim(1, 2, 0.9),
                                   claim(0, 3, 0.9),          claim(1, 3, 0.9), claim(2, 3, 0.9)};
   EXPECT_EQ(agreement_of(claims).kept, (std::vector<bool>{false, true, true, true, true, true}));
 }
 
 TEST(TeamConsistency, OfTwoClaimsAboutOnePairTheOneThatClosesALoopIsKept) {
-  const std::vector<Claim> claims{claim(0, 1, 0.97, pose(7, 7, 1)), claim(0, 1, 0.93), claim(1, 2, 0.95),
+  const std::vector<Claim> claims{claim(0, 1, 0.97, planar_pose(7, 7, 1)), claim(0, 1, 0.93), claim(1, 2, 0.95),
                                   claim(0, 2, 0.95)};
   EXPECT_EQ(agreement_of(claims).kept, (std::vector<bool>{false, true, true, true}));
 }
 
 TEST(TeamConsistency, WithoutALoopTheLikelierOfAPairIsKeptAndWhatIsUnlikelyIsNot) {
-  const std::vector<Claim> claims{claim(0, 1, 0.8, pose(1, 0, 0)), claim(0, 1, 0.9), claim(1, 2, 0.3)};
+  const std::vector<Claim> claims{claim(0, 1, 0.8, planar_pose(1, 0, 0)), claim(0, 1, 0.9), claim(1, 2, 0.3)};
   EXPECT_EQ(agreement_of(claims).kept, (std::vector<bool>{false, true, false}));
 }
 
 TEST(TeamConsistency, LoopsMayBeLong) {
-  std::vector<Claim> claims{claim(0, 1, 0.9), claim(1, 2, 0.9), claim(2, 3, 0.9), claim(0, 3, 0.95, pose(2, 0, 0))};
+  std::vector<Claim> claims{claim(0, 1, 0.9), claim(1, 2, 0.9), claim(2, 3, 0.9),
+                            claim(0, 3, 0.95, planar_pose(2, 0, 0))};
   const Agreement broken = agreement_of(claims);
   EXPECT_EQ(std::count(broken.kept.begin(), broken.kept.end(), true), 3);
-  claims.back() = claim(0, 3, 0.95, pose(0.1, -0.1, 0.01));  // maps bend that much
+  claims.back() = claim(0, 3, 0.95, planar_pose(0.1, -0.1, 0.01));  // maps bend that much
   const Agreement closed = agreement_of(claims);
   EXPECT_EQ(std::count(closed.kept.begin(), closed.kept.end(), true), 4);
   EXPECT_EQ(closed.closed, std::vector<int>(4, 1));
 }
 
 TEST(TeamConsistency, OrderAndDirectionDoNotMatter) {
-  std::vector<Claim> claims{
-      claim(0, 1, 0.99, pose(3, 0, 0)), claim(0, 2, 0.91), claim(1, 2, 0.92), claim(0, 1, 0.93), claim(2, 3, 0.6),
-      claim(1, 3, 0.55, pose(0, 4, 0))};
+  std::vector<Claim> claims{claim(0, 1, 0.99, planar_pose(3, 0, 0)),
+                            claim(0, 2, 0.91),
+                            claim(1, 2, 0.92),
+                            claim(0, 1, 0.93),
+                            claim(2, 3, 0.6),
+                            claim(1, 3, 0.55, planar_pose(0, 4, 0))};
   const auto kept = agreement_of(claims).kept;
   std::vector<std::size_t> order(claims.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
@@ -79,7 +85,7 @@ TEST(TeamConsistency, OrderAndDirectionDoNotMatter) {
 TEST(TeamConsistency, NothingAndTooMuchAreFine) {
   EXPECT_TRUE(agreement_of({}).kept.empty());
   std::vector<Claim> many;
-  for (int i = 0; i < 60; ++i) many.push_back(claim(i % 4, (i + 1) % 4, 0.5 + 0.008 * i, pose(i, 0, 0)));
+  for (int i = 0; i < 60; ++i) many.push_back(claim(i % 4, (i + 1) % 4, 0.5 + 0.008 * i, planar_pose(i, 0, 0)));
   many.push_back({2, 2, {}, 0.999});  // a robot about itself
   const auto kept = agreement_of(many).kept;
   EXPECT_LE(std::count(kept.begin(), kept.end(), true), static_cast<std::ptrdiff_t>(kMostClaims));

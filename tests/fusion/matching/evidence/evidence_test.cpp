@@ -10,13 +10,14 @@
 #include "fusion/matching/evidence/match_covariance.hpp"
 #include "fusion/matching/features/map_features.hpp"
 #include "fusion/matching/matcher.hpp"
+#include "tests/fusion/matching/planar_pose.hpp"
 #include "tests/support/map_pairs.hpp"
 
 namespace cairn::matching {
 namespace {
 
-struct Pair {
-  explicit Pair(const support::Scene& scene, const support::Stretch& of_a, const support::Stretch& of_b)
+struct WeighedPair {
+  explicit WeighedPair(const support::Scene& scene, const support::Stretch& of_a, const support::Stretch& of_b)
       : maps(support::two_robots(scene, of_a, of_b, 5)),
         features_a(*MapFeatures::build(*maps.a)),
         features_b(*MapFeatures::build(*maps.b)),
@@ -31,12 +32,10 @@ struct Pair {
   NearestGrid nearest, nearest_b;
 };
 
-SE3 moved(const SE3& T, double x, double y, double yaw) {
-  return T * SE3::from_xyz_rpy((Vector6() << x, y, 0, 0, 0, yaw).finished());
-}
+SE3 moved(const SE3& T, double x, double y, double yaw) { return T * planar_pose(x, y, yaw); }
 
 TEST(Evidence, TheTruthAgreesAndOtherPosesContradict) {
-  const Pair p(support::lobby(), {0, 2.5, 12}, {1.2, 3.6, 12});
+  const WeighedPair p(support::lobby(), {0, 2.5, 12}, {1.2, 3.6, 12});
   const Evidence truth = p.weigh(p.maps.T_a_b);
   EXPECT_GT(truth.structure_inliers, 0.8);
   EXPECT_LT(truth.conflict + truth.reverse_conflict, 0.05);
@@ -53,7 +52,7 @@ TEST(Evidence, TheTruthAgreesAndOtherPosesContradict) {
 }
 
 TEST(Evidence, ConflictIsSeenFromBothMaps) {
-  const Pair p(support::lobby(), {0, 2.5, 12}, {1.2, 3.6, 12});
+  const WeighedPair p(support::lobby(), {0, 2.5, 12}, {1.2, 3.6, 12});
   const SE3 wrong = moved(p.maps.T_a_b, 0.4, 0.3, 0);
   const Evidence a = p.weigh(wrong), b = matching::weigh({p.b, p.nearest_b}, {p.a, p.nearest}, wrong.inverse());
   EXPECT_GT(a.reverse_conflict, a.conflict) << "what is beside its partner counts on that side";
@@ -62,7 +61,7 @@ TEST(Evidence, ConflictIsSeenFromBothMaps) {
 }
 
 TEST(Evidence, NothingInCommonIsNoEvidence) {
-  const Pair p(support::corridor(), {0, 1, 4}, {0, 1, 4});
+  const WeighedPair p(support::corridor(), {0, 1, 4}, {0, 1, 4});
   const Evidence e = p.weigh(moved(p.maps.T_a_b, 500, 0, 0));
   EXPECT_EQ(e.overlap, 0);
   EXPECT_EQ(e.inlier_ratio, 0);
@@ -71,7 +70,7 @@ TEST(Evidence, NothingInCommonIsNoEvidence) {
 }
 
 TEST(Covariance, IsLargeWhereNothingHolds) {
-  const Pair p(support::endless_corridor(), {0, 0.5, 6}, {0.1, 0.6, 6});
+  const WeighedPair p(support::endless_corridor(), {0, 0.5, 6}, {0.1, 0.6, 6});
   const Matrix6 prior = default_prior_covariance();
   const Matrix6 C = covariance(p.a, p.nearest, p.b, p.maps.T_a_b, prior);
   // Along the corridor, which is the x axis of the world.
@@ -84,7 +83,8 @@ TEST(Covariance, IsLargeWhereNothingHolds) {
   EXPECT_LT(p.weigh(p.maps.T_a_b).weakest_translation, 0.02);
   EXPECT_FALSE(decide(p.weigh(p.maps.T_a_b)).accepted);
   EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6>(C).eigenvalues()[0], 0);
-  EXPECT_GE(Eigen::SelfAdjointEigenSolver<Matrix6>(prior - C).eigenvalues()[0], -1e-9);  // never above the prior
+  // Never above the prior.
+  EXPECT_GE(Eigen::SelfAdjointEigenSolver<Matrix6>(prior - C).eigenvalues()[0], -1e-9);
 }
 
 TEST(BookThreshold, IsTheTableOfTheBook) {

@@ -9,7 +9,7 @@
 namespace cairn::matching {
 namespace {
 
-ComplexImage noise(int edge, unsigned seed) {
+ComplexImage random_image(int edge, unsigned seed) {
   std::mt19937 random(seed);
   ComplexImage image(edge);
   for (int y = 0; y < edge; ++y)
@@ -22,7 +22,7 @@ ComplexImage noise(int edge, unsigned seed) {
 
 TEST(Fourier, IsTheSumItStandsFor) {
   for (const int n : {1, 2, 4, 16}) {
-    const ComplexImage image = noise(n, 1);
+    const ComplexImage image = random_image(n, 1);
     ComplexImage spectrum = image;
     fourier(spectrum);
     for (int ky = 0; ky < n; ++ky)
@@ -39,7 +39,7 @@ TEST(Fourier, IsTheSumItStandsFor) {
 }
 
 TEST(Fourier, InverseTakesItBack) {
-  const ComplexImage image = noise(64, 2);
+  const ComplexImage image = random_image(64, 2);
   ComplexImage there = image;
   fourier(there);
   inverse_fourier(there);

@@ -8,6 +8,7 @@
 #include "fusion/matching/evidence/judge.hpp"
 #include "fusion/matching/features/sample.hpp"
 #include "fusion/matching/matcher.hpp"
+#include "fusion/matching/search/stand_up.hpp"
 #include "tests/support/map_pairs.hpp"
 
 namespace cairn::matching {
@@ -40,11 +41,12 @@ Party* OfOffice::b = nullptr;
 TEST_F(OfOffice, TheTruthIsAmongTheFirstPlacements) {
   const PlanView of_a(a->surfels, *pair->a), of_b(b->surfels, *pair->b);
   Budget budget = Budget::steps(kAmpleSteps);
-  const auto placements = sweep(of_a, of_b, 400, budget);
+  const GlobalSearchConfig config;
+  const auto placements = sweep(of_a, of_b, config, budget);
   ASSERT_GT(placements.size(), 20U);
-  EXPECT_LE(placements.size(), 400U);
-  const auto poses =
-      stand_up(std::span(placements).first(20), of_a, of_b, sample(std::span<const Surfel>(b->surfels), 600));
+  EXPECT_LE(placements.size(), config.placements);
+  const auto voters = sample(std::span<const Surfel>(b->surfels), config.height_votes);
+  const auto poses = stand_up(std::span(placements).first(20), of_a, of_b, voters, config.height_range_m);
   double least = 1e9;
   for (const SE3& T : poses)
     if (rotation_angle(T.inverse() * pair->T_a_b) < 0.08) least = std::min(least, off(T, of_b));
@@ -55,7 +57,7 @@ TEST_F(OfOffice, EveryHeadingIsAStep) {
   const PlanView of_a(a->surfels, *pair->a), of_b(b->surfels, *pair->b);
   for (const int steps : {1, 5}) {
     Budget budget = Budget::steps(steps);
-    const auto placements = sweep(of_a, of_b, 400, budget);
+    const auto placements = sweep(of_a, of_b, {}, budget);
     EXPECT_LE(budget.spent(), steps);
     EXPECT_FALSE(placements.empty());
   }
@@ -88,7 +90,7 @@ TEST(PlanView, OfNothingIsEmptyAndOfFarThingsBounded) {
   const PlanView wide(far, empty);
   EXPECT_EQ(wide.columns().size(), 2U);
   Budget budget = Budget::steps(3);
-  EXPECT_LE(sweep(wide, none, 10, budget).size(), 10U);
+  EXPECT_LE(sweep(wide, none, {.placements = 10}, budget).size(), 10U);
 }
 
 }  // namespace

@@ -4,21 +4,21 @@
 #include <gtest/gtest.h>
 
 #include "fusion/matching/default_matcher.hpp"
+#include "tests/fusion/matching/planar_pose.hpp"
 #include "tests/support/map_pairs.hpp"
 
 namespace cairn::matching {
 namespace {
 
-SE3 moved(double x, double y, double yaw) { return SE3::from_xyz_rpy((Vector6() << x, y, 0, 0, 0, yaw).finished()); }
-
 TEST(Within, IsThreeDeviationsAndACell) {
-  const UncertainPose prior{moved(1, 2, 0.5), default_prior_covariance()};  // 0.8 m, 0.105 rad
+  // 0.8 m, 0.105 rad.
+  const UncertainPose prior{planar_pose(1, 2, 0.5), default_prior_covariance()};
   EXPECT_TRUE(within(prior, prior.mean));
-  EXPECT_TRUE(within(prior, moved(3.7, -0.7, 0.5)));
-  EXPECT_FALSE(within(prior, moved(3.9, 2, 0.5)));
-  EXPECT_FALSE(within(prior, moved(1, -0.9, 0.5)));
-  EXPECT_TRUE(within(prior, moved(1, 2, 0.9)));
-  EXPECT_FALSE(within(prior, moved(1, 2, 1)));
+  EXPECT_TRUE(within(prior, planar_pose(3.7, -0.7, 0.5)));
+  EXPECT_FALSE(within(prior, planar_pose(3.9, 2, 0.5)));
+  EXPECT_FALSE(within(prior, planar_pose(1, -0.9, 0.5)));
+  EXPECT_TRUE(within(prior, planar_pose(1, 2, 0.9)));
+  EXPECT_FALSE(within(prior, planar_pose(1, 2, 1)));
 }
 
 /// Columns every 3 m: a map that is moved by 3 m, 6 m, … fits nearly as well, and overlaps more.

@@ -12,7 +12,7 @@ namespace cairn::matching {
 namespace {
 
 /// Three walls, dense enough that a small motion changes no pair.
-std::vector<Surfel> corner() {
+std::vector<Surfel> three_walls() {
   std::vector<Surfel> surfels;
   std::mt19937 random(1);
   std::uniform_real_distribution<float> at(0, 5);
@@ -54,10 +54,11 @@ TEST(PlaneToPlane, GradientIsThatOfTheCost) {
   }
 }
 
-/// One robot saw one face of each wall, the other both, and has the middle of the wall in its cells.
+/// One robot saw one face of each wall, the other both, and has the middle of the wall in its
+/// cells.
 TEST(PlaneToPlane, AFaceAndTheMiddleOfAThinWallLieHalfItsThicknessApart) {
   for (const float sign : {1.0F, -1.0F}) {
-    auto faces = corner(), middles = corner();
+    auto faces = three_walls(), middles = three_walls();
     for (Surfel& s : faces) s.oriented = true;
     for (Surfel& s : middles) {
       s.thin = true;
@@ -69,7 +70,8 @@ TEST(PlaneToPlane, AFaceAndTheMiddleOfAThinWallLieHalfItsThicknessApart) {
       const auto &target = turn ? middles : faces, &source = turn ? faces : middles;
       const auto sum = plane_to_plane(target, NearestGrid(target, 0.2F, 0.5F), source, SE3(), 0.1F);
       EXPECT_GT(sum.pairs, 500);
-      EXPECT_LT(sum.cost / sum.pairs, 0.1 * 0.06 * 0.06) << sign << turn;  // across alone it would be 500 times 0.06²
+      // Across alone it would be 500 times 0.06².
+      EXPECT_LT(sum.cost / sum.pairs, 0.1 * 0.06 * 0.06) << sign << turn;
     }
   }
 }
@@ -85,18 +87,21 @@ TEST(Refine, FindsTheMotionOfACopy) {
     s.point = (off * s.point.cast<double>()).cast<float>();
     s.normal = off.rotation().cast<float>() * s.normal;
   }
+  const RefineOptions options{
+      .gate_m = 0.8F, .last_gate_m = 0.4F, .gate_decay = 0.7F, .max_iterations = 40, .stop_m = 1e-5, .stop_rad = 1e-6};
   Budget budget = Budget::steps(1000);
-  const Refinement r = refine(a->fine(), grid, moved, {}, {0.8F, 0.4F, 0.7F, 40, 0, 1e-5, 1e-6}, budget);
+  const Refinement r = refine(a->fine(), grid, moved, {}, options, budget);
   EXPECT_LT((r.T_target_source * off).log().norm(), 2e-3);
   EXPECT_EQ(r.iterations, budget.spent());
 }
 
 TEST(Refine, StopsWhenTheBudgetIsSpentAndWithTooFewPairs) {
-  const auto surfels = corner();
+  const auto surfels = three_walls();
   const NearestGrid grid(surfels, 0.2F, 1.0F);
+  const RefineOptions options{
+      .gate_m = 1, .last_gate_m = 1, .gate_decay = 1, .max_iterations = 50, .robust_m = 0, .stop_m = 0};
   Budget budget = Budget::steps(3);
-  EXPECT_EQ(refine(surfels, grid, surfels, SE3::exp(0.01 * Vector6::Ones()), {1, 1, 1, 50, 0, 0}, budget).iterations,
-            3);
+  EXPECT_EQ(refine(surfels, grid, surfels, SE3::exp(0.01 * Vector6::Ones()), options, budget).iterations, 3);
   Budget plenty = Budget::steps(100);
   const SE3 far(Eigen::Quaterniond::Identity(), {100, 0, 0});
   const Refinement lost = refine(surfels, grid, surfels, far, {}, plenty);
