@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "hal/se3.hpp"
-#include "onboard/odometry/normal_equations.hpp"
+#include "onboard/odometry/estimation/normal_equations.hpp"
 
 namespace cairn {
 

@@ -3,7 +3,7 @@
 
 #include <functional>
 
-#include "onboard/odometry/motion_filter.hpp"
+#include "onboard/odometry/estimation/motion_filter.hpp"
 
 namespace cairn {
 

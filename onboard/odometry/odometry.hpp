@@ -13,12 +13,12 @@
 #include "hal/se3.hpp"
 #include "hal/workers.hpp"
 #include "onboard/odometry/config.hpp"
-#include "onboard/odometry/degeneracy.hpp"
 #include "onboard/odometry/drift_history.hpp"
+#include "onboard/odometry/estimation/degeneracy.hpp"
+#include "onboard/odometry/estimation/motion_filter.hpp"
+#include "onboard/odometry/estimation/normal_equations.hpp"
 #include "onboard/odometry/local_map/patch_map.hpp"
 #include "onboard/odometry/local_map/subsample.hpp"
-#include "onboard/odometry/motion_filter.hpp"
-#include "onboard/odometry/normal_equations.hpp"
 #include "onboard/odometry/recent_scans.hpp"
 
 namespace cairn {

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 
 #include "hal/se3.hpp"
-#include "onboard/odometry/degeneracy.hpp"
-#include "onboard/odometry/normal_equations.hpp"
+#include "onboard/odometry/estimation/degeneracy.hpp"
+#include "onboard/odometry/estimation/normal_equations.hpp"
 
 namespace cairn {
 

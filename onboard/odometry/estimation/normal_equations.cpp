@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/odometry/normal_equations.hpp"
+#include "onboard/odometry/estimation/normal_equations.hpp"
 
 #include <algorithm>
 

@@ -8,7 +8,7 @@
 
 #include "hal/se3.hpp"
 #include "hal/workers.hpp"
-#include "onboard/odometry/deskew.hpp"
+#include "onboard/odometry/estimation/deskew.hpp"
 #include "onboard/odometry/local_map/patch_map.hpp"
 
 namespace cairn {
