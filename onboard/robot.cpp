@@ -48,8 +48,13 @@ Result<TrackPoint> Robot::locate(const Scan& scan, Budget& budget, LocatedScan& 
     monitor_.event(motion->stamp, "restart", "the robot is not where the saved map ends: it begins anew");
   located.epoch = epoch_;
   located.lost = motion->lost;
-  track_.push_back({motion->stamp, motion->T_odom_base, motion->twist, epoch_, motion->degenerate_directions,
-                    motion->iterations, motion->lost});
+  track_.push_back({.stamp = motion->stamp,
+                    .T_odom_base = motion->T_odom_base,
+                    .twist = motion->twist,
+                    .epoch = epoch_,
+                    .degenerate_directions = motion->degenerate_directions,
+                    .iterations = motion->iterations,
+                    .lost = motion->lost});
   return track_.back();
 }
 

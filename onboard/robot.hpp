@@ -22,7 +22,7 @@ struct RobotConfig {
   MappingConfig mapping;
 };
 
-/// Where the robot was when a scan ended, and how well it knew.
+/// Where the robot was when a scan ended, and how certain that is.
 struct TrackPoint {
   Time stamp{};
   UncertainPose T_odom_base;
@@ -33,7 +33,8 @@ struct TrackPoint {
   bool lost = false;
 };
 
-/// A scan on its way into the map, on its own: whoever holds it needs neither the odometry nor the scan.
+/// A scan on its way into the map. It owns its points: neither the odometry nor the scan must
+/// outlive it.
 struct LocatedScan {
   Time stamp{};
   UncertainPose T_odom_base;
@@ -47,7 +48,8 @@ struct MapShare {
   int every_point = 1;  ///< 1: all points, 2: every second one, …
 };
 
-/// Where a robot goes on that was here before: in epoch 0, where one without a past begins with epoch 1.
+/// Where a restarted robot goes on. Its epoch stays 0; the first epoch of a robot that begins anew
+/// is 1.
 struct Resume {
   const SemanticOcTree& map;  ///< of the config's resolution; copied
   Time map_stamp{};           ///< scans that are later go into the map again
@@ -57,24 +59,28 @@ struct Resume {
   Time stamp{};  ///< of the pose
 };
 
-/// One robot: scans in, trajectory and map out. Deterministic for any number of threads. locate() and extend_map() may
-/// run at the same time on two threads.
+/// One robot: scans in, trajectory and map out. Deterministic for any number of threads. locate()
+/// and extend_map() may run at the same time on two threads.
 class Robot {
  public:
-  /// The workers (one set for each of the two stages) and `monitor` are borrowed and must outlive the robot.
+  /// The workers (one set for each of the two stages) and `monitor` are borrowed and must outlive
+  /// the robot.
   Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapping_workers, Monitor& monitor);
 
-  /// The same, going on where one ended. If the robot is not there any more, its first scan begins a map anew.
+  /// The same for a restarted robot. If it is not where the previous run ended, its first scan
+  /// begins a new map.
   Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapping_workers, Monitor& monitor,
         const Resume& saved);
 
-  /// Estimates the motion since the last scan; fills `located`, reusing its memory. On an error the scan is dropped,
-  /// and the track is as before.
+  /// Estimates the motion since the last scan; fills `located`, reusing its memory. On an error the
+  /// scan is dropped, and the track is as before.
   Result<TrackPoint> locate(const Scan& scan, Budget& budget, LocatedScan& located);
-  /// Adds a scan to the map, where its pose is trusted. On an error (kLimit: the map's memory) the map is as before.
+  /// Adds a scan to the map, where its pose is trusted. On an error (kLimit: the map's memory) the
+  /// map is as before.
   Result<void> extend_map(const LocatedScan& scan, const MapShare& share = {});
 
-  /// The next scan tells whether the robot is still where it was: it is worth every iteration.
+  /// The next scan decides whether the robot is where the previous run ended. Grant it every
+  /// iteration.
   [[nodiscard]] bool resuming() const { return odometry_.resuming(); }
 
   [[nodiscard]] const std::vector<TrackPoint>& track() const { return track_; }

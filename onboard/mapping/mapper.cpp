@@ -11,7 +11,8 @@ namespace cairn {
 namespace {
 
 constexpr std::size_t kMegabyte = std::size_t{1} << 20U;
-constexpr std::size_t kTiles = std::size_t{1} << 14U;  // room from the start; lists of changed tiles grow beyond it
+// Tiles. Lists of changed tiles have room for so many from the start, and grow beyond it.
+constexpr std::size_t kTiles = std::size_t{1} << 14U;
 
 std::size_t megabytes(int n) { return static_cast<std::size_t>(n) * kMegabyte; }
 
@@ -60,11 +61,15 @@ Result<InsertReport> Mapper::insert(std::span<const Eigen::Vector3f> points_map,
   changed_now_.clear();
   applier_.apply(footprints_.front(), tree_, workers_, changed_now_);
   note_changed();
-  return InsertReport{points_map.size(), counts->not_finite, counts->outside_map, rays_.ray_count(),
-                      changed_now_.size()};
+  return InsertReport{.points = points_map.size(),
+                      .not_finite = counts->not_finite,
+                      .outside_map = counts->outside_map,
+                      .rays = rays_.ray_count(),
+                      .changed_tiles = changed_now_.size()};
 }
 
-/// A set does not depend on how its parts were found: here the number of parts may depend on the number of threads.
+/// A set does not depend on how its parts were found: here the number of parts may depend on the
+/// number of threads.
 bool Mapper::march() {
   Footprint& whole = footprints_.front();
   const std::size_t parts = footprints_.size();

@@ -5,19 +5,21 @@
 
 namespace cairn {
 
-/// Defaults of the sensor model are OctoMap's, and give its log-odds to the bit.
+/// Settings of Mapper. The defaults of the sensor model are OctoMap's (Hornung et al. 2013, octomap
+/// 1.9), and give its log-odds to the bit.
 struct MappingConfig {
-  double resolution_m = 0.1;
-  double max_range_m = 30.0;
-  double prob_hit = 0.7;
-  double prob_miss = 0.4;
-  double clamping_min = 0.1192;
-  double clamping_max = 0.971;
-  int reserve_mb = 0;
-  int max_mb = 4096;
-  int max_scan_mb = 256;
+  double resolution_m = 0.1;     ///< m, edge of a voxel. The book's maps of a mission have 0.1 m.
+  double max_range_m = 30.0;     ///< m. Beams are cut here. Rings of a VLP-16 are 1 m apart at 30 m: 10 voxels.
+  double prob_hit = 0.7;         ///< that a hit voxel is occupied; log-odds +0.85
+  double prob_miss = 0.4;        ///< that a voxel seen through is occupied; log-odds −0.4
+  double clamping_min = 0.1192;  ///< occupancy is never below; log-odds −2, five misses
+  double clamping_max = 0.971;   ///< occupancy is never above; log-odds +3.5, five hits
+  int reserve_mb = 0;            ///< MB of nodes, taken and touched at the start. 0: memory is taken when it is needed.
+  int max_mb = 4096;             ///< MB of nodes. A larger map takes no further scan. Chosen by hand.
+  int max_scan_mb = 256;         ///< MB. A scan that touches more space is refused: 250 000 bricks of 1.6 m at 0.1 m.
 };
 
+/// Names, units and bounds of every key (config section `mapping`).
 inline void declare(config::Section& s, MappingConfig& c) {
   s.number("resolution_m", c.resolution_m, {0.01, 10.0}, "m", "edge of a voxel");
   s.number("max_range_m", c.max_range_m, {-1.0, 1000.0}, "m",

@@ -2,8 +2,9 @@
 #include "onboard/odometry/config.hpp"
 
 namespace cairn {
+namespace {
 
-void declare(config::Section& s, OdometryConfig& c) {
+void declare_registration(config::Section& s, OdometryConfig& c) {
   s.number("min_range_m", c.min_range_m, {0.0, 10.0}, "m", "nearer points are not used for registration or the map");
   s.number("max_range_m", c.max_range_m, {1.0, 300.0}, "m", "farther points are not used for registration or the map");
   s.number("insert_spacing_m", c.insert_spacing_m, {0.01, 2.0}, "m",
@@ -11,6 +12,13 @@ void declare(config::Section& s, OdometryConfig& c) {
   s.integer("keypoints", c.keypoints, {100, 20000}, "",
             "points to register; the spacing adapts, twice as many is the cap");
   s.integer("max_iterations", c.max_iterations, {1, 50}, "", "cap per scan; the budget may grant fewer");
+  s.number("narrowest_gate_m", c.narrowest_gate_m, {0.01, 0.5}, "m",
+           "the last iterations match a point with patches that are not farther away");
+  s.number("widest_gate_m", c.widest_gate_m, {0.5, 10.0}, "m",
+           "the first iteration matches a point with patches that are not farther away");
+}
+
+void declare_map(config::Section& s, OdometryConfig& c) {
   s.number("finest_block_m", c.finest_block_m, {0.1, 4.0}, "m",
            "edge of the smallest plane patches; the others have 2 and 4 times this");
   s.number("window_m", c.window_m, {5.0, 300.0}, "m", "radius around the robot in which the map is kept");
@@ -21,27 +29,68 @@ void declare(config::Section& s, OdometryConfig& c) {
   s.number("noise_floor_m", c.noise_floor_m, {0.001, 0.2}, "m",
            "smallest standard deviation of a point-to-plane distance that is believed");
   s.number("max_thickness_m", c.max_thickness_m, {0.005, 0.5}, "m", "thicker patches are not planes");
+}
+
+void declare_motion(config::Section& s, OdometryConfig& c) {
   s.number("correlation_factor", c.correlation_factor, {1.0, 1000.0}, "",
            "points per independent piece of information: errors of neighbouring points are alike");
   s.number("linear_acceleration", c.linear_acceleration, {0.01, 100.0}, "m/s2",
-           "standard deviation of the robot's acceleration; three times as much while a map begins. Less is steadier: "
-           "the motion within a scan and the map that was made with it must not lead each other astray");
+           "standard deviation of the robot's acceleration. Less is steadier: a wrong motion within a scan and the map "
+           "that is made with it confirm each other");
   s.number("angular_acceleration", c.angular_acceleration, {0.01, 100.0}, "rad/s2",
            "standard deviation of the robot's angular acceleration, likewise");
+  s.integer("settling_scans", c.settling_scans, {0, 1000}, "",
+            "scans of a new map during which the accelerations count settling_noise_factor times");
+  s.number("settling_noise_factor", c.settling_noise_factor, {1.0, 100.0}, "",
+           "times both accelerations while a map is new: its first scan was taken in an unknown motion");
   s.number("initial_speed", c.initial_speed, {0.0, 50.0}, "m/s",
            "standard deviation of the speed before the second scan");
   s.number("initial_angular_speed", c.initial_angular_speed, {0.0, 10.0}, "rad/s",
            "standard deviation of the turning rate before the second scan");
   s.number("max_speed", c.max_speed, {0.1, 100.0}, "m/s", "a faster motion is not believed");
   s.number("max_angular_speed", c.max_angular_speed, {0.1, 50.0}, "rad/s", "a faster turn is not believed");
-  s.number("max_gap_s", c.max_gap_s, {0.05, 60.0}, "s",
-           "after a longer gap between scans the motion is not extrapolated");
+}
+
+void declare_tracking(config::Section& s, OdometryConfig& c) {
   s.number("min_inlier_ratio", c.min_inlier_ratio, {0.0, 1.0}, "",
            "lost if a smaller share of the points near planes lies on them");
   s.integer("min_matches", c.min_matches, {6, 10000}, "", "lost if fewer points lie near planes");
   s.number("min_facing_points", c.min_facing_points, {1.0, 1000.0}, "",
            "a direction is degenerate if fewer points look at a surface that faces it");
   s.integer("reinitialise_after", c.reinitialise_after, {1, 1000}, "", "lost scans in a row before a new map is begun");
+}
+
+}  // namespace
+
+void declare(config::Section& s, OdometryConfig& c) {
+  declare_registration(s, c);
+  declare_map(s, c);
+  declare_motion(s, c);
+  declare_tracking(s, c);
+  s.group("start_search", c.start_search, "where registration begins when the prediction says little");
+  s.group("restart", c.restart, "where a restarted robot may be");
+}
+
+void declare(config::Section& s, StartSearchConfig& c) {
+  s.number("unknown_speed_m_s", c.unknown_speed_m_s, {0.1, 100.0}, "m/s",
+           "standard deviation of the predicted speed above which a new map's first scans try speeds one by one");
+  s.number("speed_gate_m", c.speed_gate_m, {0.01, 10.0}, "m", "a point fits a speed if it is that near to its patch");
+  s.number("unknown_heading_rad", c.unknown_heading_rad, {0.01, 10.0}, "rad",
+           "standard deviation of the predicted heading above which headings and positions are searched");
+  s.number("gap_gate_m", c.gap_gate_m, {0.01, 10.0}, "m",
+           "a point fits a heading or a position if it is that near to its patch");
+}
+
+void declare(config::Section& s, RestartConfig& c) {
+  s.number("position_m", c.position_m, {0.01, 10.0}, "m", "standard deviation of the position, when at rest before");
+  s.number("angle_rad", c.angle_rad, {0.01, 3.0}, "rad", "standard deviation of the angles, when at rest before");
+  s.number("speed_m_s", c.speed_m_s, {0.0, 10.0}, "m/s", "standard deviation of the speed now");
+  s.number("turn_rad_s", c.turn_rad_s, {0.0, 10.0}, "rad/s", "standard deviation of the turning rate now");
+  s.number("braking_s", c.braking_s, {0.0, 10.0}, "s",
+           "times the last speed, it adds to the standard deviations of position and angles");
+  s.number("coasting_s", c.coasting_s, {0.01, 60.0}, "s", "a longer absence moves the robot no farther");
+  s.number("found_share", c.found_share, {0.0, 1.0}, "",
+           "the first scan must know this share of what the previous run's last scan knew");
 }
 
 }  // namespace cairn

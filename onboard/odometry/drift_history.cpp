@@ -7,8 +7,10 @@
 namespace cairn {
 namespace {
 
-constexpr double kEpochMetres = 0.5;
-constexpr double kEpochRadians = 0.2;
+// A new epoch begins after so much way or turn: an edge of the finest blocks, or the turn that
+// moves a point at 2.5 m as far. So a block holds few epochs.
+constexpr double kEpochWay_m = 0.5;
+constexpr double kEpochTurn_rad = 0.2;
 
 }  // namespace
 
@@ -24,7 +26,7 @@ void DriftHistory::reset(const SE3& T_odom_base, const Matrix6& covariance) {
 void DriftHistory::advance(const SE3& T_odom_base, const Matrix6& covariance) {
   if (std::exchange(empty_, false)) return;
   const SE3 moved = begun_.inverse() * T_odom_base;
-  if (newest_ > 0 && moved.translation().norm() < kEpochMetres && rotation_angle(moved) < kEpochRadians) return;
+  if (newest_ > 0 && moved.translation().norm() < kEpochWay_m && rotation_angle(moved) < kEpochTurn_rad) return;
   begun_ = T_odom_base;
   ++newest_;
   oldest_ = std::max(oldest_, newest_ + 1 >= kCapacity ? newest_ + 1 - kCapacity : 0);

@@ -3,15 +3,17 @@
 
 #include <functional>
 
-#include "onboard/odometry/motion_filter.hpp"
+#include "onboard/odometry/estimation/motion_filter.hpp"
 
 namespace cairn {
 
-/// After some seconds without scans the prediction may be farther off than registration reaches: a turn that ended in
-/// the gap puts far walls metres away. Looks along one direction after the other (heading, forward, sideways, heading
-/// again) for the state that most points agree with, within three standard deviations of the prediction.
+/// Start hypothesis after a gap of `dt` seconds between scans. The prediction may be farther off
+/// than registration reaches then: a turn that ended in the gap puts far walls metres away. Looks
+/// along one direction after the other (heading, forward, sideways, heading again) for the state
+/// with the best score, within three standard deviations of the prediction.
 ///
-/// `score`: how well a state fits, larger is better; called at most about 200 times. Ties go to the smallest change.
+/// `score`: how well a state fits, larger is better; called at most 279 times. Ties go to the
+/// smallest change.
 [[nodiscard]] MotionState search_after_gap(const MotionState& predicted, const Matrix12& covariance, double dt,
                                            const std::function<double(const MotionState&)>& score);
 

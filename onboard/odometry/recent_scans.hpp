@@ -22,8 +22,8 @@ struct PlacedScan {
   std::vector<Eigen::Vector3f> points_base;  ///< deskewed, thinned, in base_link at `stamp`, in metres
 };
 
-/// Which scans are worth keeping for a restart: the first ones, until the surroundings are dense, then one per stretch
-/// of way or turn.
+/// Chooses the scans that are kept for a restart: the first ones, until the surroundings are dense,
+/// then one per stretch of way or turn.
 class ScanSelection {
  public:
   ScanSelection() = default;
@@ -34,8 +34,8 @@ class ScanSelection {
   void take(const SE3& T_odom_base);
 
  private:
-  static constexpr int kFirst = 8;
-  static constexpr double kStretch_m = 0.4, kTurn_rad = 0.2;
+  static constexpr int kFirst = 8;                            // 0.8 s at 10 Hz; chosen by hand
+  static constexpr double kStretch_m = 0.4, kTurn_rad = 0.2;  // about an epoch of DriftHistory
   SE3 T_odom_last_;
   int taken_ = 0;
 };
@@ -54,10 +54,10 @@ class ScanThinning {
   std::vector<std::uint32_t> near_;
 };
 
-/// The scans of the way's last metres. What odometry knows of its surroundings, it knows from scans like these.
+/// The scans of the last metres of the way. They tell odometry its surroundings after a restart.
 class RecentScans {
  public:
-  static constexpr std::size_t kScans = 40;
+  static constexpr std::size_t kScans = 40;  ///< 16 m of way at 0.4 m each
 
   /// Drops the oldest when there are more than kScans.
   void add(PlacedScan scan);

@@ -10,7 +10,7 @@
 
 #include "drivers/velodyne/lidar.hpp"
 #include "hal/clock.hpp"
-#include "onboard/odometry/deskew.hpp"
+#include "onboard/odometry/estimation/deskew.hpp"
 #include "onboard/odometry/odometry.hpp"
 #include "tests/support/kitti.hpp"
 #include "tests/support/recorded_data.hpp"

@@ -39,7 +39,7 @@ class Journey {
     ASSERT_TRUE(point) << to_string(point.error());
     if (const SE3& T = point->T_odom_base.mean; selection_.wants(T)) {
       selection_.take(T);
-      PlacedScan scan_placed{located.stamp, T, {}};
+      PlacedScan scan_placed{.stamp = located.stamp, .T_odom_base = T, .points_base = {}};
       thin_(located.points_base, scan_placed.points_base);
       recent.add(std::move(scan_placed));
     }
@@ -91,7 +91,12 @@ SavedState state_of(const Journey& journey) {
 }
 
 Resume resume(const Generation& saved) {
-  return {*saved.map, saved.map_stamp, saved.scans, saved.state.T_odom_base, saved.state.twist, saved.state.stamp};
+  return {.map = *saved.map,
+          .map_stamp = saved.map_stamp,
+          .scans = saved.scans,
+          .T_odom_base = saved.state.T_odom_base,
+          .twist = saved.state.twist,
+          .stamp = saved.state.stamp};
 }
 
 std::string death_name(const testing::TestParamInfo<std::tuple<support::Scene, int>>& test) {

@@ -20,7 +20,7 @@ using cairn_format::Chunk;
 using cairn_format::Header;
 using Tree = Result<std::unique_ptr<SemanticOcTree>>;
 
-constexpr int kZstdLevel = 3;
+constexpr int kZstdLevel = 3;  // zstd's default
 
 // As deep as the tree: 16 levels.
 // NOLINTNEXTLINE(misc-no-recursion)

@@ -16,9 +16,9 @@ namespace cairn::cairn_format {
 inline constexpr std::string_view kMagic = "CAIRNMAP";
 inline constexpr std::uint32_t kVersion = 1;
 inline constexpr std::uint32_t kMaxMetadataBytes = 1U << 16;
-inline constexpr std::size_t kChunkBytes = std::size_t{1} << 18;     ///< the writer closes a chunk at this raw size
-inline constexpr std::size_t kMaxChunkBytes = std::size_t{1} << 20;  ///< the reader refuses more
-inline constexpr double kMinResolution = 1e-4, kMaxResolution = 100.0;
+inline constexpr std::size_t kChunkBytes = std::size_t{1} << 18;        ///< the writer closes a chunk at this raw size
+inline constexpr std::size_t kMaxChunkBytes = std::size_t{1} << 20;     ///< the reader refuses more
+inline constexpr double kMinResolution = 1e-4, kMaxResolution = 100.0;  ///< m; the reader refuses others
 
 struct Chunk {
   std::uint32_t raw_bytes = 0;
@@ -42,7 +42,8 @@ struct Header {
 /// A whole file from its parts. `stored` are the chunks' zstd frames, one after the other.
 [[nodiscard]] std::vector<std::byte> assemble(const Header& header, std::span<const std::byte> stored);
 
-/// Checks everything but what is inside the chunks: sizes, header, all checksums. `metadata` points into `bytes`.
+/// Checks everything but what is inside the chunks: sizes, header, all checksums. `metadata` points
+/// into `bytes`.
 Result<Header> parse(std::span<const std::byte> bytes);
 
 }  // namespace cairn::cairn_format

@@ -21,17 +21,20 @@ struct BrickRef {
   friend bool operator<(const BrickRef& a, const BrickRef& b) { return a.path < b.path; }
 };
 
-/// The set of voxels that one scan touches: those seen through and those hit, as bits in bricks. Keeps its memory from
-/// scan to scan. Only touched bricks take memory, and no more of them than the limit.
+/// The set of voxels that one scan touches: those seen through and those hit, as bits in bricks.
+/// Keeps its memory from scan to scan. Only touched bricks take memory, and no more of them than
+/// the limit.
 class Footprint {
  public:
-  /// `max_bricks` bounds the memory (1 KiB each); what goes beyond is dropped and reported by overflown().
+  /// `max_bricks` bounds the memory (1 KiB each); what goes beyond is dropped and reported by
+  /// overflown().
   explicit Footprint(std::size_t max_bricks) : max_bricks_(max_bricks) {}
 
   /// Empties the set and prepares for voxels in `grid`.
   void reset(const BrickGrid& grid);
   [[nodiscard]] const BrickGrid& grid() const { return grid_; }
-  /// Whether bricks are found by a table over the whole grid; otherwise, when the box is huge, by hashing.
+  /// Whether bricks are found by a table over the whole grid; otherwise, when the box is huge, by
+  /// hashing.
   [[nodiscard]] bool flat() const { return flat_; }
 
   /// `kFlat` must equal flat(): the ray march knows it before its inner loop.
@@ -40,7 +43,8 @@ class Footprint {
     const std::size_t word = words_of<kFlat>(index >> BrickGrid::kBrickShift) + ((index >> 6) & 63);
     free_.data()[word] |= std::uint64_t{1} << (index & 63);  // data(): unchecked, this is the innermost loop
   }
-  /// mark_free<true>(index) for an index that comes in parts: index >> 12, index >> 6 & 63, and itself.
+  /// mark_free<true>(index) for an index that comes in parts: index >> 12, index >> 6 & 63, and
+  /// itself.
   void mark_free_flat(std::uint64_t brick, std::uint64_t word, std::uint64_t index) {
     const std::size_t at = words_of<true>(brick) + word;  // first: it may move the words
     free_.data()[at] |= std::uint64_t{1} << (index & 63);
@@ -60,13 +64,13 @@ class Footprint {
   [[nodiscard]] bool overflown() const { return overflown_; }
   [[nodiscard]] std::size_t bytes() const;
 
-  static constexpr std::size_t kWords = 64;
+  static constexpr std::size_t kWords = 64;  ///< of 64 bits each: one bit per voxel of a brick
 
  private:
-  static constexpr unsigned kMaxFlatBits = 22;  // a table of 16 MiB
+  static constexpr unsigned kMaxFlatBits = 22;  // of a brick's index: a table of 16 MiB; larger boxes are hashed
 
-  /// Where the words of a brick start: slot × 64. 0 stands for an untouched brick in the table, and as a result for
-  /// words that take what must be dropped.
+  /// Where the words of a brick start: slot × 64. 0 stands for an untouched brick in the table, and
+  /// as a result for words that take what must be dropped.
   template <bool kFlat>
   std::size_t words_of(std::uint64_t brick) {
     const std::uint32_t words = kFlat ? table_.data()[brick] : find(brick);

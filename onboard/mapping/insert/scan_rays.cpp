@@ -13,7 +13,7 @@
 namespace cairn {
 namespace {
 
-constexpr int kKeys = 65536;         // per axis
+constexpr int kKeys = 65536;         // per axis: OctoMap's keys have 16 bits
 constexpr int kCentreKey = 32768;    // of coordinate 0
 constexpr std::size_t kBatch = 512;  // rays that are prepared before they march: they fit into the first-level cache
 constexpr std::uint64_t kStepsOfSlack = 3;  // a ray may overshoot its end voxel by one along each axis
@@ -62,7 +62,8 @@ void ScanRays::march(std::size_t first, std::size_t last, MarchRays march_rays, 
   }
 }
 
-/// OctoMap's coordToKeyChecked(), without its undefined conversion of NaN and of huge numbers to int.
+/// OctoMap's coordToKeyChecked(), without its undefined conversion of NaN and of huge numbers to
+/// int.
 bool ScanRays::key_of(double coordinate, int& key) const {
   const double cell = resolution_factor_ * coordinate;
   if (!(cell >= -kCentreKey && cell < kKeys - kCentreKey)) return false;

@@ -10,8 +10,8 @@
 namespace cairn {
 namespace {
 
-constexpr std::size_t kSmallestChunk = std::size_t{64} << 10;
-constexpr std::size_t kPage = 4096;
+constexpr std::size_t kSmallestChunk = std::size_t{64} << 10;  // bytes: eight batches
+constexpr std::size_t kPage = 4096;                            // bytes, of x86-64 and aarch64
 
 }  // namespace
 

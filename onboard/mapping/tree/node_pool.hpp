@@ -9,31 +9,33 @@
 
 namespace cairn {
 
-/// The memory of one tree: blocks of eight nodes, cut from large chunks that never move, so node pointers stay valid.
-/// Memory goes back to the system only with the pool. Threads do not come here for every block, but take and give
-/// batches through a BlockCache of their own.
+/// The memory of one tree: blocks of eight nodes, cut from large chunks that never move, so node
+/// pointers stay valid. Memory goes back to the system only with the pool. Threads do not come here
+/// for every block, but take and give batches through a BlockCache of their own.
 class NodePool {
  public:
   static constexpr std::size_t kBlockBytes = SemanticNode::kChildren * sizeof(SemanticNode);
-  static constexpr std::size_t kBatch = 64;  ///< blocks that change hands at once
+  static constexpr std::size_t kBatch = 64;                       ///< blocks that change hands at once: 8 KiB
+  static constexpr std::size_t kHugePage = std::size_t{2} << 20;  ///< bytes, of x86-64 and aarch64
 
-  static constexpr std::size_t kHugePage = std::size_t{2} << 20;
-
-  /// The pool grows in chunks of up to `largest_chunk` bytes, a power of two from 64 KiB to kHugePage. Where memory is
-  /// locked, the kernel fills all of a chunk at once: small ones bound what a step can cost, huge pages make access
-  /// fast.
+  /// The pool grows in chunks of up to `largest_chunk` bytes, a power of two from 64 KiB to
+  /// kHugePage. Where memory is locked, the kernel fills all of a chunk at once: small ones bound
+  /// what a step can cost, huge pages make access fast.
   explicit NodePool(std::size_t largest_chunk = kHugePage) : largest_chunk_(largest_chunk) {}
   NodePool(const NodePool&) = delete;
   NodePool& operator=(const NodePool&) = delete;
   ~NodePool();
 
-  /// kBatch blocks, linked through the block pointer of their first node; their contents are unspecified.
+  /// kBatch blocks, linked through the block pointer of their first node; their contents are
+  /// unspecified.
   [[nodiscard]] SemanticNode* take_batch();
   /// The reverse: a list of exactly kBatch blocks.
   void give_batch(SemanticNode* batch);
-  /// Takes all blocks back, whoever has them, and keeps the memory. Their BlockCaches must be made anew.
+  /// Takes all blocks back, whoever has them, and keeps the memory. Their BlockCaches must be made
+  /// anew.
   void reclaim();
-  /// Gets memory for `blocks` in all from the system and touches it, so that no scan pays for page faults.
+  /// Gets memory for `blocks` in all from the system and touches it, so that no scan pays for page
+  /// faults.
   void reserve(std::size_t blocks);
 
   /// Memory taken from the system.

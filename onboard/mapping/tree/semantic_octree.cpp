@@ -71,7 +71,11 @@ std::size_t SemanticOcTree::used_bytes() const {
 }
 
 SensorModel SemanticOcTree::sensor_model() const {
-  return {prob_hit_log, prob_miss_log, clamping_thres_min, clamping_thres_max, occ_prob_thres_log};
+  return {.hit = prob_hit_log,
+          .miss = prob_miss_log,
+          .min = clamping_thres_min,
+          .max = clamping_thres_max,
+          .occupied = occ_prob_thres_log};
 }
 
 void SemanticOcTree::set_sensor_model(const SensorModel& model) {

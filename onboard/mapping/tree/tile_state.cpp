@@ -15,7 +15,9 @@ unsigned child_on_path(TileKey tile, unsigned depth) {
   return static_cast<unsigned>(tile.morton >> (3 * (kTileDepth - 1 - depth))) & 7U;
 }
 
-constexpr float kWeakFree = -0.6F;  // OctoMap's miss is −0.4: free, but seen once only
+// Log-odds from which a free voxel has the weak grade. OctoMap's miss is −0.4: such a voxel was
+// seen once only.
+constexpr float kWeakFree = -0.6F;
 
 template <class Visit>
 void for_each_voxel(const Visit& visit) {

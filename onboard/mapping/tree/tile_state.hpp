@@ -12,8 +12,8 @@
 
 namespace cairn {
 
-/// What a robot knows of the 512 voxels of a tile, in the coarse form that robots exchange: unknown, free in two
-/// grades or occupied in four. Bit planes: element z, byte y, bit x.
+/// What a robot knows of the 512 voxels of a tile, in the coarse form that robots exchange:
+/// unknown, free in two grades or occupied in four. Bit planes: element z, byte y, bit x.
 struct TileState {
   static constexpr unsigned kEdge = 1U << TileKey::kVoxelBits;
   using Plane = std::array<std::uint64_t, kEdge>;
@@ -22,12 +22,14 @@ struct TileState {
   Plane occupied{};  ///< known voxels only
   Plane low{};       ///< lower bit of the grade; grade 0 is the surest. Known voxels only
   Plane high{};      ///< upper bit; occupied voxels only
-  /// Of occupied voxels, x fastest; empty where none has one, else of all 512 voxels, of not more than kMostLabels
-  /// kinds.
+  /// Of occupied voxels, x fastest; empty where none has one, else of all 512 voxels, of not more
+  /// than kMostLabels kinds.
   std::vector<VoxelLabel> labels{};
-  static constexpr std::size_t kMostLabels = 16;
+  static constexpr std::size_t kMostLabels = 16;  ///< kinds in a tile: an index of four bits
 
-  static constexpr std::array<float, 2> kFree{-1.6F, -0.4F};  ///< log-odds of the grades
+  /// Log-odds of the grades. −0.4 is OctoMap's miss, 3.5 its upper clamping value; the others lie
+  /// between.
+  static constexpr std::array<float, 2> kFree{-1.6F, -0.4F};
   static constexpr std::array<float, 4> kOccupied{3.5F, 2.5F, 1.5F, 0.5F};
 
   friend bool operator==(const TileState&, const TileState&) = default;
@@ -48,7 +50,8 @@ struct TileState {
   [[nodiscard]] VoxelLabel label(unsigned x, unsigned y, unsigned z) const {
     return labels.empty() ? VoxelLabel{} : labels[x + kEdge * (y + kEdge * z)];
   }
-  /// Of labels of occupied voxels, x fastest; of more than kMostLabels kinds the rarest are left out.
+  /// Of labels of occupied voxels, x fastest; of more than kMostLabels kinds the rarest are left
+  /// out.
   void set_labels(std::vector<VoxelLabel> of_voxels);
   /// The nearest grade; a value from `threshold` on is occupied. Labels stay as they are.
   void set(unsigned x, unsigned y, unsigned z, float log_odds, float threshold = 0);
@@ -57,8 +60,8 @@ struct TileState {
 /// Of one tile of a map; empty where the map knows nothing.
 [[nodiscard]] TileState read_tile(const SemanticOcTree& map, TileKey tile);
 
-/// Makes one tile of the map what `state` says, to the log-odds of its grades; the map stays canonical. An empty state
-/// removes the tile.
+/// Makes one tile of the map what `state` says, to the log-odds of its grades; the map stays
+/// canonical. An empty state removes the tile.
 void write_tile(SemanticOcTree& map, TileKey tile, const TileState& state);
 
 /// The same for any log-odds; `labels` null: none.

@@ -11,14 +11,16 @@
 
 namespace cairn {
 
-/// What a map from outside may cost.
+/// What a map from outside may cost. A larger one is refused with kLimit.
 struct MapLimits {
-  std::uint64_t max_tree_bytes = std::uint64_t{2} << 30;  ///< memory of the decoded tree
-  std::uint64_t max_file_bytes = std::uint64_t{1} << 30;
+  std::uint64_t max_tree_bytes = std::uint64_t{2}
+                                 << 30;  ///< memory of the decoded tree; half of MappingConfig's max_mb
+  std::uint64_t max_file_bytes = std::uint64_t{1} << 30;  ///< as it is stored
 };
 
-/// Builds a tree from nodes that arrive in depth-first order, for readers of untrusted files: iterative, never deeper
-/// than the tree, never larger than the limit. The tree is canonical when done.
+/// Builds a tree from nodes that arrive in depth-first order, for readers of untrusted files:
+/// iterative, never deeper than the tree, never larger than the limit. The tree is canonical when
+/// done.
 class TreeBuilder {
  public:
   /// `tree` is empty and must outlive the builder.

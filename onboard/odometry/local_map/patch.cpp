@@ -8,9 +8,11 @@
 namespace cairn {
 namespace {
 
-// Along each axis one of the two staggered grids has any point within a quarter edge of its block's centre; the rest of
-// the way is for the noise.
+// In edges. Along each axis one of the two staggered grids has any point within a quarter edge of
+// its block's centre; the other 0.05 are for the noise.
 constexpr float kCentral = 0.3F;
+// Cosine of 45°: a normal that points along an axis of the grid.
+constexpr float kAlongAnAxis = 0.7F;
 
 Eigen::Matrix3f covariance_of(const Moments& m) {
   Eigen::Matrix3f c;
@@ -18,15 +20,17 @@ Eigen::Matrix3f covariance_of(const Moments& m) {
   return (c - m.sum * m.sum.transpose() / m.count) / (m.count - 1.0F);
 }
 
-/// Is the plane no more than the surface that a laser sweeps as it turns? Where ranges scatter (leaves, furniture), the
-/// points of one ring lie on it exactly, whatever they were reflected by; such a plane would follow the sensor.
+/// The plane may be no more than the surface that a laser sweeps as it turns. Where ranges scatter
+/// (leaves, furniture), the points of one ring lie on it exactly, whatever reflected them. Such a
+/// plane would follow the sensor.
 bool swept_by_laser(const Patch& patch, const PatchCriteria& criteria, const Viewpoint& from) {
-  constexpr float kSideways = 0.7F;  // a wall seen at a grazing angle faces sideways; that no laser sweeps
+  constexpr float kFacesSideways = 0.7F;  // cosine of 45°: a wall at a grazing angle faces sideways; no laser sweeps it
   const Eigen::Vector3f ray = (from.to_sensor - patch.centroid).normalized();
   const Eigen::Vector3f sideways = from.up.cross(ray);
-  const float least = criteria.min_incidence_rad + 2.0F * std::sqrt(patch.tilt_variance());
+  constexpr float kTiltSigmas = 2.0F;
+  const float least = criteria.min_incidence_rad + kTiltSigmas * std::sqrt(patch.tilt_variance());
   return std::abs(patch.normal.direction.dot(ray)) < least &&
-         std::abs(patch.normal.direction.dot(sideways)) < kSideways * sideways.norm();
+         std::abs(patch.normal.direction.dot(sideways)) < kFacesSideways * sideways.norm();
 }
 
 bool fit_plane(const Eigen::Matrix3f& covariance, float edge, const PatchCriteria& criteria, const Viewpoint& from,
@@ -39,15 +43,17 @@ bool fit_plane(const Eigen::Matrix3f& covariance, float edge, const PatchCriteri
   patch.normal = {eigen.eigenvectors().col(0), std::max(across, criteria.noise_floor_m * criteria.noise_floor_m)};
   if (along < criteria.min_flatness * patch.normal.variance) return false;
   Eigen::Index axis = 0;
-  if (patch.normal.direction.cwiseAbs().maxCoeff(&axis) > 0.7F && std::abs(patch.centroid[axis]) > kCentral * edge)
+  if (patch.normal.direction.cwiseAbs().maxCoeff(&axis) > kAlongAnAxis &&
+      std::abs(patch.centroid[axis]) > kCentral * edge)
     return false;
   patch.inverse_spread = 1.0F / along;
   return patch.tilt_variance() <= criteria.max_tilt_rad * criteria.max_tilt_rad &&
          !swept_by_laser(patch, criteria, from);
 }
 
-/// Are the points no more than the column that the lasers shoot at one azimuth? On a wall at a grazing angle the
-/// columns stand so far apart that each looks like a pole; such a pole would follow the sensor along the wall.
+/// The points may be no more than the column that the lasers shoot at one azimuth. On a wall at a
+/// grazing angle the columns stand so far apart that each looks like a pole. Such a pole would
+/// follow the sensor along the wall.
 bool shot_at_one_azimuth(const Eigen::Matrix3f& covariance, const PatchCriteria& criteria, const Viewpoint& from,
                          const Patch& patch) {
   const Eigen::Vector3f ray = from.to_sensor - patch.centroid;

@@ -9,7 +9,8 @@
 namespace cairn {
 namespace {
 
-// A fit costs as much as forty additions, and a plane of 40 points does not change by one more.
+// A block is fitted again when its points have grown by this factor. A fit costs as much as forty
+// additions, and a plane of 40 points does not change by one more.
 constexpr float kRefitGrowth = 1.25F;
 
 }  // namespace

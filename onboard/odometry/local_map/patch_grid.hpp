@@ -16,19 +16,19 @@ struct BlockIndex {
   friend bool operator==(const BlockIndex&, const BlockIndex&) = default;
 };
 
-/// A sparse grid of cubic blocks, each with the moments of its points and the patch fitted to them. Block i covers
-/// [i·edge, (i+1)·edge), or [(i−½)·edge, (i+½)·edge) when the grid is staggered.
+/// A sparse grid of cubic blocks, each with the moments of its points and the patch fitted to them.
+/// Block i covers [i·edge, (i+1)·edge), or [(i−½)·edge, (i+½)·edge) when the grid is staggered.
 ///
-/// A block has a front and, once it holds a plane that is then seen from behind, a back: the two faces of a thin wall
-/// are two planes.
+/// A block has a front and, once it holds a plane that is then seen from behind, a back: the two
+/// faces of a thin wall are two planes.
 ///
-/// Open addressing over dense arrays, all reserved at construction: adding, fitting and removing never allocate. What
-/// is in the grid, and in which order, depends only on the sequence of calls.
+/// Open addressing over dense arrays, all reserved at construction: adding, fitting and removing
+/// never allocate. What is in the grid, and in which order, depends only on the sequence of calls.
 class PatchGrid {
  public:
   struct Limits {
     std::size_t blocks;  ///< further blocks are refused
-    float points;        ///< per block; further points are ignored, so that old patches stay where they are
+    float points;        ///< per block; further points are ignored, which keeps old patches where they are
   };
   /// Where the sensor is while points are added, in odom.
   struct Sensor {
@@ -79,8 +79,8 @@ class PatchGrid {
 
   static bool seen_from_behind(const Patch& patch, const Eigen::Vector3f& to_sensor) {
     // A sensor almost in the plane may appear on the wrong side by noise.
-    constexpr float kMargin = 0.05F;
-    return patch.kind == Patch::Kind::kPlane && patch.normal.direction.dot(to_sensor) < -kMargin;
+    constexpr float kMargin_m = 0.05F;
+    return patch.kind == Patch::Kind::kPlane && patch.normal.direction.dot(to_sensor) < -kMargin_m;
   }
   static std::uint64_t key_of(const BlockIndex& at, Side side);
   [[nodiscard]] std::size_t slot_of(const BlockIndex& at, Side side) const;

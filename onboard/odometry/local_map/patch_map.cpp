@@ -8,8 +8,17 @@
 namespace cairn {
 namespace {
 
-// Rings of a 16-beam sensor are 0.035 rad apart: beyond this many edges too few of them cross a block.
-constexpr float kRangeInEdges = 40.0F;
+// In edges. Rings of a VLP-16 are 2° = 0.035 rad apart (data sheet), so at this range they are 1.4
+// edges apart: too few of them cross a block.
+constexpr float kRange_edges = 40.0F;
+constexpr float kUnlimited = 1e9F;  // m, for the coarsest blocks
+// A plane that predicts a distance to twice the noise floor is good enough: the finer levels are
+// not asked.
+constexpr float kGoodSigmas = 2.0F;
+// Memory. A grid that is fuller than nine tenths gives up what is farthest, in steps of a tenth of
+// the radius.
+constexpr std::size_t kFullTenths = 9;
+constexpr double kRadiusStep = 0.9;
 
 /// Coordinates in halves of the finest block; every grid's index follows from them by shifts.
 BlockIndex halves(const Eigen::Vector3d& p, double per_metre) {
@@ -24,12 +33,17 @@ BlockIndex block_of(const BlockIndex& h, int level, int staggered) {
 PatchMatch match_patch(const Patch& patch, const Eigen::Vector3f& d, float gate) {
   PatchMatch m;
   const float lever = d.squaredNorm();
-  m.row[0] = {patch.normal.direction, patch.normal.direction.dot(d), patch.prediction_variance(patch.normal, lever)};
+  const auto row = [&](const Patch::Axis& axis) {
+    return PatchMatch::Row{.direction = axis.direction,
+                           .distance = axis.direction.dot(d),
+                           .variance = patch.prediction_variance(axis, lever)};
+  };
+  m.row[0] = row(patch.normal);
   m.rows = 1;
   m.epoch = patch.epoch;
   float distance = std::abs(m.row[0].distance);
   if (patch.kind == Patch::Kind::kPole) {
-    m.row[1] = {patch.second.direction, patch.second.direction.dot(d), patch.prediction_variance(patch.second, lever)};
+    m.row[1] = row(patch.second);
     m.rows = 2;
     distance = std::hypot(distance, m.row[1].distance);
   }
@@ -57,7 +71,7 @@ void PatchMap::insert(std::span<const Eigen::Vector3d> points, const PatchGrid::
                       Workers& workers) {
   workers.for_each(grids_.size(), [&](std::size_t g) {
     const int level = static_cast<int>(g / 2), staggered = static_cast<int>(g % 2);
-    const float reach = level == kLevels - 1 ? 1e9F : kRangeInEdges * static_cast<float>(grids_[g].edge());
+    const float reach = level == kLevels - 1 ? kUnlimited : kRange_edges * static_cast<float>(grids_[g].edge());
     for (const Eigen::Vector3d& p : points) {
       const Eigen::Vector3f to_sensor = (sensor.position - p).cast<float>();
       if (to_sensor.squaredNorm() < reach * reach)
@@ -69,7 +83,7 @@ void PatchMap::insert(std::span<const Eigen::Vector3d> points, const PatchGrid::
 
 PatchMatch PatchMap::match(const Eigen::Vector3d& p, const Eigen::Vector3f& to_sensor, float gate) const {
   const BlockIndex h = halves(p, halves_per_metre_);
-  const float good = 4.0F * criteria_.noise_floor_m * criteria_.noise_floor_m;
+  const float good = kGoodSigmas * kGoodSigmas * criteria_.noise_floor_m * criteria_.noise_floor_m;
   PatchMatch best;
   for (int level = kLevels - 1; level >= 0; --level) {
     for (const int staggered : {0, 1}) {
@@ -88,7 +102,8 @@ PatchMatch PatchMap::match(const Eigen::Vector3d& p, const Eigen::Vector3f& to_s
 void PatchMap::keep_within(const Eigen::Vector3d& centre, double radius) {
   for (PatchGrid& grid : grids_) {
     grid.keep_within(centre, radius);
-    for (double r = radius; 10 * grid.size() > 9 * grid.capacity(); r *= 0.9) grid.keep_within(centre, r);
+    for (double r = radius; 10 * grid.size() > kFullTenths * grid.capacity(); r *= kRadiusStep)
+      grid.keep_within(centre, r);
   }
 }
 

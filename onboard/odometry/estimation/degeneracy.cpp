@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/odometry/degeneracy.hpp"
+#include "onboard/odometry/estimation/degeneracy.hpp"
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
@@ -8,7 +8,11 @@
 namespace cairn {
 namespace {
 
+// sin² of 5.7°. The normals of patches are noisy by max_tilt_rad = 1.7° and by curved surfaces;
+// test NoisyNormalsOfThousandsOfPointsDoNotHideIt has 2.9°.
 constexpr float kSquaredSineOfNoise = 0.01F;
+// m. Below it a lever arm has no meaning: all points would lie in the sensor.
+constexpr double kShortestLever_m = 0.1;
 
 /// Stops counting at `enough`: well determined directions are recognised after a few rows.
 bool enough_facing(std::span<const ResidualRow> rows, const Vector6& direction, double enough) {
@@ -29,7 +33,7 @@ bool enough_facing(std::span<const ResidualRow> rows, const Vector6& direction, 
 
 Degeneracy find_degeneracy(const NormalEquations& n, std::span<const ResidualRow> rows, double min_facing_points) {
   Degeneracy out;
-  out.length_m = n.weight > 0 ? std::max(std::sqrt(n.squared_range / n.weight), 0.1) : 1.0;
+  out.length_m = n.weight > 0 ? std::max(std::sqrt(n.squared_range / n.weight), kShortestLever_m) : 1.0;
   Vector6 scale = Vector6::Ones();
   scale.tail<3>().setConstant(1.0 / out.length_m);
   const Matrix6 information = scale.asDiagonal() * n.aa * scale.asDiagonal();

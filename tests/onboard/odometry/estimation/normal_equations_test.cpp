@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/odometry/normal_equations.hpp"
+#include "onboard/odometry/estimation/normal_equations.hpp"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "onboard/odometry/motion_filter.hpp"
+#include "onboard/odometry/estimation/motion_filter.hpp"
 #include "tests/onboard/odometry/room_points.hpp"
 
 namespace cairn {

@@ -4,8 +4,8 @@
 #include <Eigen/Core>
 
 #include "hal/se3.hpp"
-#include "onboard/odometry/degeneracy.hpp"
-#include "onboard/odometry/normal_equations.hpp"
+#include "onboard/odometry/estimation/degeneracy.hpp"
+#include "onboard/odometry/estimation/normal_equations.hpp"
 
 namespace cairn {
 
@@ -19,7 +19,8 @@ struct MotionState {
   Vector6 twist = Vector6::Zero();  ///< of base_link in base_link: m/s, rad/s
 };
 
-/// White acceleration, constant within one step.
+/// White acceleration, constant within one step: standard deviations. LidarOdometry takes them from
+/// its config.
 struct MotionNoise {
   double linear = 3.0;   ///< m/s²
   double angular = 3.0;  ///< rad/s²
@@ -29,20 +30,20 @@ struct MotionNoise {
 struct Measurement {
   const NormalEquations& equations;
   const Degeneracy& degeneracy;  ///< `equations` are already without it
-  /// By how much the equations' weights are too large: squared misfit of single points times points per independent
-  /// piece of information. Gains and covariance both follow from it: a direction in which few or wrong points speak
-  /// must not outvote the prediction.
+  /// By how much the equations' weights are too large: squared misfit of single points times points
+  /// per independent piece of information. Gains and covariance both follow from it. So a direction
+  /// that few or wrong points determine does not outvote the prediction.
   double overconfidence;
 };
 
-/// An iterated extended Kalman filter with the constant-twist model. It carries two covariances of the same state:
-/// `local` of the error against the map, which sets the gains, and `total` of the error against the start, which also
-/// inherits the errors that the map's planes were placed with.
+/// An iterated extended Kalman filter with the constant-twist model. It carries two covariances of
+/// the same state: `local` of the error against the map, which sets the gains, and `total` of the
+/// error against the start, which also inherits the errors that the map's planes were placed with.
 ///
-/// A twist that is wrong all the time deskews all scans alike, and a map of such scans confirms it. What gives it away
-/// is that the poses do not move so. Their errors are not carried from scan to scan, so the mean of what lies between
-/// motion and twist over some scans tells the twist's common error, whatever the acceleration; predictions follow it
-/// slowly.
+/// A twist that is wrong all the time deskews all scans alike, and a map of such scans confirms it.
+/// But the poses do not move like it. Their errors are not carried from scan to scan. So the mean
+/// gap between motion and twist over some scans is the twist's common error, whatever the
+/// acceleration. Predictions correct it slowly.
 class MotionFilter {
  public:
   struct Uncertainty {
@@ -58,12 +59,18 @@ class MotionFilter {
 
   /// One Gauss–Newton step from `x` towards the maximum of the posterior; `n` was linearised at x.
   [[nodiscard]] Vector12 step(const MotionState& x, const Measurement& m) const;
-  /// Ends the iteration at x. `map_covariance` is that of the matched planes' common displacement, as the covariance of
-  /// a left perturbation of T_odom_base.
+  /// Ends the iteration at x. `map_covariance` is that of the matched planes' common displacement,
+  /// as the covariance of a left perturbation of T_odom_base.
   void update(const MotionState& x, const Measurement& m, const Matrix6& map_covariance);
 
   [[nodiscard]] const MotionState& state() const { return state_; }
   [[nodiscard]] const Uncertainty& uncertainty() const { return uncertainty_; }
+  /// T_odom_base with the covariance of its error against the start.
+  [[nodiscard]] UncertainPose pose() const;
+  /// The same covariance, of a left perturbation of T_odom_base.
+  [[nodiscard]] Matrix6 odom_covariance() const;
+  /// Motion to T_odom_base from where the base was before the last predict().
+  [[nodiscard]] SE3 motion_to(const SE3& T_odom_base) const { return before_.T_odom_base.inverse() * T_odom_base; }
   /// Covariance of exp(δ) in T_previous_now·exp(δ) for the last predict() and update().
   [[nodiscard]] const Matrix6& step_covariance() const { return step_covariance_; }
 

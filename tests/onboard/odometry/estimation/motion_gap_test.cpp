@@ -2,7 +2,7 @@
 // What the filter does about a twist that its poses do not show.
 #include <gtest/gtest.h>
 
-#include "onboard/odometry/motion_filter.hpp"
+#include "onboard/odometry/estimation/motion_filter.hpp"
 
 namespace cairn {
 namespace {

@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/odometry/normal_equations.hpp"
+#include "onboard/odometry/estimation/normal_equations.hpp"
 
 #include <algorithm>
 
 namespace cairn {
 namespace {
+
+// Squared standard deviations. A point within 3 σ of its patch is an inlier.
+constexpr float kInlier = 9.0F;
+// Share of the squared gate. While the gate is wide, the robust weight falls to a quarter at a
+// third of it (√0.1).
+constexpr float kKernelOfGate = 0.1F;
 
 /// Σ (distance / σ)² over the rows.
 float mahalanobis(const PatchMatch& m) {
@@ -16,11 +22,12 @@ float mahalanobis(const PatchMatch& m) {
   return sum;
 }
 
-bool is_inlier(const PatchMatch& m) { return m.kind == PatchMatch::Kind::kOn && mahalanobis(m) < 9.0F; }
+bool is_inlier(const PatchMatch& m) { return m.kind == PatchMatch::Kind::kOn && mahalanobis(m) < kInlier; }
 
-/// Geman–McClure: full weight on the patch, a quarter at 3 σ (or at a third of the gate, while that is wider).
+/// Geman–McClure: full weight on the patch, a quarter at 3 σ (or at a third of the gate, while that
+/// is wider).
 float robust_weight(const PatchMatch& m, float gate) {
-  const float scale = std::max(9.0F, 0.1F * gate * gate / m.row[0].variance);
+  const float scale = std::max(kInlier, kKernelOfGate * gate * gate / m.row[0].variance);
   const float k = scale / (scale + mahalanobis(m));
   return k * k;
 }
@@ -105,7 +112,7 @@ NormalEquations Linearise::operator()(std::span<const Keypoint> keypoints, const
       for (int k = 0; k < match.rows; ++k) {
         const PatchMatch::Row& row = match.row[static_cast<std::size_t>(k)];
         const Eigen::Vector3f n_base = R_base_odom * row.direction;
-        rows_[2 * i + static_cast<std::size_t>(k)] = {n_base, q, robust};
+        rows_[2 * i + static_cast<std::size_t>(k)] = {.normal = n_base, .point = q, .robust = robust};
         sum.add(q, keypoints[i].age_s, n_base, row, robust);
       }
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/odometry/deskew.hpp"
+#include "onboard/odometry/estimation/deskew.hpp"
 
 #include <gtest/gtest.h>
 

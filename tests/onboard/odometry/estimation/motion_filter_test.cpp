@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/odometry/motion_filter.hpp"
+#include "onboard/odometry/estimation/motion_filter.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/odometry/degeneracy.hpp"
+#include "onboard/odometry/estimation/degeneracy.hpp"
 
 #include <gtest/gtest.h>
 

@@ -8,7 +8,7 @@
 
 #include "hal/se3.hpp"
 #include "hal/workers.hpp"
-#include "onboard/odometry/deskew.hpp"
+#include "onboard/odometry/estimation/deskew.hpp"
 #include "onboard/odometry/local_map/patch_map.hpp"
 
 namespace cairn {
@@ -21,8 +21,9 @@ struct Keypoint {
 
 /// Weighted point-to-plane least squares over the pose and the twist, linearised at one state.
 ///
-/// Residual of a point q = exp(−τ·twist)·p in base_link: r = n·(T_odom_base q − c). With a = ∂r/∂δ = [Rᵀn; q × Rᵀn] for
-/// T·exp(δ), the twist's derivative is −τ·a to first order, so three sums of a·aᵀ hold the whole 12×12 system.
+/// Residual of a point q = exp(−τ·twist)·p in base_link: r = n·(T_odom_base q − c). With a = ∂r/∂δ
+/// = [Rᵀn; q × Rᵀn] for T·exp(δ), the twist's derivative is −τ·a to first order, so three sums of
+/// a·aᵀ hold the whole 12×12 system.
 struct NormalEquations {
   Matrix6 aa = Matrix6::Zero();    ///< Σ w a aᵀ
   Matrix6 taa = Matrix6::Zero();   ///< Σ w τ a aᵀ
@@ -49,20 +50,22 @@ struct Linearisation {
   double gate_m;      ///< association distance; the robust kernel is scaled with it
 };
 
-/// What the caller may want to know about each keypoint; weight 0: not used.
+/// How much a keypoint counted, and with which part of the map. Weight 0: not used.
 struct KeypointUse {
-  float weight = 0;
-  float epoch = 0;
+  float weight = 0;  ///< robust weight over the variance of its distance [1/m²]
+  float epoch = 0;   ///< mean epoch of its patch, see DriftHistory
 };
 
-/// One residual: a point and the direction in which its patch holds it, both in base_link. robust 0: not used.
+/// One residual: a point and the direction in which its patch holds it, both in base_link. robust
+/// 0: not used.
 struct ResidualRow {
   Eigen::Vector3f normal = Eigen::Vector3f::Zero();
   Eigen::Vector3f point = Eigen::Vector3f::Zero();
   float robust = 0;  ///< robust weight, 0…1
 };
 
-/// Sums over all keypoints in chunks of fixed size, reduced in order: the same bits for any number of threads.
+/// Sums over all keypoints in chunks of fixed size, reduced in order: the same bits for any number
+/// of threads.
 class Linearise {
  public:
   explicit Linearise(std::size_t max_keypoints);
@@ -73,6 +76,8 @@ class Linearise {
   [[nodiscard]] std::span<const ResidualRow> rows() const { return rows_; }
 
  private:
+  /// Keypoints per job of the workers: 20 jobs for the default number. Other chunks give other sums
+  /// in the last bits.
   static constexpr std::size_t kChunk = 128;
   std::vector<NormalEquations> partial_;
   std::vector<KeypointUse> uses_;

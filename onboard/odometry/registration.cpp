@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/odometry/registration.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace cairn {
+namespace {
+
+// The gate begins at 3 standard deviations of the predicted position, and halves with every step.
+constexpr double kGateSigmas = 3.0, kGateShrink = 0.5;
+// Converged: the step is below a fiftieth of noise_floor_m (0.01 m); its rotation moves a point at
+// 10 m as far.
+constexpr double kConverged_m = 2e-4, kConverged_rad = 2e-5;
+
+}  // namespace
+
+double Fit::inlier_ratio() const {
+  return equations.matched > 0 ? static_cast<double>(equations.inliers) / equations.matched : 0.0;
+}
+
+double Fit::rms_m() const {
+  return equations.robust > 0 ? std::sqrt(equations.squared_distance / equations.robust) : 0.0;
+}
+
+double Fit::misfit() const { return equations.robust > 0 ? equations.chi2 / equations.robust : 1.0; }
+
+Registration::Registration(const OdometryConfig& config, const SE3& T_base_lidar, Workers& workers)
+    : T_base_lidar_(T_base_lidar),
+      workers_(workers),
+      max_iterations_(config.max_iterations),
+      narrowest_gate_m_(config.narrowest_gate_m),
+      widest_gate_m_(config.widest_gate_m),
+      min_facing_points_(config.min_facing_points),
+      correlation_factor_(config.correlation_factor),
+      linearise_(static_cast<std::size_t>(2 * config.keypoints)) {}
+
+Fit Registration::align(const Selection& scan, const PatchMap& map, const MotionFilter& filter,
+                        const MotionState& start, Budget& budget) {
+  Fit fit;
+  fit.state = start;
+  const double deviation_m = std::sqrt(filter.uncertainty().local.topLeftCorner<3, 3>().trace());
+  double gate_m = std::clamp(kGateSigmas * deviation_m, narrowest_gate_m_, widest_gate_m_);
+  while (!fit.converged && fit.iterations < max_iterations_ && budget.one_more()) {
+    iterate(fit, linearise(scan, map, fit.state, gate_m), filter, gate_m <= narrowest_gate_m_);
+    gate_m = std::max(narrowest_gate_m_, kGateShrink * gate_m);
+  }
+  return fit;
+}
+
+void Registration::iterate(Fit& fit, const NormalEquations& all, const MotionFilter& filter, bool narrowest) const {
+  fit.degeneracy = find_degeneracy(all, linearise_.rows(), min_facing_points_);
+  fit.equations = without_degenerate(all, fit.degeneracy);
+  const Vector12 step = filter.step(fit.state, {fit.equations, fit.degeneracy, correlation_factor_});
+  fit.state = fit.state + step;
+  ++fit.iterations;
+  fit.converged = narrowest && step.head<3>().norm() < kConverged_m && step.segment<3>(3).norm() < kConverged_rad;
+}
+
+double Registration::inliers(const Selection& scan, const PatchMap& map, const MotionState& at, double gate_m) {
+  return linearise(scan, map, at, gate_m).inliers;
+}
+
+NormalEquations Registration::linearise(const Selection& scan, const PatchMap& map, const MotionState& at,
+                                        double gate_m) {
+  const Linearisation here{.T_odom_base = at.T_odom_base,
+                           .twist = at.twist,
+                           .T_base_lidar = T_base_lidar_,
+                           .duration_s = scan.duration_s,
+                           .gate_m = gate_m};
+  return linearise_(scan.keypoints, map, here, workers_);
+}
+
+}  // namespace cairn

@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/odometry/tracking_state.hpp"
+
+#include <algorithm>
+
+namespace cairn {
+namespace {
+
+// In revolutions. One missing scan puts the next one two revolutions after the last; 1.8 leaves
+// room for jitter.
+constexpr double kGap = 1.8;
+// Of a revolution. A shorter scan after a gap led a turning robot astray (test
+// ATurnThatEndsWhileNoScanComesIsFollowed).
+constexpr double kWholeScan = 0.6;
+// Per scan. A motor may turn faster from now on: the longest revolution that counts halves within
+// seven scans.
+constexpr double kRevolutionDecay = 0.9;
+
+}  // namespace
+
+std::string_view to_string(Track track) {
+  switch (track) {
+    case Track::kFollowed:
+      return "followed";
+    case Track::kLost:
+      return "lost";
+    case Track::kReinitialised:
+      return "reinitialised";
+  }
+  return "unknown";
+}
+
+TrackingState::TrackingState(const OdometryConfig& config)
+    : min_matches_(config.min_matches),
+      min_inlier_ratio_(config.min_inlier_ratio),
+      max_speed_m_s_(config.max_speed),
+      max_angular_speed_rad_s_(config.max_angular_speed),
+      reinitialise_after_(config.reinitialise_after) {}
+
+void TrackingState::begin(Time stamp) {
+  last_stamp_ = stamp;
+  lost_in_a_row_ = 0;
+}
+
+bool TrackingState::is_fragment_after_gap(double dt_s, double duration_s) const {
+  return dt_s > kGap * revolution_s_ && duration_s < kWholeScan * revolution_s_;
+}
+
+void TrackingState::advance(Time stamp, double duration_s) {
+  revolution_s_ = std::max(duration_s, kRevolutionDecay * revolution_s_);
+  last_stamp_ = stamp;
+}
+
+Track TrackingState::judge(const Fit& fit, const SE3& motion, double dt_s, const PatchMap& map) {
+  if (plausible(fit, motion, dt_s)) {
+    lost_in_a_row_ = 0;
+    return Track::kFollowed;
+  }
+  ++lost_in_a_row_;
+  if (lost_in_a_row_ < reinitialise_after_ && map.patches() > 0) return Track::kLost;
+  lost_in_a_row_ = 0;
+  return Track::kReinitialised;
+}
+
+bool TrackingState::plausible(const Fit& fit, const SE3& motion, double dt_s) const {
+  const NormalEquations& n = fit.equations;
+  if (n.matched < min_matches_ || n.inliers < min_inlier_ratio_ * n.matched) return false;
+  return motion.translation().norm() <= max_speed_m_s_ * dt_s &&
+         rotation_angle(motion) <= max_angular_speed_rad_s_ * dt_s;
+}
+
+}  // namespace cairn

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/odometry/tracking_state.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/onboard/odometry/room_points.hpp"
+
+namespace cairn {
+namespace {
+
+constexpr double kScan_s = 0.1;
+
+Time time_at(double seconds) { return Time{from_seconds(seconds)}; }
+SE3 driven(double metres) { return SE3(Eigen::Quaterniond::Identity(), {metres, 0, 0}); }
+SE3 turned(double radians) { return SE3::exp(radians * Vector6::Unit(5)); }
+
+Fit fit_of(int matched, int inliers) {
+  Fit out;
+  out.equations.matched = matched;
+  out.equations.inliers = inliers;
+  return out;
+}
+
+PatchMap map_of(std::size_t points) {
+  PatchMap map({.finest_block_m = 0.5, .max_blocks = 1 << 12, .max_points_per_block = 400, .criteria = {}});
+  Workers workers(1);
+  map.insert(Room(1).points(points, 0.01), Room::sensor(), 0, workers);
+  return map;
+}
+
+class Tracking : public ::testing::Test {
+ protected:
+  Track judge(const Fit& f, const SE3& motion = {}) { return state_.judge(f, motion, kScan_s, map_); }
+  static TrackingState with(int reinitialise_after) {
+    OdometryConfig config;
+    config.reinitialise_after = reinitialise_after;
+    return TrackingState(config);
+  }
+  TrackingState state_ = with(4);
+  PatchMap map_ = map_of(5000), empty_ = map_of(0);
+};
+
+TEST_F(Tracking, BeginsWithTheFirstScan) {
+  EXPECT_FALSE(state_.began());
+  state_.begin(time_at(3));
+  EXPECT_TRUE(state_.began());
+  EXPECT_NEAR(state_.seconds_since_last(time_at(3.1)), 0.1, 1e-12);
+  state_.advance(time_at(3.1), 0.1);
+  EXPECT_NEAR(state_.seconds_since_last(time_at(3.0)), -0.1, 1e-12);
+}
+
+TEST_F(Tracking, AFragmentAfterAGapIsToldFromAWholeScan) {
+  state_.begin(time_at(0));
+  EXPECT_FALSE(state_.is_fragment_after_gap(10, 0.001)) << "how long a whole one takes is not known yet";
+  state_.advance(time_at(0.1), 0.1);
+  EXPECT_TRUE(state_.is_fragment_after_gap(0.19, 0.05));
+  EXPECT_FALSE(state_.is_fragment_after_gap(0.19, 0.07)) << "most of a revolution";
+  EXPECT_FALSE(state_.is_fragment_after_gap(0.12, 0.05)) << "no gap";
+}
+
+TEST_F(Tracking, AMotorMayTurnFasterFromNowOn) {
+  state_.begin(time_at(0));
+  state_.advance(time_at(0.2), 0.2);
+  EXPECT_TRUE(state_.is_fragment_after_gap(0.5, 0.1));
+  for (int i = 0; i < 7; ++i) state_.advance(time_at(0.3 + 0.1 * i), 0.1);
+  EXPECT_FALSE(state_.is_fragment_after_gap(0.5, 0.1));
+}
+
+TEST_F(Tracking, AFitIsFollowedIfEnoughPointsMatchAndFit) {
+  EXPECT_EQ(judge(fit_of(60, 24)), Track::kFollowed);
+  EXPECT_EQ(judge(fit_of(59, 59)), Track::kLost) << "too few matches";
+  EXPECT_EQ(judge(fit_of(100, 39)), Track::kLost) << "too few of them fit";
+}
+
+TEST_F(Tracking, AMotionThatNoRobotMakesIsNotFollowed) {
+  EXPECT_EQ(judge(fit_of(100, 100), driven(4.9)), Track::kFollowed) << "49 m/s";
+  EXPECT_EQ(judge(fit_of(100, 100), driven(5.1)), Track::kLost);
+  EXPECT_EQ(judge(fit_of(100, 100), turned(0.59)), Track::kFollowed) << "5.9 rad/s";
+  EXPECT_EQ(judge(fit_of(100, 100), turned(0.61)), Track::kLost);
+}
+
+TEST_F(Tracking, LostScansInARowBeginANewMap) {
+  for (int round = 0; round < 2; ++round) {
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(judge(fit_of(0, 0)), Track::kLost) << i;
+    EXPECT_EQ(judge(fit_of(0, 0)), Track::kReinitialised);
+  }
+  for (int i = 0; i < 3; ++i) (void)judge(fit_of(0, 0));
+  EXPECT_EQ(judge(fit_of(100, 100)), Track::kFollowed);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(judge(fit_of(0, 0)), Track::kLost) << "the count begins again";
+}
+
+TEST_F(Tracking, AMapWithoutPatchesIsGivenUpAtOnce) {
+  EXPECT_EQ(state_.judge(fit_of(0, 0), {}, kScan_s, empty_), Track::kReinitialised);
+}
+
+TEST_F(Tracking, EveryOutcomeHasAName) {
+  EXPECT_EQ(to_string(Track::kFollowed), "followed");
+  EXPECT_EQ(to_string(Track::kLost), "lost");
+  EXPECT_EQ(to_string(Track::kReinitialised), "reinitialised");
+}
+
+}  // namespace
+}  // namespace cairn
