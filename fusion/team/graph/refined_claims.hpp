@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "fusion/merging/team_map.hpp"
-#include "fusion/team/pair_claim.hpp"
-#include "fusion/team/pose_graph.hpp"
+#include "fusion/team/graph/pair_claim.hpp"
+#include "fusion/team/graph/pose_graph.hpp"
 
 namespace cairn {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fusion/team/pair_claim.hpp"
+#include "fusion/team/graph/pair_claim.hpp"
 
 #include <tuple>
 

@@ -10,7 +10,7 @@
 
 #include "fusion/matching/belief/growing_match.hpp"
 #include "fusion/peers/items/item.hpp"
-#include "fusion/team/refinements.hpp"
+#include "fusion/team/comparisons/refinements.hpp"
 #include "hal/budget.hpp"
 #include "hal/se3.hpp"
 #include "onboard/mapping/tree/semantic_octree.hpp"

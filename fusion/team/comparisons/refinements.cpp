@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fusion/team/refinements.hpp"
+#include "fusion/team/comparisons/refinements.hpp"
 
 #include <Eigen/Geometry>
 #include <vector>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fusion/team/refined_claims.hpp"
+#include "fusion/team/graph/refined_claims.hpp"
 
 #include <algorithm>
 #include <cstdlib>

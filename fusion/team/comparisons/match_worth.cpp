@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fusion/team/match_worth.hpp"
+#include "fusion/team/comparisons/match_worth.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fusion/team/robot_tiles.hpp"
+#include "fusion/team/tiles/robot_tiles.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fusion/team/pose_graph.hpp"
+#include "fusion/team/graph/pose_graph.hpp"
 
 #include <gtest/gtest.h>
 

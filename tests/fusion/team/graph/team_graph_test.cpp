@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fusion/team/team_graph.hpp"
+#include "fusion/team/graph/team_graph.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,9 +10,9 @@
 
 #include "fusion/merging/team_map.hpp"
 #include "fusion/peers/items/item.hpp"
-#include "fusion/team/pair_claim.hpp"
-#include "fusion/team/pose_graph.hpp"
-#include "fusion/team/refined_claims.hpp"
+#include "fusion/team/graph/pair_claim.hpp"
+#include "fusion/team/graph/pose_graph.hpp"
+#include "fusion/team/graph/refined_claims.hpp"
 #include "hal/se3.hpp"
 
 namespace cairn {

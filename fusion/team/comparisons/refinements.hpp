@@ -8,8 +8,8 @@
 #include <optional>
 
 #include "fusion/peers/items/claim.hpp"
-#include "fusion/team/robot_tiles.hpp"
-#include "fusion/team/team_graph.hpp"
+#include "fusion/team/graph/team_graph.hpp"
+#include "fusion/team/tiles/robot_tiles.hpp"
 
 namespace cairn {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "fusion/team/team_graph.hpp"
+#include "fusion/team/graph/team_graph.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "fusion/matching/belief/team_consistency.hpp"
-#include "fusion/team/refined_claims.hpp"
+#include "fusion/team/graph/refined_claims.hpp"
 
 namespace cairn {
 namespace {
