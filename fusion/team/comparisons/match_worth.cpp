@@ -2,49 +2,18 @@
 #include "fusion/team/comparisons/match_worth.hpp"
 
 #include <algorithm>
-#include <cmath>
 
 namespace cairn {
 namespace {
 
+// Shares of the worth of a comparison that is sure to tell something new. Chosen by hand.
 constexpr double kOfMerged = 0.2;   // what is believed already seldom changes
 constexpr double kOfUnknown = 0.5;  // maps without a pose may have nothing in common
-constexpr double kPlenty = 60;      // tiles in common: more decide no better
-constexpr double kLeastCostS = 0.5;
-constexpr std::size_t kLookedAt = 128;  // of b, often
-constexpr int kEdge = 1 << TileKey::kVoxelBits, kMiddle = 32768;
-
-/// The tile at a place of the map, given in voxels from its origin; beyond the map: the last one there is.
-TileKey tile_at(const Eigen::Vector3d& voxels) {
-  const auto key = [&](int axis) {
-    return static_cast<std::uint16_t>(std::clamp(std::floor(voxels[axis]) + kMiddle, 0.0, 65535.0));
-  };
-  return TileKey::of_voxel(key(0), key(1), key(2));
-}
-
-/// Turned against the other map's, a tile's walls may be in the next one.
-bool meets(const std::set<TileKey>& tiles, const Eigen::Vector3d& voxels) {
-  if (tiles.contains(tile_at(voxels))) return true;
-  for (int axis = 0; axis < 3; ++axis)
-    for (const double side : {-kEdge / 2.0, kEdge / 2.0})
-      if (tiles.contains(tile_at(voxels + side * Eigen::Vector3d::Unit(axis)))) return true;
-  return false;
-}
+constexpr double kLeastLikely = 0.01;
+constexpr double kPlenty = 60;        // tiles in common: more decide no better
+constexpr double kLeastCost_s = 0.5;  // the first comparison has no cost yet
 
 }  // namespace
-
-std::size_t tiles_of_both(const std::set<TileKey>& a, const std::set<TileKey>& b, const SE3& T_a_b,
-                          double resolution_m) {
-  const std::size_t step = std::max<std::size_t>(1, (b.size() + kLookedAt - 1) / kLookedAt);
-  std::size_t common = 0, i = 0;
-  for (const TileKey tile : b) {
-    if (i++ % step != 0) continue;
-    Eigen::Vector3d middle;
-    for (unsigned axis = 0; axis < 3; ++axis) middle[axis] = tile.first_voxel(axis) - kMiddle + kEdge / 2.0;
-    common += meets(a, T_a_b * (resolution_m * middle) / resolution_m) ? step : 0;
-  }
-  return std::min(common, b.size());
-}
 
 bool MatchWorth::grown(const MatchOutlook& outlook) const {
   const auto grew = [&](std::size_t now, std::size_t then) {
@@ -68,9 +37,9 @@ double MatchWorth::of(const MatchOutlook& outlook, Time now) const {
     if (rests(now) || (!grown(outlook) && now < began_ + retry())) return 0;
   }
   const double common = outlook.common_tiles ? static_cast<double>(*outlook.common_tiles) / kPlenty : kOfUnknown;
-  const double likely = std::clamp(common, 0.01, 1.0) * (outlook.merged ? kOfMerged : 1);
+  const double likely = std::clamp(common, kLeastLikely, 1.0) * (outlook.merged ? kOfMerged : 1);
   const double again = first || grown(outlook) ? 1 : 1.0 / (2 + in_vain_);
-  return likely * again / std::max(kLeastCostS, to_seconds(took_));
+  return likely * again / std::max(kLeastCost_s, to_seconds(took_));
 }
 
 void MatchWorth::begin(const MatchOutlook& outlook, Time now) {

@@ -7,10 +7,10 @@
 namespace cairn {
 namespace {
 
-constexpr std::size_t kLeastCommon = 25;  // tiles
-constexpr double kMore = 1.5;             // times as many as when it was compared
+constexpr std::size_t kLeastCommon = 25;  // tiles: two walls of a corridor, 10 m long, in voxels of 0.2 m
+constexpr double kMore = 1.5;             // times as many tiles as when it was compared
 
-/// A ball around the walls of a submap, team's frame.
+/// A ball around the walls of a submap: team's frame, metres.
 struct Ball {
   Eigen::Vector3d centre;
   double radius;
@@ -36,7 +36,8 @@ std::vector<Submap> submaps_of(peers::RobotId robot, const RobotTiles& tiles, co
   for (const auto& [index, walls] : tiles.walls_by_submap()) {
     const auto pose = poses.submaps.find({robot, index});
     if (pose == poses.submaps.end()) continue;
-    submaps.push_back({index, &walls, pose->second, around(walls, pose->second, tile_m)});
+    submaps.push_back(
+        {.index = index, .walls = &walls, .T_team_odom = pose->second, .ball = around(walls, pose->second, tile_m)});
   }
   return submaps;
 }
@@ -52,12 +53,12 @@ std::vector<Overlap> overlaps(const std::vector<Submap>& own, const std::vector<
     for (const Submap& b : other) {
       if ((a.ball.centre - b.ball.centre).norm() > a.ball.radius + b.ball.radius) continue;
       const std::size_t common = common_tiles(*a.walls, *b.walls, b.T_team_odom.inverse() * a.T_team_odom, tile_m);
-      if (common >= kLeastCommon) all.push_back({a.index, b.index, common});
+      if (common >= kLeastCommon) all.push_back({.own = a.index, .other = b.index, .common = common});
     }
   return all;
 }
 
-/// Whether no other has more in common with one of the two.
+/// Whether one of the two submaps has no more in common with any other.
 bool best_of_one(const Overlap& overlap, const std::vector<Overlap>& all) {
   bool own = true, other = true;
   for (const Overlap& o : all) {
@@ -78,21 +79,25 @@ std::optional<SubmapPair> Refinements::next(peers::RobotId self, peers::RobotId 
   for (const Overlap& overlap : all) {
     const auto before = compared_.find({peer, overlap.own, overlap.other});
     const bool grown = before == compared_.end()
-                           ? compared_.size() < kMost
+                           ? compared_.size() < kEdgesPerOrigin
                            : static_cast<double>(overlap.common) >= kMore * static_cast<double>(before->second.common);
     if (grown && (best == nullptr || overlap.common > best->common) && best_of_one(overlap, all)) best = &overlap;
   }
   if (best == nullptr) return std::nullopt;
-  const SubmapPair pair{peer, best->own, best->other};
-  const auto edge = static_cast<std::uint16_t>(kFirstEdge + compared_.size());
-  auto& comparison = compared_.try_emplace(pair, Comparison{0, edge, {}}).first->second;
-  comparison.common = best->common;
+  const SubmapPair pair{.peer = peer, .own = best->own, .other = best->other};
+  const PublishedEdge edge(edge_index(EdgeOrigin::kRefined, compared_.size()));
+  compared_.try_emplace(pair, Comparison{0, edge}).first->second.common = best->common;
   return pair;
+}
+
+PublishedEdge* Refinements::edge(const SubmapPair& pair) {
+  const auto found = compared_.find(pair);
+  return found == compared_.end() ? nullptr : &found->second.edge;
 }
 
 void Refinements::forget(peers::RobotId peer) {
   for (auto& [pair, comparison] : compared_)
-    if (pair.peer == peer) comparison = {0, comparison.edge, {}};
+    if (pair.peer == peer) comparison = {0, PublishedEdge(comparison.edge.index())};
 }
 
 }  // namespace cairn

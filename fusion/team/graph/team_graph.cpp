@@ -184,6 +184,22 @@ std::optional<UncertainPose> TeamPoses::between(const merging::SubmapKey& a, con
   return Marginals(graph).between(in_a->second, in_b->second);
 }
 
+std::optional<SE3> TeamPoses::odom_between(RobotId a, RobotId b) const {
+  const auto of_a = T_team_odom.find(a), of_b = T_team_odom.find(b);
+  if (of_a == T_team_odom.end() || of_b == T_team_odom.end()) return std::nullopt;
+  return of_a->second.inverse() * of_b->second;
+}
+
+std::map<std::uint16_t, SE3> TeamPoses::drifts_of(RobotId robot) const {
+  std::map<std::uint16_t, SE3> T_first_odom;
+  const auto first = submaps.find({robot, 0});
+  if (first == submaps.end()) return T_first_odom;
+  for (auto submap = std::next(first); submap != submaps.end() && submap->first.robot == robot; ++submap)
+    if (submap->second.matrix() != first->second.matrix())
+      T_first_odom[submap->first.submap] = first->second.inverse() * submap->second;
+  return T_first_odom;
+}
+
 TeamPoses team_poses(RobotId self, std::span<const PairClaim> claims, const SubmapChains& chains) {
   TeamPoses team;
   const auto [firsts, at] = connecting(claims, chains);

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-
 namespace cairn {
 namespace {
 
@@ -14,7 +12,9 @@ using std::chrono::seconds;
 
 const Time kBegin{seconds(1000)};
 
-MatchOutlook outlook(std::size_t tiles, std::uint64_t version) { return {tiles, tiles, {}, version, version, false}; }
+MatchOutlook outlook(std::size_t tiles, std::uint64_t version) {
+  return {.own_tiles = tiles, .peer_tiles = tiles, .own_version = version, .peer_version = version};
+}
 
 /// Seconds after a comparison of `then`, at which one of `now` is worth its time; -1: not within a day.
 int due_after(MatchWorth worth, const MatchOutlook& now) {
@@ -68,23 +68,6 @@ TEST(MatchWorth, WhereThePoseIsKnownWhatBothSeeCounts) {
   elsewhere.merged = there.merged = true;
   EXPECT_GE(due_after(compared(then), elsewhere), 20);
   EXPECT_EQ(due_after(compared(then), there), 5);
-}
-
-TEST(MatchWorth, CommonTilesAreThoseThatLieOnEachOther) {
-  std::set<TileKey> row, turned;  // along x, and the same as a robot sees it whose x axis is the other's −y
-  for (int i = 0; i < 3000; ++i) {
-    row.insert(TileKey::of_voxel(static_cast<std::uint16_t>(32768 + 8 * i), 32768, 32768));
-    turned.insert(TileKey::of_voxel(32768, static_cast<std::uint16_t>(32768 - 8 * i), 32768));
-  }
-  const auto at = [](double x, double y, double yaw) {
-    return SE3::from_xyz_rpy((Vector6() << x, y, 0, 0, 0, yaw).finished());
-  };
-  EXPECT_EQ(tiles_of_both(row, row, SE3(), 0.2), 3000U);
-  EXPECT_NEAR(static_cast<double>(tiles_of_both(row, row, at(1500 * 1.6, 0, 0), 0.2)), 1500, 30);
-  EXPECT_EQ(tiles_of_both(row, row, at(0, 5, 0), 0.2), 0U);
-  EXPECT_LT(tiles_of_both(row, turned, SE3(), 0.2), 60U);
-  EXPECT_GT(tiles_of_both(row, turned, at(0, 0, M_PI / 2), 0.2), 2900U);
-  EXPECT_EQ(tiles_of_both(row, row, at(1e6, 0, 0), 0.2), 0U);
 }
 
 TEST(MatchWorth, MoreIsWorthMore) {

@@ -35,11 +35,25 @@ TEST(Refinements, EachSubmapIsComparedWithTheOneItSharesMostWith) {
   std::set<std::uint16_t> edges;
   while (const auto pair = refinements.next(1, 2, own, other, all_at_the_origin(4), kTileEdgeM)) {
     ASSERT_TRUE(pairs.insert(*pair).second) << "twice";
-    EXPECT_TRUE(edges.insert(refinements.edge_of(*pair)).second);
+    EXPECT_TRUE(edges.insert(refinements.edge(*pair)->index()).second);
+    EXPECT_EQ(origin_of(refinements.edge(*pair)->index()), EdgeOrigin::kRefined);
   }
   EXPECT_EQ(pairs, (std::set<SubmapPair>{{2, 0, 0}, {2, 1, 1}, {2, 2, 2}, {2, 3, 3}}));
   refinements.forget(2);
   EXPECT_TRUE(refinements.next(1, 2, own, other, all_at_the_origin(4), kTileEdgeM)) << "a peer that begins anew";
+}
+
+TEST(Refinements, AnEdgeOfAPairThatIsVoidIsNone) {
+  RobotTiles own, other;
+  add(own, 0, 0, 20);
+  add(own, 1, 20, 20);
+  add(other, 0, 0, 20);
+  Refinements refinements;
+  const auto pair = refinements.next(1, 2, own, other, all_at_the_origin(2), kTileEdgeM);
+  ASSERT_TRUE(pair);
+  EXPECT_NE(refinements.edge(*pair), nullptr);
+  refinements.clear();
+  EXPECT_EQ(refinements.edge(*pair), nullptr);
 }
 
 TEST(Refinements, AgainWhenThereIsHalfAsMuchMore) {
