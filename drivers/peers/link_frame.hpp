@@ -8,13 +8,13 @@
 
 #include "hal/result.hpp"
 
-// What the core and the peer process say to each other over their local socket, one frame in each of its messages.
+// What the core and the peer process send each other over their local socket: one frame in each message.
 namespace cairn::peers {
 
 /// One message on the local socket.
 struct LinkFrame {
   enum class Kind : std::uint8_t {
-    kSend = 1,      ///< core → peer process: send these bytes to `robot`, or to everyone where it is 0
+    kSend = 1,      ///< core → peer process: send these bytes to `robot`, or to all if it is 0
     kReceived = 2,  ///< peer process → core: `robot` sent these bytes
   };
   static constexpr std::size_t kMaxBytes = 1200, kHeaderBytes = 20;
@@ -24,12 +24,12 @@ struct LinkFrame {
   std::span<const std::byte> bytes;
 };
 
-/// "CPL1", version 1, kind, length (2 bytes), robot (8), XXH32 of all that is before and after it (4), the bytes.
-/// `out` is overwritten, reusing its memory. At most kMaxBytes.
+/// Writes "CPL1", version 1, kind, length (2 bytes), robot (8), XXH32 of all that is before and after it (4), the
+/// bytes. `out` is overwritten; its memory is reused. A frame has at most kMaxBytes.
 void encode(const LinkFrame& frame, std::vector<std::byte>& out);
 
-/// kTruncated, kMalformed (also where the checksum differs) or kUnsupported (another version). `bytes` point into
-/// `message`.
+/// The frame's `bytes` point into `message`. Errors: kTruncated, kMalformed (also if the checksum differs),
+/// kUnsupported (another version).
 [[nodiscard]] Result<LinkFrame> decode_link_frame(std::span<const std::byte> message);
 
 }  // namespace cairn::peers

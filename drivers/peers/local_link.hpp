@@ -11,8 +11,8 @@
 
 namespace cairn::peers {
 
-/// One end of the local socket (SOCK_SEQPACKET) between a core and its peer process. Never waits: what the other end
-/// does not take in time is lost and counted. Either end may die and come back.
+/// One end of the local socket (SOCK_SEQPACKET) between a core and its peer process. It never waits: frames that the
+/// other end does not take in time are lost and counted. Either end may die and come back.
 class LocalLink {
  public:
   /// What happened to the frames.
@@ -20,10 +20,10 @@ class LocalLink {
     std::uint64_t sent = 0, received = 0, lost = 0, refused = 0, connections = 0;
   };
 
-  /// The core's end: the other one comes to it. A socket that a dead core left is replaced. Errors: kInvalidConfig
-  /// (path too long), kIo (another core serves it; the system refused).
+  /// The core's end, which the other end connects to. The socket of a dead core is replaced. Errors: kInvalidConfig
+  /// (the path is too long), kIo (another core serves it, or the system refused).
   static Result<LocalLink> listen(const std::filesystem::path& path);
-  /// The peer process's end; it connects when it can, and again when the core went away.
+  /// The peer process's end. It connects when it can, and again after the core has gone away.
   static LocalLink connect(std::filesystem::path path);
   LocalLink(const LocalLink&) = delete;
   LocalLink& operator=(const LocalLink&) = delete;
@@ -31,15 +31,14 @@ class LocalLink {
   LocalLink& operator=(LocalLink&&) = delete;
   ~LocalLink();
 
-  /// Makes or takes a connection if there is none. True: there is one. That of an end that died lasts until receive()
-  /// has read what it had sent.
+  /// Makes or takes a connection if there is none. True: there is one. The connection to an end that died lasts until
+  /// receive() has read all that it sent.
   bool join();
-  /// False where it was lost.
+  /// False if the frame was lost.
   bool send(const LinkFrame& frame);
-  /// The next frame, with its bytes in `memory`; nothing where none is there. Frames that cannot be are counted and
-  /// passed over.
+  /// Takes the next frame, with its bytes in `memory`. False if there is none. Invalid frames are counted and skipped.
   [[nodiscard]] bool receive(std::vector<std::byte>& memory, LinkFrame& frame);
-  /// To be waited for with poll(); −1 without a connection.
+  /// Wait for it with poll(); −1 without a connection.
   [[nodiscard]] int readable_fd() const { return fd_; }
   [[nodiscard]] const Counters& counters() const { return counters_; }
 

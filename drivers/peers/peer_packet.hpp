@@ -10,16 +10,16 @@
 #include "hal/bytes.hpp"
 #include "hal/packet.hpp"
 
-// What comes from the team as packets. The first one says who this robot is in it, so that a replay knows it too.
+// What comes from the team, as packets. The first packet tells who this robot is in the team: a replay needs it.
 namespace cairn::peers {
 
 enum class PacketKind : std::uint16_t {  ///< Packet::channel
   kDatagram = 0,                         ///< what a peer sent
-  kBeginning = 1,                        ///< made here
+  kBeginning = 1,                        ///< who this robot is; made by the robot itself
 };
 inline constexpr std::size_t kMaxPacket = 1200;
 
-/// Under which name and in which epoch this robot takes part.
+/// The id and the epoch that this robot takes part with.
 struct Beginning {
   std::uint64_t robot = 0, epoch = 0;
   friend bool operator==(const Beginning&, const Beginning&) = default;
@@ -31,7 +31,7 @@ inline void encode(const Beginning& beginning, Packet& packet) {
   append_le(packet.bytes, beginning.robot);
   append_le(packet.bytes, beginning.epoch);
 }
-/// Nothing where the bytes cannot be one; nobody's name is 0.
+/// Nothing if the bytes are not a Beginning. No robot has the id 0.
 [[nodiscard]] inline std::optional<Beginning> decode_beginning(std::span<const std::byte> bytes) {
   if (bytes.size() != 16 || load_le<std::uint64_t>(bytes, 0) == 0) return std::nullopt;
   return Beginning{load_le<std::uint64_t>(bytes, 0), load_le<std::uint64_t>(bytes, 8)};

@@ -13,16 +13,16 @@
 
 namespace cairn::peers {
 
-/// The core's door to its peer process, live: what peers sent comes out as packets, after a first one with the
-/// Beginning. Never waits.
+/// The live core's connection to its peer process. The first packet is the Beginning. The others are what peers sent.
+/// It never waits.
 class PeerPort final : public Source {
  public:
-  /// `clock` must outlive the port. Errors: LocalLink::listen()'s.
+  /// `clock` must outlive the port. Errors: those of LocalLink::listen().
   static Result<std::unique_ptr<PeerPort>> open(const std::filesystem::path& socket, const Beginning& beginning,
                                                 SourceId source, const Clock& clock);
   Result<Poll> next(Packet& packet, Duration timeout) override;
 
-  /// To one robot, or to all where `robot` is 0. False: lost, as on a bad link.
+  /// Sends to one robot, or to all if `robot` is 0. False: the datagram is lost, as on a bad link.
   bool send(std::uint64_t robot, std::span<const std::byte> datagram);
   [[nodiscard]] const LocalLink::Counters& counters() const { return link_.counters(); }
 

@@ -12,18 +12,18 @@
 #include "hal/ports.hpp"
 #include "hal/result.hpp"
 
-// peers.log: what a robot heard of its team, in the order of arrival. All numbers are little endian. A header of 8
-// bytes ("CPRL", version 1 in 4 bytes), then for each packet its length (2 bytes), its PacketKind (2), its arrival in
-// nanoseconds on the robot's time line (8), and its bytes.
+// peers.log holds what a robot received from its team, in the order of arrival. All numbers are little endian. It has a
+// header of 8 bytes ("CPRL", version 1 in 4 bytes). Then comes for each packet: its length (2 bytes), its PacketKind
+// (2), its arrival in nanoseconds on the robot's time line (8), and its bytes.
 namespace cairn::peers {
 
 inline constexpr std::size_t kLogHeaderBytes = 8;
 
 void append_log_header(std::vector<std::byte>& out);
-/// Error kLimit: longer than kMaxPacket. Nothing is appended then.
+/// Errors: kLimit (the packet is longer than kMaxPacket). Nothing is appended then.
 Result<void> append_log_record(const Packet& packet, std::vector<std::byte>& out);
 
-/// Replays peers.log as fast as it is asked for.
+/// Replays peers.log, as fast as next() is called.
 class PeersLogSource final : public Source {
  public:
   /// Errors: kNotFound, kIo, kMalformed (not such a file), kUnsupported (another version).
@@ -31,7 +31,7 @@ class PeersLogSource final : public Source {
   /// The same from a stream; `name` is used in messages.
   static Result<std::unique_ptr<PeersLogSource>> from_stream(std::unique_ptr<std::istream> stream, std::string name,
                                                              SourceId source);
-  /// A damaged file ends with an error: kTruncated inside its last packet, kMalformed where no packet can be.
+  /// A damaged file ends with an error: kTruncated inside its last packet, kMalformed for an invalid packet.
   Result<Poll> next(Packet& packet, Duration timeout) override;
 
  private:

@@ -8,8 +8,8 @@
 
 namespace cairn::peers {
 
-/// Never lets more than `bytes_per_second` through in any second: what may gather in a pause (an eighth of that, and
-/// two datagrams at least) and what is refilled within a second are the rate together.
+/// Traffic stays below `bytes_per_second` in every one-second window. The rate is shared: a burst may gather in a pause
+/// (an eighth of the rate, and two datagrams at least), and the rest is refilled within a second.
 class TokenBucket {
  public:
   explicit TokenBucket(double bytes_per_second)
@@ -17,7 +17,7 @@ class TokenBucket {
         refill_(bytes_per_second - burst_),
         level_(burst_) {}
 
-  /// Whether take() would let them through now.
+  /// Whether take() would let so many bytes through now.
   [[nodiscard]] bool has(std::size_t bytes, Time now, bool urgent = false) {
     if (now > last_) {
       level_ = std::min(burst_, level_ + refill_ * to_seconds(now - last_));
@@ -25,7 +25,7 @@ class TokenBucket {
     }
     return static_cast<double>(bytes) <= level_ - (urgent ? 0 : burst_ / 3);
   }
-  /// Whether `bytes` may go now; they are counted then. What is not urgent leaves a third of the burst to what is.
+  /// Whether `bytes` may go now. If so, they are counted. A third of the burst is kept for urgent bytes.
   [[nodiscard]] bool take(std::size_t bytes, Time now, bool urgent = false) {
     if (!has(bytes, now, urgent)) return false;
     level_ -= static_cast<double>(bytes);
@@ -33,7 +33,7 @@ class TokenBucket {
   }
 
  private:
-  static constexpr double kTwoDatagrams = 2800;
+  static constexpr double kTwoDatagrams = 2800;  // bytes, with all headers
 
   double burst_, refill_, level_;
   Time last_{};

@@ -6,16 +6,15 @@
 
 namespace cairn::peers {
 
-/// A cap on all that this process sends over the network, whoever in it sends: the DDS library's discovery, heartbeats
-/// and answers too. sendmsg() of this program stands before the C library's; what goes to an internet address and is
-/// beyond the cap is dropped, as a bad link would drop it; data before discovery. Only in programs that link
-/// udp_limiter.cpp.
+/// A cap on all that this process sends over the network: also the DDS library's discovery, heartbeats and answers. The
+/// program's own sendmsg() stands before the C library's. Datagrams to an internet address beyond the cap are dropped,
+/// as on a bad link; data before discovery. It works only in programs that link udp_limiter.cpp.
 struct UdpLimits {
   std::size_t bytes_per_second = 0;  ///< UDP, IP and Ethernet headers included; 0: no cap
 };
 void limit_udp(const UdpLimits& limits);
 
-/// Whether a datagram of data with `bytes` (headers included) would pass now.
+/// Whether a datagram of data would pass now; `bytes` include the headers.
 [[nodiscard]] bool udp_room(std::size_t bytes);
 
 /// What this process sent over the network.

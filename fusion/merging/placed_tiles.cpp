@@ -147,19 +147,19 @@ Placement::Fixed Placement::first_centre(TileKey tile) const {
   return moved(submap_from_team_, {2 * first[0] + 1, 2 * first[1] + 1, 2 * first[2] + 1});
 }
 
-bool Placement::read(const TileLayer& layer, TileKey tile, Said& said) const {
+bool Placement::read(const TileLayer& layer, TileKey tile, Opinion& opinion) const {
   const TileBox box = sources_of(tile);
   const Window window(layer, box);
   if (!window.any()) return false;
   const Steps steps(submap_from_team_.rotation, first_centre(tile), box.low);
   bool any = false;
-  said.labelled = window.labelled();
+  opinion.labelled = window.labelled();
   for (int at = 0; at < kTileVoxels; ++at) {
     const int x = coordinate(at), y = coordinate(at >> 1), z = coordinate(at >> 2);
     const int u = steps.voxel(0, x, y, z), v = steps.voxel(1, x, y, z), w = steps.voxel(2, x, y, z);
     const float value = window.log_odds(u, v, w);
-    said.voxels[static_cast<std::size_t>(at)] = value;
-    if (said.labelled) said.labels[static_cast<std::size_t>(at)] = window.label(u, v, w);
+    opinion.voxels[static_cast<std::size_t>(at)] = value;
+    if (opinion.labelled) opinion.labels[static_cast<std::size_t>(at)] = window.label(u, v, w);
     any = any || value != SemanticNode::kAbsent;
   }
   return any;

@@ -22,30 +22,31 @@ struct ReceivedTile {
 /// Tiles of one submap, in its own frame.
 using TileLayer = std::map<TileKey, ReceivedTile>;
 
-/// Tile coordinates, in tiles from the corner of the tree; both ends inclusive. They may lie outside of it.
+/// A box of tiles, in tiles from the corner of the tree, both ends inclusive. It may reach beyond the tree.
 struct TileBox {
   Eigen::Vector3i low, high;
 };
 
-/// Where a submap lies in the grid of a team's map, in whole numbers: the same on every machine. Both grids have the
-/// same resolution. A voxel of the grid has the value of the submap's voxel its centre falls into.
+/// Where a submap lies in the grid of a team's map. It computes in whole numbers, so it is the same on every machine.
+/// Both grids have the same resolution. A voxel of the team's grid has the value of the submap's voxel that its centre
+/// falls into.
 class Placement {
  public:
-  /// Nothing for poses that are not finite or reach beyond a tree's ±2¹⁵ voxels.
+  /// Nothing for a pose that is not finite, or beyond a tree's ±2¹⁵ voxels.
   [[nodiscard]] static std::optional<Placement> of(const SE3& T_team_submap, double resolution_m);
 
-  /// The team's tiles that a submap's tile can have a say in.
+  /// The team's tiles that a tile of the submap may reach into.
   [[nodiscard]] TileBox touched_by(TileKey tile) const;
-  /// What a submap says of one of the team's tiles.
-  struct Said {
+  /// What a submap knows of one of the team's tiles.
+  struct Opinion {
     TileVoxels voxels;
     bool labelled = false;
-    TileLabels labels;  ///< where any
+    TileLabels labels;  ///< if labelled
   };
-  /// False where that is nothing.
-  [[nodiscard]] bool read(const TileLayer& layer, TileKey tile, Said& said) const;
+  /// False if the submap knows nothing of the team's tile.
+  [[nodiscard]] bool read(const TileLayer& layer, TileKey tile, Opinion& opinion) const;
 
-  /// The submap's tiles that can have a say in one of the team's.
+  /// The submap's tiles that may reach into one of the team's.
   [[nodiscard]] TileBox sources_of(TileKey tile) const;
 
   friend bool operator==(const Placement&, const Placement&) = default;

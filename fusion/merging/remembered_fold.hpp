@@ -11,8 +11,7 @@
 
 namespace cairn::merging {
 
-/// fold() that remembers what it found for two opinions: maps have few different log-odds, so that the same pairs come
-/// again and again.
+/// fold() that remembers its results for two opinions. Maps have few different log-odds, so the same pairs come often.
 class RememberedFold {
  public:
   RememberedFold(Policy policy, const Limits& limits) : policy_(policy), limits_(limits) {}

@@ -11,20 +11,20 @@
 
 namespace cairn::merging {
 
-/// What a map says about all voxels of a cube.
+/// What a map knows of all voxels of a cube.
 struct Content {
   enum class Kind : std::uint8_t { kUnknown, kUniform, kMixed };
   Kind kind = Kind::kUnknown;
-  float log_odds = 0;  ///< where uniform
+  float log_odds = 0;  ///< if uniform
 
   friend bool operator==(const Content&, const Content&) = default;
 };
 
-/// A map seen in another grid: each voxel there has the value of the voxel its centre falls into (nearest neighbour).
-/// The tree must outlive the view and not be edited.
+/// A map in another grid: each voxel there has the value of the voxel that its centre falls into (nearest neighbour).
+/// The tree must outlive it, and must not be edited.
 class Resampled {
  public:
-  /// A node of the tree that holds everything a cube touches: where to look next for what lies inside the cube.
+  /// A node of the tree that holds all that a cube touches. The search inside the cube goes on from it.
   struct Place {
     const SemanticNode* node;
     Eigen::Vector3i first;  ///< lowest voxel key
@@ -35,15 +35,16 @@ class Resampled {
     Eigen::Vector3i low, high;
   };
 
-  /// Cubes will be given in voxels of `grid_resolution_m`, counted from the corner of the grid's tree. They are not
+  /// Cubes are given in voxels of `grid_resolution_m`, counted from the corner of the grid's tree. These voxels are not
   /// larger than the map's.
   Resampled(const SemanticOcTree& map, const SE3& T_grid_map, double grid_resolution_m);
 
   [[nodiscard]] Place root() const;
-  /// What the cube of `edge`³ voxels from `first` on holds. `place` is one that holds it, and becomes a smaller one.
+  /// What the cube of `edge`³ voxels from `first` on holds. `place` holds the cube, and becomes a smaller place that
+  /// does.
   [[nodiscard]] Content look(const Eigen::Vector3i& first, int edge, Place& place) const;
-  /// The voxels of a tile that look() has called mixed, with the place it gave. Nearly all of a map is voxels, so this
-  /// is what merging costs.
+  /// The voxels of a tile that look() has called mixed; `place` is the one it gave. Merging spends most of its time
+  /// here.
   void read(const Eigen::Vector3i& first, const Place& place, TileVoxels& tile);
 
  private:

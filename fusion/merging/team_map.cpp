@@ -12,13 +12,13 @@
 namespace cairn::merging {
 namespace {
 
-constexpr unsigned kRegionBits = 9;                     // 8³ tiles
-constexpr unsigned kTurns = 2;                          // of so many steps one is for what is shown
-constexpr int kCatchUps = 4;                            // of a new map with what changed meanwhile, ever less
-constexpr std::size_t kMarkedAtOnce = 16;               // tiles in a step
-constexpr std::size_t kChunk = std::size_t{128} << 10;  // of memory: a step that needs one takes 30 µs longer
-constexpr int kTeamTiles = 1 << 13;
-constexpr float kSteps = 1024;  // of log-odds
+constexpr unsigned kRegionBits = 9;                     // of a tile's key: 8³ tiles are a region
+constexpr unsigned kTurns = 2;                          // one of so many steps is for the map that is shown
+constexpr int kCatchUps = 4;                            // rounds in which a new map takes in what changed meanwhile
+constexpr std::size_t kMarkedAtOnce = 16;               // tiles that one step marks
+constexpr std::size_t kChunk = std::size_t{128} << 10;  // bytes: a step that needs a new chunk takes 30 µs longer
+constexpr int kTeamTiles = 1 << 13;                     // along an axis of the tree
+constexpr float kSteps = 1024;                          // of log-odds, per unit
 constexpr Limits kLimits{TileState::kFree.front(), TileState::kOccupied.front(), 0};
 
 template <class Visit>
@@ -166,9 +166,9 @@ void TeamMap::fuse_tile(View& view, TileKey tile) {
   for (const auto& [submap, placement] : view.placements) {
     const auto layer = layers_.find(submap);
     if (layer == layers_.end()) continue;
-    if (said_.size() <= known) said_.emplace_back();
-    if (!placement.read(layer->second, tile, said_[known])) continue;
-    labelled = labelled || said_[known].labelled;
+    if (by_submap_.size() <= known) by_submap_.emplace_back();
+    if (!placement.read(layer->second, tile, by_submap_[known])) continue;
+    labelled = labelled || by_submap_[known].labelled;
     ++known;
   }
   TileVoxels fused;
@@ -176,7 +176,7 @@ void TeamMap::fuse_tile(View& view, TileKey tile) {
   for (std::size_t i = 0; i < fused.size(); ++i) {
     opinions_.clear();
     for (std::size_t k = 0; k < known; ++k)
-      if (said_[k].voxels[i] != SemanticNode::kAbsent) opinions_.push_back(said_[k].voxels[i]);
+      if (by_submap_[k].voxels[i] != SemanticNode::kAbsent) opinions_.push_back(by_submap_[k].voxels[i]);
     fused[i] = opinions_.empty() ? SemanticNode::kAbsent : std::nearbyintf(fold_(opinions_) * kSteps) / kSteps;
     labels[i] = labelled && fused[i] >= kLimits.occupied ? fused_label(known, i) : VoxelLabel{};
   }
@@ -186,7 +186,7 @@ void TeamMap::fuse_tile(View& view, TileKey tile) {
 VoxelLabel TeamMap::fused_label(std::size_t known, std::size_t voxel) {
   labels_.clear();
   for (std::size_t k = 0; k < known; ++k)
-    if (said_[k].labelled && said_[k].labels[voxel].any()) labels_.push_back(said_[k].labels[voxel]);
+    if (by_submap_[k].labelled && by_submap_[k].labels[voxel].any()) labels_.push_back(by_submap_[k].labels[voxel]);
   return labels_.empty() ? VoxelLabel{} : fuse_labels(labels_);
 }
 
@@ -239,10 +239,10 @@ std::size_t TeamMap::backlog() const {
 
 TeamMap::Origin TeamMap::origin_of(TileKey tile) const {
   Origin origin;
-  Placement::Said said;
+  Placement::Opinion opinion;
   for (const auto& [submap, placement] : shown_.placements) {
     const auto layer = layers_.find(submap);
-    if (layer == layers_.end() || !placement.read(layer->second, tile, said)) continue;
+    if (layer == layers_.end() || !placement.read(layer->second, tile, opinion)) continue;
     if (origin.robots.empty() || origin.robots.back() != submap.robot) origin.robots.push_back(submap.robot);
     for_each_tile(placement.sources_of(tile), [&](TileKey source) {
       const auto received = layer->second.find(source);

@@ -27,38 +27,39 @@ struct SubmapKey {
 };
 using SubmapPoses = std::map<SubmapKey, SE3>;  ///< T_team_submap of those that take part
 
-/// The newest tiles of everyone, and the team's map made of them. The finished map is a pure function of the newest
-/// tiles and poses: the order in which they came, how the work was cut into slices and where the robot was do not
-/// matter, and without a robot's submaps the bytes are those from before it came. Labels are fused where the voxel is
-/// occupied. Log-odds are multiples of 2⁻¹⁰, so that machines that round differently agree.
+/// The newest tiles of all robots, and the team's map that is fused of them.
 ///
-/// The work is done in steps of one tile, whose cost is bounded (tens of microseconds for a few robots). New tiles
-/// change the map at once, a tile at a time, as do submaps that have just begun. Other new poses change all of it: a
-/// second map is built beside the first, which goes on being kept up to date, and takes its place when it is complete.
-/// So whoever asks never sees a map of two minds.
+/// The finished map is a pure function of the newest tiles and poses. The order in which they came, the slices of the
+/// work and the place of the robot do not matter. Without a robot's submaps, the bytes are those from before it came.
+/// Labels are fused in occupied voxels. Log-odds are multiples of 2⁻¹⁰, so machines that round differently agree.
+///
+/// The work is done in steps of one tile, of bounded cost: tens of microseconds for a few robots. New tiles change the
+/// map at once, a tile at a time, and so do submaps that have just begun. Other new poses change all of the map: a
+/// second map is built beside the first, and takes its place when it is complete. Meanwhile the first is kept up to
+/// date. So map() is always of one set of poses.
 class TeamMap {
  public:
   /// All submaps have this resolution.
   TeamMap(double resolution_m, Policy policy);
 
-  /// The newest state of a tile; an empty one removes it.
+  /// The newest state of a tile, and when it came. An empty state removes the tile.
   void put(const SubmapKey& submap, TileKey tile, const TileState& state, Time stamp);
-  /// Forgets the tiles of a robot.
+  /// Forgets all tiles of a robot.
   void drop(std::uint64_t robot);
-  /// From now on these take part. Poses beyond ±2¹⁵ voxels do not.
+  /// From now on these submaps take part. Those beyond ±2¹⁵ voxels do not.
   void place(const SubmapPoses& T_team_submaps);
   /// Work near this point of the team's map is done first.
   void set_focus(const Eigen::Vector3d& point_team) { focus_ = point_team; }
 
-  /// Goes on while the budget lasts. True: the map is that of the newest tiles and poses.
+  /// Goes on while the budget lasts. True: map() has the newest tiles and poses.
   bool fuse(Budget& budget);
   [[nodiscard]] bool up_to_date() const;
   /// map() has the newest tiles, if not yet the newest poses.
   [[nodiscard]] bool shows_newest_tiles() const { return complete(shown_); }
-  /// Tiles that wait for their turn; those of the map that is to come are not counted before it is known which.
+  /// How many tiles are known to wait for their turn, in both maps.
   [[nodiscard]] std::size_t backlog() const;
 
-  /// Consistent: of one set of poses. It is another tree after new poses, and changes with each fuse().
+  /// The map that is shown. It changes with each fuse(), and may be another tree then.
   [[nodiscard]] const SemanticOcTree& map() const { return *shown_.fused; }
   /// Where the submaps of map() lie.
   [[nodiscard]] const SubmapPoses& poses() const { return shown_.poses; }
@@ -108,8 +109,8 @@ class TeamMap {
   unsigned turn_ = 0;
   Eigen::Vector3d focus_ = Eigen::Vector3d::Zero();
   RememberedFold fold_;
-  std::vector<Placement::Said> said_;  // of a tile, by submap; reused
-  std::vector<float> opinions_;
+  std::vector<Placement::Opinion> by_submap_;  // of a tile; reused
+  std::vector<float> opinions_;                // of a voxel
   std::vector<VoxelLabel> labels_;
 };
 

@@ -9,15 +9,15 @@
 
 namespace cairn::merging {
 
-/// Tiles of a map that lie near each other, read from its tree once each: a map that is turned against the grid is
-/// looked up voxel by voxel, and in an array that costs a fraction of a descent in the tree. A window that moves with
-/// the cubes asked for: the place of a tile is its coordinates modulo the window's extent, so memory is bounded.
+/// Tiles of a map that lie near each other, each read from the tree once. A map that is turned against the grid is
+/// looked up voxel by voxel: in an array, this costs a fraction of a descent in the tree. The window moves with the
+/// cubes that are asked for. A tile's place is its coordinates modulo the window's extent, so memory is bounded.
 class TileWindow {
  public:
   explicit TileWindow(const SemanticNode* root) : root_(root) {}
 
-  /// Reads what is not yet there of the tiles from `low` to `high` (both inclusive, in tiles from the tree's corner;
-  /// outside of the tree nothing is known). At most kExtent of them along each axis.
+  /// Reads the tiles from `low` to `high` that are not there yet: both inclusive, in tiles from the tree's corner, and
+  /// at most kExtent along each axis. Outside of the tree nothing is known.
   void hold(const Eigen::Vector3i& low, const Eigen::Vector3i& high);
   /// The log-odds of the voxel with these keys is voxels()[Σ index(axis, key)], if its tile is held.
   [[nodiscard]] const float* voxels() const { return voxels_.data(); }

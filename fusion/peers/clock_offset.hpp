@@ -10,20 +10,20 @@
 
 namespace cairn::peers {
 
-/// Difference of a peer's clock to one's own, from hellos that were answered by hellos (as NTP does, RFC 5905 §8). The
-/// exchange with the shortest way there and back of the last sixteen counts, since waiting in queues is what spoils
-/// them.
+/// The difference between a peer's clock and this robot's, from hellos and the hellos that answer them (as in NTP,
+/// RFC 5905 §8). Of the last sixteen exchanges, the one with the shortest way there and back counts: the others have
+/// waited in queues.
 class ClockOffset {
  public:
   struct Estimate {
-    Duration offset{};  ///< the peer's clock less one's own
-    Duration bound{};   ///< the offset is at most so much off, plus what the clocks drift apart
-    Time at{};          ///< own clock
+    Duration offset{};  ///< the peer's clock minus this robot's
+    Duration bound{};   ///< the largest error of the offset, but for the clocks' drift since `at`
+    Time at{};          ///< when it was measured, this robot's clock
   };
   static constexpr std::size_t kSamples = 16;
 
-  /// `sent` and `answered` by one's own clock, `received` … `replied` by the peer's, less its residence: the peer says
-  /// how long it waited. False for what cannot be: an answer before the question.
+  /// This robot sent a hello at `sent` and received the answer at `answered`, by its own clock. The peer answered at
+  /// `replied`, by its clock, after it had held the hello for `held`. False if the answer came before the question.
   bool add(Time sent, Duration held, Time replied, Time answered) {
     const Duration way = answered - sent - held;
     if (way < Duration::zero() || held < Duration::zero()) return false;
@@ -37,7 +37,7 @@ class ClockOffset {
       if (!best || samples_[i].bound < best->bound) best = samples_[i];
     return best;
   }
-  /// The longest way there and back of the last sixteen exchanges.
+  /// The longest way there and back of the last sixteen exchanges; nothing before the first.
   [[nodiscard]] std::optional<Duration> longest_way() const {
     std::optional<Duration> longest;
     for (std::size_t i = 0; i < std::min(next_, kSamples); ++i)

@@ -8,14 +8,15 @@
 
 namespace cairn::peers {
 
-/// Whether a peer is listened to: one that sends ten things that cannot be within a minute is not for a minute, then
-/// for two, and so on up to an hour. A quiet hour forgives.
+/// Whether a peer is listened to. A peer that sends ten invalid datagrams within a minute is banned for a minute. Each
+/// further ban is twice as long as the last, up to an hour. After an hour without a ban the next one is short again.
 class Conduct {
  public:
-  static constexpr std::size_t kFaults = 10;
+  static constexpr std::size_t kFaults = 10;  ///< invalid datagrams within kWindow
   static constexpr Duration kWindow = std::chrono::seconds(60), kFirstBan = std::chrono::seconds(60),
                             kLongestBan = std::chrono::hours(1);
 
+  /// The peer has sent an invalid datagram.
   void fault(Time now) {
     while (!faults_.empty() && faults_.front() + kWindow < now) faults_.pop_front();
     faults_.push_back(now);

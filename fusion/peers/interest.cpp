@@ -11,19 +11,19 @@
 namespace cairn::peers {
 namespace {
 
-constexpr int kEdge = 1 << TileKey::kVoxelBits, kMiddle = 32768;
-constexpr int kReach = 5, kReachUp = 2;  // tiles
-constexpr double kRingTiles = 2, kRings = 4;
-constexpr std::size_t kAhead = 32;  // updates that a wall may overtake
+constexpr int kEdgeOfTile = 1 << TileKey::kVoxelBits, kMiddle = 32768;  // voxels: of a tile, from key 0 to the origin
+constexpr int kReach = 5, kReachUp = 2;       // tiles to each side: 8 m and 3 m at voxels of 0.2 m
+constexpr double kRingTiles = 2, kRings = 4;  // width of a ring in tiles, number of rings
+constexpr std::size_t kAhead = 32;            // older updates that a wall may overtake
 
 }  // namespace
 
 std::optional<double> Interest::ring_of(const ItemUpdate& update) const {
   if (update.id.kind() != ItemKind::kTile) return -1;
   if (!position_odom || update.id.submap() != 0 || !has_occupied(update.payload)) return std::nullopt;
-  Eigen::Vector3d off = *position_odom / (resolution_m * kEdge);
+  Eigen::Vector3d off = *position_odom / (resolution_m * kEdgeOfTile);
   for (unsigned axis = 0; axis < 3; ++axis)
-    off[axis] -= (update.id.tile().first_voxel(axis) - kMiddle) / static_cast<double>(kEdge) + 0.5;
+    off[axis] -= (update.id.tile().first_voxel(axis) - kMiddle) / static_cast<double>(kEdgeOfTile) + 0.5;
   const double ring = std::floor(off.norm() / kRingTiles);
   return ring < kRings ? std::optional(ring) : std::nullopt;
 }
@@ -47,8 +47,8 @@ void Interest::sort(std::vector<ItemUpdate>& updates) const {
 std::vector<ItemId> Interest::near_by() const {
   std::vector<ItemId> ids;
   if (!position_odom || !position_odom->allFinite()) return ids;
-  const Eigen::Vector3d tile = (*position_odom / (resolution_m * kEdge)).array().floor();
-  const auto key = [&](int axis, int step) { return tile[axis] * kEdge + kEdge * step + kMiddle; };
+  const Eigen::Vector3d tile = (*position_odom / (resolution_m * kEdgeOfTile)).array().floor();
+  const auto key = [&](int axis, int step) { return tile[axis] * kEdgeOfTile + kEdgeOfTile * step + kMiddle; };
   const auto inside = [](double voxel) { return voxel >= 0 && voxel < 2.0 * kMiddle; };
   const auto voxel = [](double at) { return static_cast<std::uint16_t>(at); };
   for (int z = -kReachUp; z <= kReachUp; ++z)

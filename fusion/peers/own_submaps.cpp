@@ -6,13 +6,13 @@
 namespace cairn::peers {
 namespace {
 
-constexpr double kStepM = 0.2;  // shorter ones are a robot that stands, as it sees itself
+constexpr double kStep_m = 0.2;  // shorter steps are the noise of a robot that stands
 
 }  // namespace
 
 void OwnSubmaps::be_at(const Eigen::Vector3d& position_odom, Exchange& exchange) {
   const double step = placed_ ? (position_odom - last_).norm() : 0;
-  if (placed_ && step < kStepM) return;
+  if (placed_ && step < kStep_m) return;
   placed_ = true;
   last_ = position_odom;
   path_m_ += step;

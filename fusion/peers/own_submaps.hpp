@@ -8,28 +8,30 @@
 
 namespace cairn::peers {
 
-/// Submaps and the errors of odometry along them. They are those of a robot that has nothing but its scans: too large
-/// rather than too small, as what they allow is what comparisons of maps may correct.
+/// The length of submaps, and the errors of odometry along them. The defaults are for a robot that has only its scans.
+/// Choose errors rather too large than too small: comparisons of maps may correct as much as they allow.
 struct OwnSubmapsConfig {
   double length_m = 300;            ///< of the path through one submap
-  double drift_m_per_m = 0.01;      ///< standard deviation of each axis at its end, per metre of path,
-  double drift_rad_per_m = 3.5e-4;  ///< and of each turn: 0.2° in 10 m
+  double drift_m_per_m = 0.01;      ///< standard deviation of each axis, per metre of path
+  double drift_rad_per_m = 3.5e-4;  ///< standard deviation of each rotation, per metre of path: 0.2° in 10 m
 };
 
-/// A robot's path, cut into submaps: within one its odometry is taken to be exact, from one to the next it has drifted.
-/// Submap 0 lies at the origin of odom and is never said; later ones lie where the robot was when they began, rounded
-/// to whole tiles, their axes those of odom. Tiles keep their places in the grid of odom, whatever submap they are in.
+/// A robot's path, cut into submaps. Odometry counts as exact within a submap, and drifts from one to the next.
+/// - Submap 0 lies at the origin of odom. It is not published.
+/// - A later submap lies where the robot was when it began, rounded to whole tiles. Its axes are those of odom.
+/// Tiles keep their places in the grid of odom, in whatever submap they are.
 class OwnSubmaps {
  public:
-  static constexpr std::uint16_t kMost = 256;  ///< of one beginning; the last one has no end, and no more are read
+  static constexpr std::uint16_t kMost = 256;  ///< submaps of one beginning; the last one has no end
 
   /// `tile_m`: edge of a tile.
   OwnSubmaps(const OwnSubmapsConfig& config, double tile_m) : config_(config), tile_m_(tile_m) {}
 
-  /// Where the robot is, odom frame; says a submap that begins here.
+  /// Where the robot is: odom frame, metres. Publishes a submap that begins here.
   void be_at(const Eigen::Vector3d& position_odom, Exchange& exchange);
-  /// The map begins anew.
+  /// The robot's map begins anew.
   void clear() { *this = OwnSubmaps(config_, tile_m_); }
+  /// The submap that the robot is in.
   [[nodiscard]] std::uint16_t current() const { return current_; }
 
  private:

@@ -11,28 +11,31 @@
 namespace cairn::peers {
 
 struct OwnTilesConfig {
-  Duration first = std::chrono::milliseconds(500);  ///< a tile is said so long after it was first seen
-  Duration settled = std::chrono::seconds(10);      ///< and again when it has not changed for so long, if so much
-  double much_first = 60;                           ///< is new in it (see change_between()), the first time,
-  double much = 800;                                ///< or so much, from then on; where there is less,
-  Duration longest = std::chrono::seconds(240);     ///< it waits longer by so much, up to this;
-  int restless = 3;                                 ///< or, where it goes on changing, after so many times as long
-  Duration round = std::chrono::seconds(1);         ///< what is due is said together, so that datagrams are full
-  Duration quiet = std::chrono::seconds(5);         ///< nothing changes any more: whatever waits is said
+  /// A tile is first published so long after it was first observed.
+  Duration first = std::chrono::milliseconds(500);
+  /// A tile that has changed by `much` is published again when it has not changed for so long. A tile that has changed
+  /// by half as much waits twice as long, and so on, up to `longest`.
+  Duration settled = std::chrono::seconds(10);
+  double much_first = 60;                        ///< changed voxels (see change_between()), the second time
+  double much = 800;                             ///< changed voxels, from the third time on
+  Duration longest = std::chrono::seconds(240);  ///< the longest wait of a settled tile
+  int restless = 3;                              ///< a tile that goes on changing waits so many times as long
+  Duration round = std::chrono::seconds(1);      ///< tiles are published together so often, to fill datagrams
+  Duration quiet = std::chrono::seconds(5);      ///< no tile has changed for so long: all that wait are published
 };
 
-/// Voxels that became known, changed sides or have another label, and a quarter of those that became surer or less
-/// sure.
+/// How many voxels have changed: those that became known, turned free or occupied, or have another label. Voxels that
+/// only became more or less sure count a quarter.
 [[nodiscard]] double change_between(const TileState& said, const TileState& now);
 
-/// What a robot says of its own map, and when: every scan changes a thousand tiles, each by a few voxels, and a radio
-/// link carries a few hundred a second. So a tile is said soon after it was first seen, and then when it has settled:
-/// the less there is in it that peers do not know, the longer it waits.
+/// Which tiles of its own map a robot publishes, and when. A scan changes a thousand tiles by a few voxels each, and a
+/// radio link carries a few hundred tiles a second. So a tile is published soon after it was first observed, and again
+/// when it has settled. The less has changed in it, the longer it waits.
 class OwnTiles {
  public:
   explicit OwnTiles(const OwnTilesConfig& config) : config_(config) {}
 
-  /// `submap`: the present one; the tile is said in it.
+  /// A tile has changed. `submap`: the present one, which the tile is published in.
   void observe(TileKey tile, const TileState& state, Time now, std::uint16_t submap = 0) {
     auto [waiting, added] = waiting_.try_emplace(tile);
     if (added) waiting->second.first = now;
@@ -40,12 +43,14 @@ class OwnTiles {
     waiting->second.submap = submap;
     waiting->second.last = last_ = now;
   }
-  /// Says what is due.
+  /// Publishes the tiles that are due.
   void say(Exchange& exchange, Time now);
+  /// The robot's map begins anew.
   void clear() {
     waiting_.clear();
     said_.clear();
   }
+  /// How many tiles wait to be published.
   [[nodiscard]] std::size_t waiting() const { return waiting_.size(); }
 
  private:

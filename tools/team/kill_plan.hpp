@@ -14,8 +14,8 @@ struct Kill {
   Index robot = 0;
 };
 
-/// Each robot's peer process `times` times, spread over `span`: one somewhere in each of as many equal parts of it.
-/// In order of time. Same seed, same plan.
+/// A plan that kills each robot's peer process `times` times. `span` is cut into as many equal parts, and there is one
+/// kill somewhere in each. Kills are in order of time. The same seed gives the same plan.
 [[nodiscard]] std::vector<Kill> plan_kills(std::uint64_t seed, Index robots, std::size_t times, Duration span);
 
 }  // namespace cairn::team

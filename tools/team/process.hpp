@@ -15,18 +15,18 @@ namespace cairn::team {
 
 struct Command {
   std::vector<std::string> words;  ///< the program's path first
-  std::filesystem::path folder;    ///< where it works
-  std::filesystem::path log;       ///< its stdout and stderr are appended to this
-  int network = -1;                ///< network namespace that it is in; −1: this program's
+  std::filesystem::path folder;    ///< its working directory
+  std::filesystem::path log;       ///< its stdout and stderr are appended to this file
+  int network = -1;                ///< its network namespace; −1: this program's
   int orphaned = SIGKILL;          ///< the signal that it gets when this program dies
 };
 
-/// A program started by this one, in a process group of its own (so that a terminal's ^C is for this program to act
-/// upon). It does not outlive its object, nor this program.
+/// A program that this program has started. It has a process group of its own: a terminal's ^C reaches only this
+/// program. It ends with its object, and with this program.
 class Process {
  public:
-  /// Errors: kIo (the system refuses another process). A program that cannot be executed ends with 127 and says so in
-  /// its log.
+  /// Errors: kIo (the system refuses another process). A program that cannot be executed ends with 127, and its log
+  /// says so.
   static Result<Process> start(const Command& command);
   Process(Process&& other) noexcept;
   Process& operator=(Process&& other) noexcept;
@@ -35,9 +35,9 @@ class Process {
   ~Process() { kill(); }
 
   void signal(int number) const;
-  /// Its exit code (128 + signal where a signal ended it); none while it runs.
+  /// Its exit code, or 128 + signal if a signal ended it; nothing while it runs.
   std::optional<int> ended();
-  /// SIGKILL, and its end waited for.
+  /// Sends SIGKILL, and waits for its end.
   void kill();
   [[nodiscard]] pid_t id() const { return id_; }
 

@@ -14,7 +14,7 @@
 
 namespace cairn::team {
 
-/// A robot's two processes, to be started: its core, and the process that speaks to other machines.
+/// A robot's two processes, to be started: its core, and its peer process.
 struct RobotProcesses {
   std::string name;
   Command core, peers;
@@ -23,29 +23,29 @@ struct RobotProcesses {
 struct Supervision {
   std::vector<RobotProcesses> robots;
   std::vector<Kill> kills;
-  Duration longest{};                           ///< cores that still run then are ended, which is a failure
+  Duration longest{};                           ///< cores that run longer are ended: a failure
   Duration grace = std::chrono::seconds(20);    ///< between being asked to end and being killed
-  std::function<bool()> stop;                   ///< true: end early
+  std::function<bool()> stop;                   ///< called often; true: end early
   std::function<void(const std::string&)> say;  ///< one line about what happened
-  std::function<void(Duration)> progress;       ///< called often
+  std::function<void(Duration)> progress;       ///< called often, with the time since the start
 };
 
 struct RobotEnd {
   int exit_code = -1;        ///< of the core
   std::size_t kills = 0;     ///< of the peer process, by plan
-  std::size_t restarts = 0;  ///< of the peer process, whatever it died of
+  std::size_t restarts = 0;  ///< of the peer process, after any death
 };
 
 struct TeamEnd {
   std::vector<RobotEnd> robots;
   std::optional<Index> failed;  ///< the robot whose core failed before any was asked to end
-  bool stopped = false;         ///< before the cores ended by themselves: asked to, a core that failed, or too late
-  Duration took{};
+  bool stopped = false;         ///< the cores were asked to end: by `stop`, after a failure, or too late
+  Duration took{};              ///< from the start to the end of the last core
 };
 
-/// Starts every robot's processes, moves what they send, starts peer processes again that die, and returns when all
-/// cores have ended; their peer processes are ended then. One core that fails ends the others: there is nothing left to
-/// compare. Errors: kIo (a process cannot be started).
+/// Starts every robot's processes, and moves what they send. Peer processes that die are started again. It returns when
+/// all cores have ended, and ends their peer processes then. If one core fails, the others are ended: there is nothing
+/// left to compare. Errors: kIo (a process cannot be started).
 Result<TeamEnd> supervise(const Supervision& supervision, Network& network, const Clock& clock);
 
 }  // namespace cairn::team

@@ -12,7 +12,7 @@
 
 namespace cairn::team {
 
-/// All that is known about a run of a team, robots in the same order everywhere.
+/// All that is known about a run of a team. The robots have the same order everywhere.
 struct TeamReport {
   const std::vector<TeamRecording>& recordings;
   const Network& network;
@@ -20,9 +20,9 @@ struct TeamReport {
   const TeamFigures& figures;
 };
 
-/// The content of team.json; field names are fixed. What is not known is null.
+/// The content of team.json. Field names are fixed. Unknown values are null.
 [[nodiscard]] nlohmann::ordered_json to_json(const TeamReport& report);
-/// For people.
+/// The same as a table for people.
 [[nodiscard]] std::string to_table(const TeamReport& report);
 
 }  // namespace cairn::team

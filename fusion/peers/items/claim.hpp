@@ -12,12 +12,12 @@
 
 namespace cairn::peers {
 
-/// Where a submap lies in its robot's odom frame. Its covariance is that of the motion since the submap before.
+/// Where a submap lies in its robot's odom frame. The covariance is that of the motion since the submap before.
 struct Submap {
   UncertainPose T_odom_submap;
 };
 
-/// What one robot found out about another: where the other's submap lies in its own.
+/// What one robot has found out about another: where the other's submap lies in its own.
 struct Edge {
   std::uint16_t own_submap = 0;
   RobotId other = 0;
@@ -27,8 +27,8 @@ struct Edge {
   float probability = 0;  ///< that it is right, 0…1
 };
 
-/// Where the robot was put down, by a survey, a marked place or a GPS fix: its odom frame in a metric frame, z up, that
-/// the whole team shares. It may be wrong.
+/// Where the robot was put down: its odom frame in a metric frame, z up, that the whole team shares. It comes from a
+/// survey, a marked place or a GPS fix, and may be wrong.
 struct Deployment {
   UncertainPose T_site_odom;
 };
@@ -39,8 +39,8 @@ struct Deployment {
 [[nodiscard]] std::vector<std::byte> encode(const Edge& edge);
 [[nodiscard]] std::vector<std::byte> encode(const Deployment& deployment);
 
-/// Exactly what encode() can have written, with numbers that a map allows: within 10⁶ m, unit quaternions, finite
-/// covariances with a positive diagonal, a deployment's positive definite. kTruncated or kMalformed otherwise.
+/// Decode exactly what encode() can have written. Positions are within 10⁶ m, quaternions have length 1, covariances
+/// are finite with a positive diagonal, and a deployment's is positive definite. Errors: kTruncated, kMalformed.
 [[nodiscard]] Result<Submap> decode_submap(std::span<const std::byte> bytes);
 [[nodiscard]] Result<Edge> decode_edge(std::span<const std::byte> bytes);
 [[nodiscard]] Result<Deployment> decode_deployment(std::span<const std::byte> bytes);

@@ -13,26 +13,26 @@
 
 namespace cairn::peers {
 
-/// An item on its way: what it says, and what is known with it.
+/// An item on its way, and which versions are settled with it.
 struct ItemUpdate {
   ItemId id;
   Version version = 0;
-  Version superseded = 0;  ///< that many versions just before this one are of items that have newer ones
+  Version superseded = 0;  ///< so many versions just before this one are of items that have newer ones
   std::span<const std::byte> payload;
 
   [[nodiscard]] VersionRange settles() const { return {version - superseded, version}; }
 };
 
-/// What a holding knows that another does not.
+/// What a holding has that another lacks.
 struct Missing {
   std::vector<ItemUpdate> updates;  ///< by ascending version
-  VersionSet superseded;            ///< versions that the updates do not settle, and that nothing is left of
+  VersionSet superseded;            ///< versions that nothing is left of, and that the updates do not settle
 };
 
-/// All that is held of what one robot says in one epoch: the newest version of each item, and which versions have been
-/// taken in or are known to be superseded. Every change of an item has a version of its own, one more than the last of
-/// any item, so a robot that knows all versions up to one knows all that was said until then, and a few ranges say what
-/// it misses. Taking in updates twice, late or in any order comes to the same.
+/// What is held of one robot's items in one epoch: the newest version of each item, and which versions were taken in or
+/// are superseded. Each change of an item has a version of its own, one more than the last of any item. So a robot that
+/// knows all versions up to one knows all that was published until then, and a few ranges tell what it lacks. Updates
+/// may come twice, late and in any order: the result is the same.
 class Holding {
  public:
   struct Item {
@@ -46,23 +46,24 @@ class Holding {
 
   explicit Holding(std::size_t max_bytes = kMaxBytes) : max_bytes_(max_bytes) {}
 
-  /// The robot itself says something new, unless it said the same last time; false then. Not on another robot's.
+  /// The robot itself publishes an item. False if it published the same last. Not for another robot's holding.
   bool say(ItemId id, std::span<const std::byte> payload);
-  /// `update` is valid: version > superseded.
+  /// Takes in an update of another robot; `update.version` is above `update.superseded`.
   Taken take(const ItemUpdate& update);
 
-  /// A tile is found under whatever submap one asks for it; the key says which one it was said in.
+  /// A tile is found with any submap in its id. The key has the submap that it was published in.
   [[nodiscard]] const Items& items() const { return items_; }
   [[nodiscard]] const VersionSet& known() const { return known_; }
-  /// The highest version held.
+  /// The highest version held; 0 if it is empty.
   [[nodiscard]] Version newest() const { return by_version_.empty() ? 0 : by_version_.rbegin()->first; }
-  /// What is held and `at_peer` does not contain, the `most` lowest versions at the most. The payloads are valid until
-  /// the holding changes.
+  /// What is held and is not in `at_peer`: at most the `most` lowest versions. The payloads are valid until the holding
+  /// changes.
   [[nodiscard]] Missing missing(const VersionSet& at_peer, std::size_t most) const;
-  /// Those of `ids` that are held and whose newest version `at_peer` does not contain.
+  /// Those of `ids` that are held, and whose newest version is not in `at_peer`.
   [[nodiscard]] std::vector<ItemUpdate> missing_of(std::span<const ItemId> ids, const VersionSet& at_peer) const;
-  /// Versions that have been superseded, as far as the sender knows; they need not be waited for.
+  /// These versions are superseded: they are not waited for.
   void settle(const VersionSet& superseded);
+  /// Memory of all that is held; see memory_of().
   [[nodiscard]] std::size_t bytes() const { return bytes_; }
 
  private:

@@ -9,22 +9,21 @@
 
 namespace cairn::peers {
 
-/// One robot of a team, as its profile says; never 0. Whatever is done in an order of robots is done in the order of
-/// these.
+/// A robot's id, by its profile: its own in the team, never 0. Orders of robots are orders of their ids.
 using RobotId = std::uint64_t;
-/// Numbers a robot's beginnings: what it said in an earlier one no longer holds. The highest is the newest; its upper
-/// half counts, its lower half is random, so that a robot that forgot the count does not take up an old number.
+/// Numbers a robot's beginnings. What it published in an earlier epoch is void. The highest is the newest. The upper
+/// half counts and the lower half is random, so that a robot that has forgotten the count does not reuse a number.
 using Epoch = std::uint64_t;
 inline constexpr Epoch kLastEpoch = Epoch{1} << 62U;
 
 enum class ItemKind : std::uint8_t {
   kTile = 0,        ///< own observations of one tile of a submap; payload: encode_tile()
   kSubmap = 1,      ///< where a submap lies in the robot's odom frame; payload: encode(Submap)
-  kEdge = 2,        ///< where another robot's submap lies in one's own; payload: encode(Edge)
-  kDeployment = 3,  ///< where the robot's odom frame lies in one that all share; payload: encode(Deployment)
+  kEdge = 2,        ///< where another robot's submap lies in the publisher's; payload: encode(Edge)
+  kDeployment = 3,  ///< where the publisher's odom frame lies in one that all share; payload: encode(Deployment)
 };
 
-/// Names one thing that a robot has something to say about.
+/// Names one thing that a robot publishes something about.
 struct ItemId {
   std::uint64_t code = 0;  ///< kind, submap (16 bits), tile or index (39 bits): its order is the canonical one
 
@@ -36,16 +35,16 @@ struct ItemId {
   static constexpr ItemId deployment() { return of(ItemKind::kDeployment, 0, 0); }
 
   [[nodiscard]] constexpr ItemKind kind() const { return static_cast<ItemKind>(code >> (kKeyBits + kSubmapBits)); }
-  /// Of an edge: its index.
+  /// The submap; of an edge, its index.
   [[nodiscard]] constexpr std::uint16_t submap() const { return static_cast<std::uint16_t>(code >> kKeyBits); }
   [[nodiscard]] constexpr TileKey tile() const { return {code & ((std::uint64_t{1} << kKeyBits) - 1)}; }
-  /// Whether it is a name that the functions above can give.
+  /// Whether the functions above can have made it.
   [[nodiscard]] constexpr bool valid() const {
     return code >> (kKeyBits + kSubmapBits) <= 3 && (kind() == ItemKind::kTile || tile().morton == 0) &&
            (kind() != ItemKind::kDeployment || submap() == 0);
   }
 
-  /// What it is about: a tile is the same thing in whatever submap it is said.
+  /// What it is about: a tile is the same thing in every submap.
   [[nodiscard]] constexpr std::uint64_t subject() const { return kind() == ItemKind::kTile ? tile().morton : code; }
 
   friend constexpr auto operator<=>(const ItemId&, const ItemId&) = default;

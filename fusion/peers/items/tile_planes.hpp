@@ -15,7 +15,7 @@ namespace cairn::peers {
 using Plane = TileState::Plane;
 inline constexpr unsigned kEdge = TileState::kEdge;
 
-/// What differs from the row below, in each slice; and back.
+/// The differences from the row below, in each slice; and back.
 inline Plane row_changes(Plane plane) {
   for (std::uint64_t& slice : plane) slice ^= slice << 8;
   return plane;
@@ -55,7 +55,7 @@ inline void put_plane(std::vector<std::byte>& out, const Plane& plane) {
   out[slices_at] = std::byte{slices};
 }
 
-/// Nothing where the bytes end early or could be fewer.
+/// Nothing for bytes that put_plane() cannot have written.
 inline std::optional<Plane> read_plane(ByteReader& in) {
   Plane plane{};
   const auto slices = in.read<std::uint8_t>();

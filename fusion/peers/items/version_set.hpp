@@ -8,7 +8,7 @@
 
 namespace cairn::peers {
 
-/// Numbers changes of what a robot says, from 1 upwards.
+/// Numbers the changes of what a robot publishes, from 1 upwards.
 using Version = std::uint64_t;
 
 /// Versions first … last, both included.
@@ -17,15 +17,15 @@ struct VersionRange {
   friend bool operator==(const VersionRange&, const VersionRange&) = default;
 };
 
-/// A set of versions, as ranges. Never has more than kMostRanges of them: the highest are forgotten first, so that a
-/// set never claims what was not added.
+/// A set of versions, as at most kMostRanges ranges. If there are more, the highest are forgotten: the set never claims
+/// a version that was not added.
 class VersionSet {
  public:
   static constexpr std::size_t kMostRanges = 64;
 
   void add(VersionRange range);
   [[nodiscard]] bool contains(Version version) const;
-  /// Of the range that holds `version`, which the set contains.
+  /// The first version of the range that `version` is in. The set contains `version`.
   [[nodiscard]] Version start_of_run(Version version) const;
   /// In ascending order, none touching the next.
   [[nodiscard]] std::span<const VersionRange> ranges() const { return ranges_; }

@@ -27,7 +27,7 @@ inline void append_varint(std::vector<std::byte>& out, std::uint64_t value) {
   return static_cast<std::int64_t>(value >> 1U) ^ -static_cast<std::int64_t>(value & 1U);
 }
 
-/// Nothing where the bytes end, exceed 64 bits or are more than needed.
+/// Nothing for bytes that append_varint() cannot have written.
 [[nodiscard]] inline std::optional<std::uint64_t> read_varint(ByteReader& in) {
   const auto first = in.read<std::uint8_t>();
   if (!first || *first < 0x80) return first;

@@ -9,16 +9,15 @@
 
 namespace cairn::team {
 
-/// What another map knows something of.
+/// The part of space that another map knows.
 struct Area {
   const SemanticOcTree& map;
   SE3 T_map_area;  ///< where it lies in the map that is compared
 };
 
-/// Occupied leaves of a map that fit the true world, over those of both (intersection over union), where the map knows
-/// something; one voxel of the map searched is allowed for. None where nothing is occupied. `T_world_map` takes a point
-/// of the map to the world.
-/// `within`: only where this one knows something, too.
+/// Intersection over union of the occupied leaves of a map and of the true world, 0…1. Only places that the map knows
+/// count, and, with `within`, that this area knows too. Leaves that are one voxel apart fit. Nothing if no leaf is
+/// occupied. `T_world_map` takes a point of the map to the world.
 [[nodiscard]] std::optional<double> iou_with_world(const SemanticOcTree& map, const SE3& T_world_map,
                                                    const SemanticOcTree& world, const Area* within = nullptr);
 
@@ -26,16 +25,16 @@ struct Area {
 
 /// A robot where it stands at the end.
 struct Standing {
-  SE3 T_odom_base;   ///< as it thinks
-  SE3 T_world_base;  ///< in truth
+  SE3 T_odom_base;   ///< estimated
+  SE3 T_world_base;  ///< true
   [[nodiscard]] SE3 T_world_odom() const { return T_world_base * T_odom_base.inverse(); }
 };
 
-/// By how much it is wrong where b is, as a sees it: T_true⁻¹·T_estimated of b's base in a's base. What teammates want
-/// to know of each other; the drift of both is in it. `T_a_b` takes a point of b's odom to a's.
+/// The error of where a sees b: T_true⁻¹·T_estimated of b's base in a's base. The drift of both is in it. `T_a_b` takes
+/// a point of b's odom to a's.
 [[nodiscard]] SE3 sight_error(const Standing& a, const Standing& b, const SE3& T_a_b);
 
-/// An error that says the merge itself is wrong, not just inexact.
+/// Whether the merge itself is wrong, not just inexact: more than 1 m or 10°.
 [[nodiscard]] bool is_wrong_merge(const SE3& sight_error);
 
 }  // namespace cairn::team

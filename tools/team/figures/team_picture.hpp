@@ -9,8 +9,8 @@
 
 namespace cairn::team {
 
-/// The map of the largest team from above, in the team's frame, with the ways of its robots, each in a colour of its
-/// own and with its name at its end, as a PNG. Errors: those of look_at(), draw_map() and encode_png().
+/// A PNG of the largest team's map from above, in the team's frame, with the paths of its robots. Each path has a
+/// colour of its own, and the robot's name at its end. Errors: those of look_at(), draw_map() and encode_png().
 [[nodiscard]] Result<std::vector<std::byte>> draw_team(const std::vector<RobotResult>& robots);
 
 }  // namespace cairn::team

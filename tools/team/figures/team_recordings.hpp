@@ -19,8 +19,9 @@ struct TeamRecording {
   std::uint64_t raw_bytes = 0;   ///< of all packets, without transport headers
 };
 
-/// `folders` are recordings, or folders of recordings (as `cairn simulate` makes them; taken in the order of their
-/// names). Errors: those of the recordings; kInvalidConfig where two robots have one name or there are fewer than two.
+/// `folders` are recordings, or folders of recordings as `cairn simulate` makes them, which are taken in the order of
+/// their names. Errors: those of the recordings; kInvalidConfig if two robots have one name, or there are fewer than
+/// two.
 Result<std::vector<TeamRecording>> survey_recordings(const std::vector<std::filesystem::path>& folders);
 
 }  // namespace cairn::team

@@ -22,11 +22,11 @@ class Network {
 
   /// What it is made of, for people.
   [[nodiscard]] virtual std::string_view kind() const = 0;
-  /// For the processes of a robot; −1: none of its own.
+  /// The network namespace of a robot's processes; −1: it has none of its own.
   [[nodiscard]] virtual int namespace_of(Index robot) const = 0;
-  /// What the robot's peer process is told: interface, teammates, the local socket (as seen from the robot's folder).
+  /// The arguments of the robot's peer process: interface, teammates, and the local socket as seen from its folder.
   [[nodiscard]] virtual std::vector<std::string> peer_arguments(Index robot) const = 0;
-  /// Appends what becomes readable when there is something to pump.
+  /// Appends the files that become readable when there is something to pump.
   virtual void add_waits(std::vector<pollfd>& waits) const = 0;
   /// Takes what robots have sent, and hands out what has arrived.
   virtual void pump(Time now) = 0;
@@ -41,13 +41,13 @@ class Network {
 /// The core's local socket in its robot's folder.
 inline constexpr const char* kCoreSocket = "peers.sock";
 
-/// TUN devices in network namespaces. The radio reads every IP packet that a robot sends, whatever sent it. Needs root,
-/// or a user namespace and a /dev/net/tun that everyone may open. Errors: kIo, with what the system refused.
+/// TUN devices in network namespaces: the radio reads every IP packet that a robot sends. This needs root, or a user
+/// namespace and a /dev/net/tun that every user may open. Errors: kIo, with what the system refused.
 Result<std::unique_ptr<Network>> make_tun_network(const LinkConfig& link, Index robots);
 
-/// For machines that allow no such thing: the robots' peer processes meet on this machine's loopback, and the radio
-/// stands at the local socket between each and its core. Bytes are those of the datagrams, without headers.
-/// `folders` are the robots'. Errors: kIo, kLimit (more robots than can share one address).
+/// For machines that allow no network namespaces. The robots' peer processes meet on this machine's loopback, and the
+/// radio stands at the local socket between each of them and its core. Bytes are those of the datagrams, without
+/// headers. `folders` are the robots'. Errors: kIo, kLimit (more robots than can share one address).
 Result<std::unique_ptr<Network>> make_loopback_network(const LinkConfig& link,
                                                        const std::vector<std::filesystem::path>& folders);
 

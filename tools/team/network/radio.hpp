@@ -15,28 +15,28 @@
 
 namespace cairn::team {
 
-/// Robots of a run are counted from 0, in the order of their recordings.
+/// Counts the robots of a run from 0, in the order of their recordings.
 using Index = std::size_t;
 
-/// What becomes of a packet once its sender's radio has sent it.
+/// What happens to a packet after its sender's radio has sent it.
 struct Fate {
   bool lost = false, twice = false;
   std::array<Duration, 2> delay{};  ///< of the packet, and of its copy
 };
-/// A function of the arguments alone: no other packet and no other pair of robots has a part in it.
+/// The fate of the nth packet from one robot to another. Pure: it depends on no other packet.
 [[nodiscard]] Fate fate_of(const LinkConfig& link, Index from, Index to, std::uint64_t n);
 
-/// The radio link between all robots: first the sender's rate with a queue of bounded length (a full one drops what
-/// comes), then each packet's fate. Pure: time is passed in, and the same packets at the same times arrive alike.
+/// The radio link between all robots. A packet first waits for the sender's rate, in a queue of bounded length: a full
+/// queue drops it. Then it has its fate. Pure: the same packets at the same times arrive at the same times.
 class Radio {
  public:
   struct Packet {
     Index from = 0, to = 0;
     std::vector<std::byte> bytes;
   };
-  /// Of one robot: what it sent to others and what reached it.
+  /// What one robot sent to others, and what reached it.
   struct Counters {
-    std::uint64_t tx_packets = 0, tx_bytes = 0;  ///< offered by the robot, whatever became of them
+    std::uint64_t tx_packets = 0, tx_bytes = 0;  ///< offered by the robot, also those that were lost
     std::uint64_t queue_full = 0, lost = 0, doubled = 0;
     std::uint64_t rx_packets = 0, rx_bytes = 0;
   };
@@ -44,7 +44,7 @@ class Radio {
   Radio(const LinkConfig& link, Index robots) : link_(link), senders_(robots) {}
 
   void offer(Index from, Index to, std::span<const std::byte> bytes, Time now);
-  /// When the next packet arrives; none while nothing is on its way.
+  /// When the next packet arrives; nothing while no packet is on its way.
   [[nodiscard]] std::optional<Time> next() const;
   /// Appends what has arrived until `now`, in order of arrival.
   void arrived(Time now, std::vector<Packet>& out);

@@ -8,7 +8,7 @@
 
 namespace cairn::team {
 
-/// An open file, closed at the end.
+/// An open file, which is closed with its object.
 class File {
  public:
   File() = default;
@@ -24,21 +24,21 @@ class File {
   int fd_ = -1;
 };
 
-/// A robot's network: a namespace of its own with a loopback and one TUN device, both up. It has no name and ends with
-/// its last file and process, so that nothing is left behind however a program dies.
+/// A robot's network: a namespace of its own with a loopback and one TUN device, both up. It has no name, and ends with
+/// its last file and process. So nothing is left behind, however a program dies.
 struct TunNamespace {
   File network;  ///< the namespace, to be entered with setns()
-  File packets;  ///< each read() is an IP packet that the robot sent, each write() one that it receives; never waits
+  File packets;  ///< a read() takes an IP packet that the robot sent, a write() gives it one; neither waits
 };
 
 inline constexpr const char* kTunName = "radio0";
 
-/// Leaves this thread in the new namespace. `address` is IPv4 in dots, of a net of 255.255.255.0.
-/// Errors: kIo; `where` is the step that the system refused, kNoNamespace for the first.
+/// Makes a namespace, and leaves this thread in it. `address` is IPv4 in dots, of a net of 255.255.255.0. Errors: kIo;
+/// `where` is the step that the system refused: kNoNamespace is the first.
 inline constexpr const char* kNoNamespace = "a network namespace";
 Result<TunNamespace> make_tun_namespace(const std::string& address);
 
-/// A user namespace in which this program may make networks, with its user as it was. The program has one thread.
+/// Enters a user namespace in which this program may make networks. Its user stays. The program must have one thread.
 Result<void> enter_user_namespace();
 
 /// The network namespace of this thread.
