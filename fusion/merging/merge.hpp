@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
 
 #include "fusion/merging/fold.hpp"
 #include "hal/result.hpp"
@@ -28,9 +27,6 @@ bool offer(Contributions& contributions, std::uint64_t robot, Contribution contr
 
 struct MergeOptions {
   Policy policy = Policy::kRelativeEntropy;
-  /// The robot whose observations outrank the others': where it knows a voxel, the others cannot turn free into
-  /// occupied or back.
-  std::optional<std::uint64_t> own;
   /// Cubes looked at before giving up, whatever the size of the maps; see kNodesPerNode.
   std::int64_t max_nodes = 100'000'000;
 };

@@ -62,7 +62,7 @@ int run(const Options& options) {
   const SE3 T_a_b = SE3::from_xyz_rpy(Eigen::Map<const Vector6>(options.pose.data()));
   const auto all = contributions(std::move(*a), std::move(*b), T_a_b);
   const Duration start = thread_cpu_time();
-  const auto fused = merging::merge(all, {*merging::policy_from(options.policy), {}});
+  const auto fused = merging::merge(all, {.policy = *merging::policy_from(options.policy)});
   const double seconds = to_seconds(thread_cpu_time() - start);
   if (!fused) return fail(fused.error());
   if (const auto saved = save_map(**fused, options.out); !saved) return fail(saved.error());
