@@ -18,4 +18,7 @@ struct NativeFile {
 /// Null: the file is none of these.
 [[nodiscard]] std::optional<NativeFile> recognise_native_file(const std::filesystem::path& path);
 
+/// Whether the name of a file of pictures, or of its folder, says that they are depth.
+[[nodiscard]] bool says_depth(const std::filesystem::path& pictures);
+
 }  // namespace cairn::cli
