@@ -32,6 +32,9 @@ void print_summary(const RunReport& r, const std::filesystem::path& out) {
   std::printf("%s: %zu scans in %.1f s, %.2f m travelled, %llu packets lost\n", r.robot.c_str(),
               static_cast<std::size_t>(r.scans), r.duration_s, r.distance_m,
               static_cast<unsigned long long>(r.lost_packets));
+  for (const auto& [device, losses] : r.losses)
+    for (const auto& [name, n] : losses)
+      if (n > 0) std::printf("  %s: %s %llu\n", device.c_str(), name.c_str(), static_cast<unsigned long long>(n));
   for (const StageStats& s : r.monitor->stages()) {
     if (s.wall.count() == 0) continue;  // latencies exist in real time only
     std::printf("  %-9s p50 %7.3f ms  p99 %7.3f ms  max %7.3f ms\n", s.name.c_str(),

@@ -22,10 +22,11 @@ std::string clipped(std::string_view text) {
 std::string short_text(const std::string& text) { return text.size() > LiveView::kMaxText ? clipped(text) : text; }
 
 LiveJson to_json(const LiveView::Stage& s) {
-  return {{"name", short_text(s.name)}, {"p50_ms", s.p50_ms},       {"p99_ms", s.p99_ms},   {"p999_ms", s.p999_ms},
-          {"max_ms", s.max_ms},         {"budget_ms", s.budget_ms}, {"count", s.count},     {"overruns", s.overruns},
-          {"slips", s.slips},           {"misses", s.misses},       {"dropped", s.dropped}, {"queued", s.queued},
-          {"capacity", s.capacity}};
+  return {{"name", short_text(s.name)}, {"p50_ms", s.p50_ms},    {"p99_ms", s.p99_ms},
+          {"p999_ms", s.p999_ms},       {"max_ms", s.max_ms},    {"deadline_ms", s.deadline_ms},
+          {"budget_ms", s.budget_ms},   {"count", s.count},      {"overruns", s.overruns},
+          {"slips", s.slips},           {"misses", s.misses},    {"dropped", s.dropped},
+          {"queued", s.queued},         {"capacity", s.capacity}};
 }
 LiveJson to_json(const LiveView::Event& e) {
   return {{"t_s", e.t_s}, {"stage", short_text(e.stage)}, {"what", short_text(e.what)}, {"count", e.count}};
@@ -112,6 +113,7 @@ void read_stage(const LiveJson& json, LiveView::Stage& s) {
   in.read("p99_ms", s.p99_ms);
   in.read("p999_ms", s.p999_ms);
   in.read("max_ms", s.max_ms);
+  in.read("deadline_ms", s.deadline_ms);
   in.read("budget_ms", s.budget_ms);
   in.read("count", s.count);
   in.read("overruns", s.overruns);

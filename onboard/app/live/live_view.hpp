@@ -17,8 +17,9 @@ struct LiveView {
   struct Stage {
     std::string name;
     double p50_ms = 0, p99_ms = 0, p999_ms = 0, max_ms = 0;  ///< of the response, since the run began
-    double budget_ms = 0;                                    ///< 0: none declared
-    std::uint64_t count = 0, overruns = 0;                   ///< ticks or calls; those above the budget
+    double deadline_ms = 0;                                  ///< of the response
+    double budget_ms = 0;                                    ///< of the execution; 0: none declared
+    std::uint64_t count = 0, overruns = 0;                   ///< ticks; those whose execution was above the budget
     std::uint64_t slips = 0, misses = 0;                     ///< releases passed; deadlines missed
     std::uint64_t dropped = 0, queued = 0, capacity = 0;     ///< of its input; capacity 0: it has no queue
   };

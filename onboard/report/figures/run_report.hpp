@@ -66,16 +66,19 @@ struct RunReport {
   std::string robot, profile;
   std::string source;   ///< the recording, or "live"
   std::string version;  ///< of the program
-  std::string started;  ///< UTC as text; metadata only
+  std::string started;  ///< UTC of the first packet as ISO 8601; metadata only. Empty: not known
 
   double distance_m = 0;  ///< length of the estimated trajectory
   double duration_s = 0;  ///< on the robot's time line
-  std::uint64_t scans = 0, lost_packets = 0;
+  std::uint64_t scans = 0;
+  std::uint64_t lost_packets = 0;  ///< of the LiDAR, by the gaps in its data
+  /// Live: what each device counted as lost or doubtful, by the device's id: "lidar", {"kernel_drops", 3}.
+  std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::uint64_t>>>> losses;
   TickStats ticks;  ///< of the control task
   std::vector<TaskFigures> tasks;
   std::string mode;                                         ///< at the end
   std::string mode_cause;                                   ///< the fault's code; empty: none
-  std::vector<std::pair<std::string, std::uint64_t>> shed;  ///< scans mapped at each level of shedding
+  std::vector<std::pair<std::string, std::uint64_t>> shed;  ///< scans at each level of shedding, `nothing` first
   OdometryStats odometry;
   double peak_rss_mb = 0;
   std::uint64_t control_thread_allocations = 0;

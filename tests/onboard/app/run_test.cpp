@@ -15,6 +15,7 @@
 #include "drivers/recording/formats/scan_file.hpp"
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "drivers/recording/recording_writer.hpp"
+#include "onboard/app/profile/schedule_profile.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "tests/support/box_world.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -114,6 +115,14 @@ TEST_F(RunTest, TheReportHoldsTheFieldsThatScriptsRelyOn) {
     EXPECT_TRUE(report.contains(field)) << field;
   EXPECT_EQ(report["scans"], kScans);
   EXPECT_EQ(report["stages"]["odometry"]["count"], kScans);
+  const ScheduleProfile schedule;
+  EXPECT_EQ(report["stages"]["odometry"]["budget_ms"], schedule.odometry.soft_ms);
+  EXPECT_EQ(report["stages"]["mapping"]["budget_ms"], schedule.mapping.soft_ms);
+  EXPECT_EQ(report["stages"]["packet_to_map"]["budget_ms"], schedule.mapping.deadline_ms);
+  EXPECT_TRUE(report["stages"]["decode"]["budget_ms"].is_null());
+  EXPECT_TRUE(report["started"].is_null()) << "this recording knows no time of day";
+  EXPECT_EQ(report["shed"], (nlohmann::json{{"nothing", kScans}, {"map_density", 0}, {"scan_decimation", 0}}));
+  EXPECT_TRUE(report["losses"].empty()) << "a replay has no devices";
   EXPECT_GT(report["map"]["occupied"], 100);
   for (const char* file : {"map.ot", "report.html", "config.yaml"}) EXPECT_TRUE(fs::exists(*folder_ / "fields" / file));
 }

@@ -13,7 +13,7 @@ namespace {
 
 nlohmann::json parsed(const RunReport& report) { return nlohmann::json::parse(to_text(to_json(report))); }
 
-// The names are a promise to scripts: this list is interface.md's.
+// The names are a promise to scripts: docs/api.md lists them.
 TEST(ReportJson, HasEveryPromisedField) {
   const auto run = sample_run(100);
   const auto json = parsed(run->report);
@@ -84,7 +84,18 @@ TEST(ReportJson, OfAnEmptyRunIsComplete) {
   EXPECT_TRUE(json["stages"].is_object() && json["stages"].empty());
   EXPECT_TRUE(json["peers"].is_object() && json["peers"].empty());
   EXPECT_TRUE(json["events"].is_array() && json["events"].empty());
+  EXPECT_TRUE(json["losses"].is_object() && json["losses"].empty());
   EXPECT_TRUE(json["ground_truth"].is_null());
+  EXPECT_TRUE(json["started"].is_null());
+}
+
+TEST(ReportJson, SaysWhatEachDeviceLost) {
+  RunReport report;
+  report.losses = {{"lidar", {{"kernel_drops", 3}, {"foreign", 0}}}, {"drive", {{"kernel_drops", 0}}}};
+  const auto losses = parsed(report)["losses"];
+  EXPECT_EQ(losses["lidar"]["kernel_drops"], 3);
+  EXPECT_EQ(losses["lidar"]["foreign"], 0);
+  EXPECT_EQ(losses["drive"].size(), 1U);
 }
 
 TEST(ReportJson, SaysWhyThereIsNoErrorAgainstGroundTruth) {
