@@ -167,6 +167,7 @@ void RobotTasks::tell(Telling& telling, FaultSet faults, Time now) {
   faults.set(Fault::kTaskHung, !telling.tick(now));
   faults.set(Fault::kBestEffort, best_effort_);
   faults.set(Fault::kCrashLoop, before_.crash_loop);
+  faults.set(Fault::kStateLost, before_.state_lost);
   faults.set(Fault::kOverload, mapping_.shed() != Shed::kNothing);
   faults.set(Fault::kMemoryShort, mapping_.memory_short());
   safety_.report(faults);
