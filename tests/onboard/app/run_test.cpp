@@ -17,7 +17,10 @@
 #include "drivers/recording/recording_writer.hpp"
 #include "onboard/app/profile/schedule_profile.hpp"
 #include "onboard/mapping/files/map_file.hpp"
+#include "onboard/report/json/budgets.hpp"
+#include "onboard/report/json/report_json.hpp"
 #include "tests/support/box_world.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/vlp16_drive.hpp"
 
@@ -125,6 +128,18 @@ TEST_F(RunTest, TheReportHoldsTheFieldsThatScriptsRelyOn) {
   EXPECT_TRUE(report["losses"].empty()) << "a replay has no devices";
   EXPECT_GT(report["map"]["occupied"], 100);
   for (const char* file : {"map.ot", "report.html", "config.yaml"}) EXPECT_TRUE(fs::exists(*folder_ / "fields" / file));
+}
+
+TEST_F(RunTest, EveryShippedBudgetIsAboutAFieldThatTheReportHas) {
+  const auto result = run(options("budgets"));
+  ASSERT_TRUE(result);
+  for (const char* file : {"husky.yaml", "uav.yaml"}) {
+    const auto limits = load_budgets(places::source() / "config" / "budgets" / file);
+    ASSERT_TRUE(limits) << to_string(limits.error());
+    const auto verdicts = check_budgets(*limits, to_json((*result)->report));
+    ASSERT_TRUE(verdicts) << to_string(verdicts.error());
+    EXPECT_EQ(verdicts->size(), limits->size());
+  }
 }
 
 TEST_F(RunTest, GivesTheSameBytesForAnyNumberOfThreadsAndEveryTime) {
