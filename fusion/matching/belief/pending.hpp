@@ -23,6 +23,7 @@ struct Hypothesis {
   double ground_m2 = 0;    ///< structure that agreed at the last of them
   bool earned = false;     ///< has been accepted once, on ground that was new then
   int contradictions = 0;  ///< looks in a row that did not
+  bool rivalled = false;   ///< at the newest look another place was too likely to decide for this one
 };
 
 /// Where one map may lie in another while both grow. No single comparison decides: a hypothesis is accepted when it has
