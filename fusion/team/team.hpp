@@ -17,6 +17,7 @@
 #include "fusion/peers/own_tiles.hpp"
 #include "fusion/team/match_job.hpp"
 #include "fusion/team/match_worth.hpp"
+#include "fusion/team/peer_state.hpp"
 #include "fusion/team/refinements.hpp"
 #include "fusion/team/robot_tiles.hpp"
 #include "fusion/team/team_graph.hpp"
@@ -41,8 +42,11 @@ struct TeamConfig {
 
 /// Why a peer's map is, or is not, a part of the team's.
 struct PeerStanding {
-  bool merged = false;
-  std::string reason;  ///< for people
+  PeerState state = PeerState::kNeverHeard;
+  std::string reason;                    ///< for people: the state in words, with figures
+  bool deployment_contradicted = false;  ///< the deployments of the two do not fit to their maps
+
+  [[nodiscard]] bool merged() const { return state == PeerState::kMerged; }
 };
 
 /// A robot's part in a team: says what it sees, hears what others say, finds where they are, and holds the map of all.
@@ -95,19 +99,29 @@ class Team {
   [[nodiscard]] const peers::Exchange& exchange() const { return exchange_; }
 
  private:
+  /// What was made of the likeliest place. Comparisons are worth their time as long as it changes.
+  struct PlaceStanding {
+    std::optional<matching::Standing> standing;  // none: there is no place
+    int agreements = 0;
+    friend bool operator==(const PlaceStanding&, const PlaceStanding&) = default;
+    static PlaceStanding of(const matching::GrowingMatch& match) {
+      const auto places = match.hypotheses().all();
+      return places.empty() ? PlaceStanding{} : PlaceStanding{places.front().standing, places.front().agreements};
+    }
+  };
   /// What is known about the pair with a peer.
   struct Pair {
     peers::Epoch own_epoch = 0, peer_epoch = 0;
     std::unique_ptr<matching::GrowingMatch> match;  // null while a job has it
     MatchWorth worth;
     Time refined = Time::min();
-    std::string standing;    // of the likeliest place, when it was last compared
+    PlaceStanding standing;  // when it was last compared
     std::uint16_t edge = 0;  // index of the item that says what came of it
     std::optional<peers::Edge> said;
     bool found = false, deployment_refuted = false;  // by the maps, when they were last compared
   };
 
-  [[nodiscard]] std::optional<std::string> obstacle(peers::RobotId peer, Time now) const;
+  [[nodiscard]] std::optional<PeerStanding> obstacle(peers::RobotId peer, Time now) const;
   void say_known_poses();
   /// Where the peer's odom frame lies by the deployments of both; nothing where one of them has none.
   [[nodiscard]] std::optional<UncertainPose> deployed(peers::RobotId peer) const;

@@ -17,13 +17,6 @@ bool moved(const SE3& from, const SE3& to) {
   return change.translation().norm() > kMovedM || rotation_angle(change) > kTurnedRad;
 }
 
-/// What is made of the likeliest place: that it changes is what comparisons are for.
-std::string standing_of(const matching::GrowingMatch& match) {
-  const auto places = match.hypotheses().all();
-  if (places.empty()) return {};
-  return std::to_string(static_cast<int>(places.front().standing)) + " " + std::to_string(places.front().agreements);
-}
-
 bool same_submaps(const peers::Edge& x, const peers::Edge& y) {
   return x.own_submap == y.own_submap && x.other_submap == y.other_submap;
 }
@@ -135,7 +128,7 @@ void Team::matched(MatchJob job, Time now) {
   if (job.refinement) return say_refined(*job.refinement, job.peer_epoch);
   pair.match = std::move(job.match);
   if (!job.ran) return;
-  const std::string before = std::exchange(pair.standing, standing_of(*pair.match));
+  const PlaceStanding before = std::exchange(pair.standing, PlaceStanding::of(*pair.match));
   pair.worth.end(pair.standing != before, now);
   weigh_deployment(job.peer, pair);
   say_edge(job, pair);

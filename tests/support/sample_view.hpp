@@ -21,8 +21,8 @@ inline LiveView sample_view() {
               {"odometry", 21.7, 44.2, 58.1, 63.5, 60, 40, 834, 3, 0, 0, 0, 1, 8},
               {"mapping", 38.0, 104.9, 140.2, 141.0, 80, 30, 790, 61, 12, 2, 44, 8, 8}};
   v.events = {{12.3, "lidar", "incomplete scan: packets were lost", 7}, {83.1, "failsafe", "lidar_late", 1}};
-  v.peers = {{"robot_2", true, "merged", 0.4, 812, 91234, 88112, 0.1},
-             {"robot_3", false, "no link: not heard for 12 s", 12, 0, 1234, 0, -7.5}};
+  v.peers = {{"robot_2", true, "merged", "merged", 0.4, 812, 91234, 88112, 0.1},
+             {"robot_3", false, "no_link", "no link: not heard for 12 s", 12, 0, 1234, 0, -7.5}};
   return v;
 }
 

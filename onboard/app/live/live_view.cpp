@@ -35,12 +35,14 @@ LiveJson to_json(const LiveView::Event& e) {
 LiveJson to_json(const LiveView::Peer& p) {
   return {{"name", short_text(p.name)},
           {"merged", p.merged},
+          {"state", short_text(p.state)},
           {"reason", short_text(p.reason)},
           {"heard_s_ago", p.heard_s_ago},
           {"tiles", p.tiles},
           {"tx_bytes", p.tx_bytes},
           {"rx_bytes", p.rx_bytes},
-          {"clock_offset_s", p.clock_offset_s}};
+          {"clock_offset_s", p.clock_offset_s},
+          {"deployment_contradicted", p.deployment_contradicted}};
 }
 
 template <class T, class Make>
@@ -138,12 +140,14 @@ void read_peer(const LiveJson& json, LiveView::Peer& p) {
   const Members in(json);
   in.read("name", p.name);
   in.read("merged", p.merged);
+  in.read("state", p.state);
   in.read("reason", p.reason);
   in.read("heard_s_ago", p.heard_s_ago);
   in.read("tiles", p.tiles);
   in.read("tx_bytes", p.tx_bytes);
   in.read("rx_bytes", p.rx_bytes);
   in.read("clock_offset_s", p.clock_offset_s);
+  in.read("deployment_contradicted", p.deployment_contradicted);
 }
 
 }  // namespace

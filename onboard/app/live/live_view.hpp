@@ -31,10 +31,12 @@ struct LiveView {
   struct Peer {
     std::string name;
     bool merged = false;
-    std::string reason;       ///< for people
+    std::string state;        ///< why it is merged or not: PeerState as a word
+    std::string reason;       ///< the same for people, with figures
     double heard_s_ago = -1;  ///< negative: never
     std::uint64_t tiles = 0, tx_bytes = 0, rx_bytes = 0;
-    double clock_offset_s = 0;  ///< its clock less this robot's, as far as known
+    double clock_offset_s = 0;             ///< its clock less this robot's, as far as known
+    bool deployment_contradicted = false;  ///< the deployments of the two do not fit to their maps
   };
   std::string robot;
   double t_s = 0;  ///< robot time

@@ -49,7 +49,9 @@ struct PeerStats {
   double age_p99_s = 0;
   UncertainPose T_map_peer;
   bool accepted = false;
-  std::string reason;
+  std::string state;                     ///< why it is accepted or not, as a word that scripts may rely on: "no_link"
+  std::string reason;                    ///< the same for people, with figures
+  bool deployment_contradicted = false;  ///< the deployments of the two do not fit to their maps
 };
 
 /// The team's map, as this robot has it.

@@ -115,7 +115,9 @@ Json peers_json(const RunReport& report) {
                    {"T_map_peer", numbers(p.T_map_peer.mean.matrix())},
                    {"covariance", numbers(p.T_map_peer.covariance)},
                    {"accepted", p.accepted},
-                   {"reason", p.reason}};
+                   {"state", p.state},
+                   {"reason", p.reason},
+                   {"deployment_contradicted", p.deployment_contradicted}};
   return peers;
 }
 

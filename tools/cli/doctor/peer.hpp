@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "fusion/team/peer_state.hpp"
 #include "onboard/app/live/live_view.hpp"
 #include "tools/cli/doctor/finding.hpp"
 
@@ -18,7 +19,9 @@ struct PeerQuestion {
   std::filesystem::path live_view;  ///< of a running core
 };
 
-/// Whether each peer has merged, and what to do if not.
+/// What people can do about a peer that is in this state; empty for kMerged.
+[[nodiscard]] const char* remedy_for(PeerState state);
+/// One finding per peer: whether it is merged, and what to do if not.
 [[nodiscard]] Findings examine_peer(const PeerQuestion& question);
 /// The same of what is known already.
 [[nodiscard]] Findings judge_peers(const std::vector<LiveView::Peer>& peers, const std::string& name);

@@ -26,6 +26,7 @@ TEST(LiveView, ParseIsTheInverseOfToLine) {
   EXPECT_EQ(back->events[1].what, "lidar_late");
   EXPECT_EQ(back->epoch, 2U);
   EXPECT_TRUE(back->peers[0].merged);
+  EXPECT_EQ(back->peers[1].state, "no_link");
   EXPECT_EQ(back->peers[1].reason, "no link: not heard for 12 s");
   EXPECT_EQ(back->peers[1].clock_offset_s, -7.5);
 }

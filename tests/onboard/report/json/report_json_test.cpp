@@ -43,8 +43,8 @@ TEST(ReportJson, HasEveryPromisedField) {
     for (const char* field : {"count", "mean_ms", "p50_ms", "p99_ms", "p999_ms", "max_ms", "budget_ms", "overruns",
                               "cpu_mean_ms", "cpu_p50_ms", "cpu_p99_ms", "cpu_p999_ms", "cpu_max_ms"})
       EXPECT_TRUE(json.at("stages").at(stage).at(field).is_number()) << stage << ' ' << field;
-  for (const char* field :
-       {"tx_bytes", "rx_bytes", "tiles", "age_p99_s", "T_map_peer", "covariance", "accepted", "reason"})
+  for (const char* field : {"tx_bytes", "rx_bytes", "tiles", "age_p99_s", "T_map_peer", "covariance", "accepted",
+                            "state", "reason", "deployment_contradicted"})
     EXPECT_TRUE(json.at("peers").at("robot_2").contains(field)) << field;
   EXPECT_EQ(json["peers"]["robot_2"]["T_map_peer"].size(), 16U);
   EXPECT_EQ(json["peers"]["robot_2"]["covariance"].size(), 36U);
