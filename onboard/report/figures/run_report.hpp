@@ -19,8 +19,8 @@
 
 namespace cairn {
 
-/// Where the robot believed to be. The covariance is that of the right perturbation of T_odom_base (hal/se3.hpp),
-/// accumulated since the first pose; zero where nothing is claimed.
+/// An estimated pose. The covariance is that of the right perturbation of T_odom_base (hal/se3.hpp),
+/// accumulated since the first pose; zero if the estimate claims none.
 struct PoseEstimate {
   Time stamp{};
   UncertainPose T_odom_base;
@@ -63,7 +63,7 @@ struct TeamStats {
   std::string sha256;                        ///< over team.cairn and team.tum: the same on every robot of the team
 };
 
-/// All that a run leaves in report.json and report.html. The run fills it in and hands it to write_report().
+/// The content of report.json and report.html. The run fills it in, and write_report() writes it.
 struct RunReport {
   std::string robot, profile;
   std::string source;   ///< the recording, or "live"

@@ -8,8 +8,8 @@
 
 namespace cairn::cli {
 
-/// A recording's file on its own, told by its first lines: candump's text, gpio.csv, or the list of a folder of
-/// pictures (EuRoC's data.csv; the folder's name says whether 16-bit pictures are thermal or depth).
+/// A file of a recording, without the recording. Its first lines tell what it is: candump's text, gpio.csv, or the list
+/// of a folder of pictures (EuRoC's data.csv; the folder's name says whether 16-bit pictures are thermal or depth).
 struct NativeFile {
   std::filesystem::path dir;
   recording::Recording recording;  ///< one source, its file relative to `dir`

@@ -72,16 +72,16 @@ int run(const Options& options) {
 }  // namespace
 
 void add_merge_command(Commands& commands) {
-  CLI::App* sub = commands.app.add_subcommand("merge", "two maps as one");
+  CLI::App* sub = commands.app.add_subcommand("merge", "fuses two maps into one");
   const auto options = std::make_shared<Options>();
   const auto names = merging::policy_names();
-  sub->add_option("a", options->a, "map (.cairn, .ot or .bt) whose frame the result has")->required();
-  sub->add_option("b", options->b, "the other map")->required();
+  sub->add_option("a", options->a, "first map (.cairn, .ot or .bt); the result is in its frame")->required();
+  sub->add_option("b", options->b, "second map")->required();
   sub->add_option("--pose", options->pose, "x,y,z,roll,pitch,yaw of b in a, m and rad, as cairn match finds it")
       ->delimiter(',')
       ->expected(6)
       ->required();
-  sub->add_option("--policy", options->policy, "how voxels that both maps know become one")
+  sub->add_option("--policy", options->policy, "rule for voxels that both maps know")
       ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())))
       ->capture_default_str();
   sub->add_option("--out", options->out, "file to write: .cairn, .ot, .bt, .ply or .pcd")->required();
