@@ -5,6 +5,11 @@
 
 namespace cairn {
 
+void StageStats::record(Duration elapsed) {
+  wall.record(elapsed);
+  if (budget > Duration{} && elapsed > budget) ++overruns;
+}
+
 StageStats& Monitor::stage(std::string_view name, Duration budget) {
   const std::lock_guard lock(mutex_);
   for (StageStats& s : stages_)
@@ -28,11 +33,6 @@ void Monitor::event(Time when, std::string_view stage, std::string_view what) {
   }
 }
 
-std::vector<StageStats> Monitor::stages_now() const {
-  const std::lock_guard lock(mutex_);
-  return {stages_.begin(), stages_.end()};
-}
-
 std::vector<Event> Monitor::events_now() const {
   const std::lock_guard lock(mutex_);
   return events_;
@@ -41,8 +41,7 @@ std::vector<Event> Monitor::events_now() const {
 StageTimer::~StageTimer() {
   const Duration wall = LiveClock{}.now() - wall_;
   stage_.cpu.record(thread_cpu_time() - cpu_);
-  stage_.wall.record(wall);
-  if (stage_.budget > Duration{} && wall > stage_.budget) ++stage_.overruns;
+  stage_.record(wall);
 }
 
 }  // namespace cairn

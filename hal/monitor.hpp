@@ -29,6 +29,9 @@ struct StageStats {
   RelaxedCounter overruns;  ///< wall time above the budget
   Histogram wall;           ///< elapsed time
   Histogram cpu;            ///< CPU time of the calling thread
+
+  /// Counts one call that took `elapsed`, and compares it with the budget.
+  void record(Duration elapsed);
 };
 
 /// Keeps the figures and events of a run. Callees report here; policy is decided by whoever owns the monitor. Any
@@ -36,7 +39,8 @@ struct StageStats {
 /// nothing else.
 class Monitor {
  public:
-  /// The stage's figures, made on first use; the reference stays valid as long as the monitor. One thread records.
+  /// The stage's figures, made on first use. `budget` counts then only; a stage may be declared before its user asks.
+  /// The reference stays valid as long as the monitor. One thread records.
   StageStats& stage(std::string_view name, Duration budget = {});
   /// At most kMaxEvents kinds are kept; further kinds are counted in dropped_events().
   void event(Time when, std::string_view stage, std::string_view what);
@@ -45,8 +49,7 @@ class Monitor {
   [[nodiscard]] const std::deque<StageStats>& stages() const { return stages_; }
   [[nodiscard]] const std::vector<Event>& events() const { return events_; }
   [[nodiscard]] std::uint64_t dropped_events() const { return dropped_events_; }
-  /// Copies, while others report.
-  [[nodiscard]] std::vector<StageStats> stages_now() const;
+  /// A copy, while others report.
   [[nodiscard]] std::vector<Event> events_now() const;
 
   static constexpr std::size_t kMaxEvents = 256;

@@ -9,7 +9,7 @@ set -euo pipefail
 declare -rA packages=(
   # the onboard program, the command line and the simulator
   [build]="g++ cmake ninja-build pkg-config ccache libeigen3-dev liboctomap-dev libpcap-dev libyaml-cpp-dev
-           libspdlog-dev libcli11-dev nlohmann-json3-dev libexpected-dev libzstd-dev libxxhash-dev libpng-dev libssl-dev
+           libfmt-dev libcli11-dev nlohmann-json3-dev libexpected-dev libzstd-dev libxxhash-dev libpng-dev libssl-dev
            libgpiod-dev libembree-dev cyclonedds-dev cyclonedds-tools libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev"
   [test]="libgtest-dev libgmock-dev libbenchmark-dev"
   [bench]="libbenchmark-dev jq"
@@ -25,7 +25,7 @@ declare -rA packages=(
   [docs]="doxygen pngquant"
   # for another architecture, into a sysroot: Debian has no Embree for arm64, so the simulator is left out there
   [sysroot]="libc6-dev libstdc++-12-dev linux-libc-dev libeigen3-dev liboctomap-dev libpcap-dev libyaml-cpp-dev
-             libspdlog-dev libcli11-dev nlohmann-json3-dev libexpected-dev libzstd-dev libxxhash-dev libpng-dev libssl-dev
+             libfmt-dev libcli11-dev nlohmann-json3-dev libexpected-dev libzstd-dev libxxhash-dev libpng-dev libssl-dev
              libgpiod-dev cyclonedds-dev libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev
              libgtest-dev libgmock-dev"
 )

@@ -7,7 +7,8 @@ namespace cairn::depth {
 
 void declare(config::Section& s, Config& c) {
   s.group("capture", c.capture, "what the device is asked for");
-  s.number("fx", c.fx, {1, 1e5}, "px", "focal length, horizontally");
+  s.number("fx", c.fx, {1, 1e5}, "px",
+           "focal length, horizontally; this and the keys below are used by tools/protocol.sh, not by cairn run yet");
   s.number("fy", c.fy, {1, 1e5}, "px", "focal length, vertically");
   s.number("cx", c.cx, {-1e5, 1e5}, "px", "principal point, from the centre of the left column");
   s.number("cy", c.cy, {-1e5, 1e5}, "px", "principal point, from the centre of the top row");
@@ -15,7 +16,8 @@ void declare(config::Section& s, Config& c) {
   s.number("min_depth_m", c.min_depth_m, {0, 100}, "m", "nearer points are dropped; along the optical axis");
   s.number("max_depth_m", c.max_depth_m, {0, 100}, "m", "farther points are dropped; along the optical axis");
   s.integer("step_px", c.step_px, {1, 64}, "px", "every so many columns and rows one pixel is taken");
-  s.number("latency_ms", c.latency_ms, {0, 1000}, "ms", "from the exposure to the frame's stamp; is subtracted");
+  s.number("latency_ms", c.latency_ms, {0, 1000}, "ms",
+           "from the exposure to the frame's stamp; subtracted by the decoder");
 }
 
 Result<void> check(const Config& c) {

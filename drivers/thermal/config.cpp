@@ -16,15 +16,17 @@ std::vector<std::string> model_options() {
 
 void declare(config::Section& s, Config& c) {
   s.group("capture", c.capture, "what the device is asked for");
-  s.choice("model", c.model, model_options(), "sensor model; plain: any 16-bit camera without telemetry");
+  s.choice("model", c.model, model_options(),
+           "sensor model, kept in the recording for cairn inspect; plain: any 16-bit camera without telemetry");
   s.choice("units", c.units, {"auto", "counts", "centikelvin", "decikelvin", "optris"},
            "what a count is; auto: what the telemetry says, counts without it; optris: only frames that Optris's own "
-           "library calibrated");
+           "library calibrated; this and the keys below are not used by cairn run yet");
   s.numbers("stretch_percent", c.stretch_percent, {0, 100}, "%",
             "shares of the pixels that become black at most and not white at least in the 8-bit picture");
   s.number("min_span_c", c.min_span_c, {0.01, 1000}, "°C", "the 8-bit picture spans at least so much");
   s.number("min_span_counts", c.min_span_counts, {1, 65535}, "", "the same for frames in counts");
-  s.number("latency_ms", c.latency_ms, {0, 1000}, "ms", "from the exposure to the frame's stamp; is subtracted");
+  s.number("latency_ms", c.latency_ms, {0, 1000}, "ms",
+           "from the exposure to the frame's stamp; subtracted by the decoder");
 }
 
 Result<void> check(const Config& c) {

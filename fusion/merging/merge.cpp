@@ -26,13 +26,12 @@ Limits limits_of(const SemanticOcTree& map) {
 class Fusion {
  public:
   Fusion(const Contributions& contributions, const MergeOptions& options, SemanticOcTree& fused)
-      : fused_(fused), limits_(limits_of(fused)), fold_(options.policy, limits_) {
+      : fused_(fused), fold_(options.policy, limits_of(fused)) {
     std::int64_t came_in = 0;
     for (const auto& [robot, contribution] : contributions)
       came_in += static_cast<std::int64_t>(contribution.map->size());
     max_nodes_ = std::min(options.max_nodes, kSpareNodes + kNodesPerNode * came_in);
     for (const auto& [robot, contribution] : contributions) {
-      if (options.own == robot) own_ = views_.size();
       views_.emplace_back(*contribution.map, contribution.T_fused_map, fused.getResolution());
     }
     contents_.resize(views_.size());
@@ -57,16 +56,16 @@ class Fusion {
   bool fuse(const Eigen::Vector3i& first, int edge, std::size_t depth, SemanticNode* node) {
     if (++nodes_ >= max_nodes_) return false;
     bool mixed = false;
-    forget_opinions();
+    opinions_.clear();
     places_[depth + 1] = places_[depth];
     for (std::size_t i = 0; i < views_.size(); ++i) {
       contents_[i] = views_[i].look(first, edge, places_[depth + 1][i]);
       mixed = mixed || contents_[i].kind == Content::Kind::kMixed;
-      if (contents_[i].kind == Content::Kind::kUniform) add_opinion(i, contents_[i].log_odds);
+      if (contents_[i].kind == Content::Kind::kUniform) opinions_.push_back(contents_[i].log_odds);
     }
     if (mixed) return edge == kTileEdge ? fuse_tile(first, depth, node) : divide(first, edge, depth, node);
     if (opinions_.empty()) return false;
-    node->setLogOdds(folded());
+    node->setLogOdds(fold_(opinions_));
     return true;
   }
 
@@ -94,19 +93,10 @@ class Fusion {
       known += here ? 1 : 0;
     }
     if (known <= 1) return only;
-    forget_opinions();
-    for (std::size_t i = 0; i < tiles_.size(); ++i)
-      if (tiles_[i][k] != SemanticNode::kAbsent) add_opinion(i, tiles_[i][k]);
-    return folded();
-  }
-
-  void forget_opinions() {
     opinions_.clear();
-    own_opinion_.reset();
-  }
-  void add_opinion(std::size_t view, float log_odds) {
-    opinions_.push_back(log_odds);
-    if (own_ == view) own_opinion_ = log_odds;
+    for (const TileVoxels& tile : tiles_)
+      if (tile[k] != SemanticNode::kAbsent) opinions_.push_back(tile[k]);
+    return fold_(opinions_);
   }
 
   // NOLINTNEXTLINE(misc-no-recursion)
@@ -130,23 +120,14 @@ class Fusion {
     return any;
   }
 
-  float folded() {
-    const float fused = fold_(opinions_);
-    const bool outranked = own_opinion_ && (*own_opinion_ >= limits_.occupied) != (fused >= limits_.occupied);
-    return outranked ? *own_opinion_ : fused;
-  }
-
   SemanticOcTree& fused_;
-  Limits limits_;
   RememberedFold fold_;
   std::vector<Resampled> views_;
-  std::optional<std::size_t> own_;
   std::vector<std::vector<Resampled::Place>> places_;  // by depth
   std::vector<Content> contents_;                      // by view, of the cube at hand
   std::vector<TileVoxels> tiles_;                      // by view
   TileVoxels fused_tile_;
   std::vector<float> opinions_;  // about the cube at hand
-  std::optional<float> own_opinion_;
   std::int64_t nodes_ = 0, max_nodes_ = 0;
 };
 

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <map>
 #include <memory>
-#include <optional>
 
 #include "fusion/merging/fold.hpp"
 #include "hal/result.hpp"
@@ -28,9 +27,6 @@ bool offer(Contributions& contributions, std::uint64_t robot, Contribution contr
 
 struct MergeOptions {
   Policy policy = Policy::kRelativeEntropy;
-  /// The robot whose observations outrank the others': where it knows a voxel, the others cannot turn free into
-  /// occupied or back.
-  std::optional<std::uint64_t> own;
   /// Cubes looked at before giving up, whatever the size of the maps; see kNodesPerNode.
   std::int64_t max_nodes = 100'000'000;
 };
@@ -40,10 +36,10 @@ struct MergeOptions {
 inline constexpr std::int64_t kNodesPerNode = 64, kSpareNodes = 100'000;
 
 /// The fused map, a pure function of the contributions: each voxel of its grid is folded over the robots that know it,
-/// in ascending order of their ids (algorithms F; 5.10 and 7.11 made independent of the order of arrival). So merging
-/// is idempotent, commutative and associative over sets of robots, and taking a robot out of the set gives back the
-/// bytes from before it came. The grid has the finest of the resolutions and the sensor model of the first robot;
-/// maps in other frames or resolutions are resampled (nearest neighbour). Labels of the tree are left out.
+/// in ascending order of their ids (docs/theory.md; the book's 5.10 and 7.11, made independent of the order of
+/// arrival). So merging is idempotent, commutative and associative over sets of robots, and taking a robot out of the
+/// set gives back the bytes from before it came. The grid has the finest of the resolutions and the sensor model of the
+/// first robot; maps in other frames or resolutions are resampled (nearest neighbour). Labels of the tree are left out.
 ///
 /// Errors: kInvalidConfig without contributions, for a missing map or a pose that is not finite; kLimit beyond
 /// max_nodes or what the maps' own sizes justify.

@@ -64,6 +64,7 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
     if (const auto fits = check_schedule(*profile); !fits) return fits.error();
   if (const auto ready = prepare_output(options.out); !ready) return ready.error();
   auto result = std::make_unique<RunResult>();
+  declare_stages(profile->schedule, result->monitor);
   const LiveClock clock;
   auto door = open_door(options, *profile, clock, result->monitor);  // live devices, or a recording
   if (!door) return door.error();
@@ -79,7 +80,7 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
   if (past && ran) past->starts.end();
   if (!ran) return ran.error();  // packets → scans → poses and map
 
-  auto report = write_output({options, *profile, tasks, result->monitor, Duration{door->recording.time_shift_ns}});
+  auto report = write_output({options, *profile, tasks, *door, result->monitor});
   if (!report) return report.error();
   result->report = std::move(*report);
   return result;

@@ -32,6 +32,9 @@ void print_summary(const RunReport& r, const std::filesystem::path& out) {
   std::printf("%s: %zu scans in %.1f s, %.2f m travelled, %llu packets lost\n", r.robot.c_str(),
               static_cast<std::size_t>(r.scans), r.duration_s, r.distance_m,
               static_cast<unsigned long long>(r.lost_packets));
+  for (const auto& [device, losses] : r.losses)
+    for (const auto& [name, n] : losses)
+      if (n > 0) std::printf("  %s: %s %llu\n", device.c_str(), name.c_str(), static_cast<unsigned long long>(n));
   for (const StageStats& s : r.monitor->stages()) {
     if (s.wall.count() == 0) continue;  // latencies exist in real time only
     std::printf("  %-9s p50 %7.3f ms  p99 %7.3f ms  max %7.3f ms\n", s.name.c_str(),
@@ -92,32 +95,34 @@ int run_robot(Arguments a) {
 }  // namespace
 
 void add_run_command(Commands& commands) {
-  add_run_options(*commands.app.add_subcommand("run", "one robot: live hardware, or the same program on a recording"),
-                  commands);
+  add_run_options(*commands.app.add_subcommand("run", "runs one robot: on live hardware, or on a recording"), commands);
 }
 
 void add_run_options(CLI::App& app, Commands& commands) {
   auto a = std::make_shared<Arguments>();
-  app.add_option("--config", a->run.config, "robot profile, such as config/husky.yaml; defaults without one");
-  app.add_option("--recording", a->run.recording, "folder of a recording; live hardware without one");
-  app.add_option("--out", a->run.out, "folder for what the run leaves")->default_val("cairn-out");
-  app.add_option("--record", a->run.record, "live: also keep every packet and the schedule, for a replay to the bit");
-  app.add_option(
-      "--state", a->run.state,
-      "live: keep map and pose in this folder, and go on from there after a crash; see the profile's restart");
+  app.add_option("--config", a->run.config, "robot profile, such as config/husky.yaml; default values if not given");
+  app.add_option("--recording", a->run.recording, "folder of a recording; live hardware if not given");
+  app.add_option("--out", a->run.out, "folder for the results")->default_val("cairn-out");
+  app.add_option("--record", a->run.record,
+                 "live: folder to record all packets and the schedule in, for a replay to the bit");
+  app.add_option("--state", a->run.state,
+                 "live: folder that keeps map and pose; after a crash the robot goes on from there (section restart)");
   app.add_flag(
       "--peers", a->run.peers,
-      "take part in the team, through the peer process (cairn-peers) at the profile's team.socket; a recording "
-      "is played as if it were the robot's devices");
-  app.add_option("--live-view", a->run.live_view, "live: a local socket for cairn top, such as /run/cairn/live.sock");
-  app.add_option("--schedule", a->run.schedule, "repeat the schedule.log of a live run; a recording may hold its own");
-  app.add_option("--speed", a->speed, "of a recording: as it was made, or as fast as possible in virtual time")
+      "take part in the team, through cairn-peers at the profile's team.socket; a recording is played in real time "
+      "as if it were the devices");
+  app.add_option("--live-view", a->run.live_view, "live: local socket for cairn top, such as /run/cairn/live.sock");
+  app.add_option("--schedule", a->run.schedule,
+                 "schedule.log of a live run to repeat; default: the recording's own, if it has one");
+  app.add_option("--speed", a->speed, "speed of a recording: real, or max (as fast as possible, in virtual time)")
       ->check(CLI::IsMember({"real", "max"}))
       ->default_val("real");
-  app.add_option("--assert", a->budgets, "fail when a budget is exceeded, such as config/budgets/husky.yaml");
-  app.add_option("--threads", a->run.threads, "instead of the profile's; the result does not depend on it")
+  app.add_option("--assert", a->budgets,
+                 "budgets to check, such as config/budgets/husky.yaml; the run fails if one is exceeded");
+  app.add_option("--threads", a->run.threads,
+                 "threads, instead of the profile's number; the result does not depend on it")
       ->check(CLI::Range(1, 64));
-  app.add_option("--seconds", a->run.seconds, "end after so much of the robot's time")->check(CLI::PositiveNumber);
+  app.add_option("--seconds", a->run.seconds, "length of the run in the robot's time, s")->check(CLI::PositiveNumber);
   app.add_flag("--json", a->json, "print report.json on stdout");
   app.callback([&commands, a] { commands.job = [a] { return run_robot(*a); }; });
 }

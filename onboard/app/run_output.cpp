@@ -5,7 +5,9 @@
 
 #include "drivers/recording/formats/recording.hpp"
 #include "drivers/recording/formats/trajectory_file.hpp"
+#include "drivers/recording/formats/utc.hpp"
 #include "hal/files/file.hpp"
+#include "onboard/app/door/door.hpp"
 #include "onboard/app/run.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
 #include "onboard/app/team/team_output.hpp"
@@ -17,6 +19,9 @@ namespace cairn {
 namespace {
 
 namespace fs = std::filesystem;
+
+/// See Recording::time_shift_ns.
+Duration shift_of(const RunFacts& facts) { return Duration{facts.door.recording.time_shift_ns}; }
 
 /// On the time line of the recording, where one was played.
 Result<void> write_trajectory(const fs::path& file, const std::vector<TrackPoint>& track, Duration shift) {
@@ -53,6 +58,37 @@ void add_tasks(const scheduler::Executive& executive, RunReport& report) {
       report.control_thread_allocations += line.stats.allocations;
 }
 
+/// A level that leaves nothing out is reported as `nothing`, which is first.
+void add_shed(const MappingTask& mapping, RunReport& report) {
+  for (int i = 0; i < kShedLevels; ++i) {
+    const auto level = static_cast<Shed>(i);
+    const std::uint64_t scans = mapping.scans_at()[static_cast<std::size_t>(i)];
+    if (i == 0 || in_force(level) == level)
+      report.shed.emplace_back(to_string(level), scans);
+    else
+      report.shed.front().second += scans;
+  }
+}
+
+/// Empty where the recording knows no time of day.
+std::string utc_of(Time t, const recording::Recording& recording) {
+  const std::int64_t utc_ns = recording.utc_ns(t);
+  const bool known = recording.realtime_offset_ns != 0 || recording.start_utc_ns != 0;
+  return known && utc_ns > 0 ? recording::to_iso_utc(utc_ns) : std::string();
+}
+
+void add_input(const RunFacts& facts, RunReport& report) {
+  const ReceiveTask::Figures& figures = facts.tasks.figures();
+  report.scans = figures.scans;
+  report.lost_packets = figures.lost_packets;
+  for (const Input& input : facts.door.inputs)
+    if (input.losses) report.losses.emplace_back(input.entry.id, input.losses());
+  if (!figures.start) return;
+  report.start = *figures.start;
+  report.started = utc_of(*figures.start, facts.door.recording);
+  report.duration_s = to_seconds(figures.end - *figures.start);
+}
+
 /// Every stage of the odometry and the map, as far as the run got.
 RunReport make_report(const RunFacts& facts) {
   const auto& track = facts.tasks.robot().track();
@@ -62,21 +98,14 @@ RunReport make_report(const RunFacts& facts) {
   report.source = facts.options.recording.empty() ? "live" : facts.options.recording.string();
   report.version = CAIRN_VERSION;
   report.distance_m = length_m(track);
-  report.scans = facts.tasks.figures().scans;
-  report.lost_packets = facts.tasks.figures().lost_packets;
+  add_input(facts, report);
   report.odometry = odometry_stats(track);
   report.peak_rss_mb = peak_rss_mb();
   add_tasks(facts.tasks.executive(), report);
   report.mode = to_string(facts.tasks.decision().mode);
   if (const auto cause = facts.tasks.decision().cause) report.mode_cause = to_string(*cause);
-  for (int level = 0; level < kShedLevels; ++level)
-    report.shed.emplace_back(to_string(static_cast<Shed>(level)),
-                             facts.tasks.mapping().scans_at()[static_cast<std::size_t>(level)]);
+  add_shed(facts.tasks.mapping(), report);
   report.monitor = &facts.monitor;
-  if (facts.tasks.figures().start) {
-    report.start = *facts.tasks.figures().start;
-    report.duration_s = to_seconds(facts.tasks.figures().end - *facts.tasks.figures().start);
-  }
   for (const TrackPoint& p : track) report.trajectory.push_back({p.stamp, p.T_odom_base});
   report.map = summarise(facts.tasks.robot().map());
   if (auto picture = look_at(facts.tasks.robot().map(), {})) report.picture = std::move(*picture);
@@ -90,7 +119,7 @@ void add_ground_truth(const RunFacts& facts, RunReport& report) {
   const fs::path file = facts.options.recording / "ground_truth.tum";
   if (facts.options.recording.empty() || !fs::exists(file)) return;
   if (auto truth = recording::read_tum(file))
-    for (const auto& p : *truth) report.ground_truth.push_back({p.stamp + facts.shift, p.pose});
+    for (const auto& p : *truth) report.ground_truth.push_back({p.stamp + shift_of(facts), p.pose});
 }
 
 /// What a team run leaves besides, as a part of what is to be repeated.
@@ -121,7 +150,7 @@ Result<RunReport> write_output(const RunFacts& facts) {
   add_ground_truth(facts, report);
   std::vector<fs::path> hashed{out / "trajectory.tum", out / "map.cairn"};
   if (const auto r = write_file_atomic(out / "config.yaml", report.effective_config); !r) return r.error();
-  if (const auto r = write_trajectory(hashed[0], facts.tasks.robot().track(), facts.shift); !r) return r.error();
+  if (const auto r = write_trajectory(hashed[0], facts.tasks.robot().track(), shift_of(facts)); !r) return r.error();
   if (const auto r = save_cairn(facts.tasks.robot().map(), hashed[1]); !r) return r.error();
   if (const auto r = save_ot(facts.tasks.robot().map(), out / "map.ot"); !r) return r.error();
   if (const auto r = add_team_files(facts, report, hashed); !r) return r.error();

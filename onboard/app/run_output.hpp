@@ -11,6 +11,7 @@
 namespace cairn {
 
 class RobotTasks;
+struct Door;
 struct RunOptions;
 
 /// All that is known when a run has ended.
@@ -18,13 +19,13 @@ struct RunFacts {
   const RunOptions& options;
   const RobotProfile& profile;
   const RobotTasks& tasks;
+  const Door& door;  ///< where the packets came from
   const Monitor& monitor;
-  Duration shift{};  ///< see Recording::time_shift_ns
 };
 
 /// Makes the folder, so that a run does not end with nowhere to go.
 Result<void> prepare_output(const std::filesystem::path& out);
-/// Writes every file of interface.md's "What a run leaves" into options.out and returns what the report says.
+/// Writes trajectory, maps, reports and configuration into options.out. Returns what the report says.
 Result<RunReport> write_output(const RunFacts& facts);
 
 }  // namespace cairn

@@ -27,7 +27,7 @@ constexpr std::array<FaultRow, kFaults> kTable{{
     {Fault::kEStopLost, "estop_lost", S, S, "the e-stop's level cannot be read, or edges were lost"},
     {Fault::kSafetyMissed, "safety_missed", H, H, "the safety task missed its deadline"},
     {Fault::kStageDemoted, "stage_demoted", D, D, "a stage overran its hard budget three times in a row"},
-    {Fault::kOverload, "overload", N, D, "work is being shed"},
+    {Fault::kOverload, "overload", N, D, "scans are mapped too late: work is left out, level by level"},
     {Fault::kBestEffort, "best_effort", N, N, "real-time priorities or locked memory were not granted"},
     {Fault::kMemoryShort, "memory_short", N, D, "a bound on memory was reached: the map does not grow any more"},
     {Fault::kDiskFailing, "disk_failing", N, N, "map or recording cannot be written"},

@@ -12,17 +12,19 @@ std::string_view to_string(Shed level) {
   return kNames[static_cast<std::size_t>(level)];
 }
 
+Shed in_force(Shed level) { return level < Shed::kMapDensity ? Shed::kNothing : level; }
+
 ShedPlan plan_of(Shed level) {
   ShedPlan plan;
-  plan.peer_tiles = level < Shed::kPeerTiles;
-  plan.semantics = level < Shed::kSemantics;
   if (level >= Shed::kMapDensity) plan.point_stride = 2;
   if (level >= Shed::kScanDecimation) plan.point_stride = 4, plan.scan_stride = 2;
   return plan;
 }
 
 void declare(config::Section& s, OverloadConfig& c) {
-  s.number("high", c.high, {0.5, 1.0}, "", "share of a stage's budget, or of a queue, that counts as overload");
+  s.number(
+      "high", c.high, {0.5, 1.0}, "",
+      "latency of a scan in the map as a share of mapping's deadline, or fill of its queue, that counts as overload");
   s.number("low", c.low, {0.1, 0.9}, "", "share below which it counts as relief");
   s.integer("overloaded_ticks", c.overloaded_ticks, {1, 20}, "", "ticks of overload until one more level is shed");
   s.number("relieved_ms", c.relieved_ms, {50, 200}, "ms", "relief until one level returns");
@@ -30,10 +32,10 @@ void declare(config::Section& s, OverloadConfig& c) {
 
 // Written so that a load which is no number counts as overload, and never as relief.
 bool OverloadController::overloaded(const Load& load) const {
-  return load.soft_overruns > 0 || !(load.utilisation < config_.high) || !(load.queue_fill < config_.high);
+  return !(load.utilisation < config_.high) || !(load.queue_fill < config_.high);
 }
 bool OverloadController::relieved(const Load& load) const {
-  return load.soft_overruns == 0 && load.utilisation < config_.low && load.queue_fill < config_.low;
+  return load.utilisation < config_.low && load.queue_fill < config_.low;
 }
 
 Shed OverloadController::step(Time now, const Load& load) {

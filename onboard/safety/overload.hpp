@@ -12,17 +12,19 @@ namespace cairn {
 /// What is left undone under overload: each level includes those before it. Never drive, safety or odometry.
 enum class Shed : std::uint8_t {
   kNothing,
-  kPeerTiles,       ///< peers' tiles wait
-  kSemantics,       ///< no labels
+  kPeerTiles,       ///< leaves nothing out: reserved for peers' tiles, which another task folds
+  kSemantics,       ///< leaves nothing out: reserved for labels, which do not exist yet
   kMapDensity,      ///< every 2nd point goes into the map
   kScanDecimation,  ///< every 4th point of every 2nd scan does
 };
 inline constexpr int kShedLevels = 5;
 [[nodiscard]] std::string_view to_string(Shed level);
 
-/// A level as mapping and its neighbours use it.
+/// The level as a report may name it: kNothing for one that leaves nothing out.
+[[nodiscard]] Shed in_force(Shed level);
+
+/// A level as mapping uses it.
 struct ShedPlan {
-  bool peer_tiles = true, semantics = true;
   int point_stride = 1;  ///< every n-th point of a scan goes into the map, counted from its first
   int scan_stride = 1;   ///< every n-th scan does; odometry sees them all
 };
@@ -31,7 +33,6 @@ struct ShedPlan {
 /// What one tick of the pipeline cost, and what waits.
 struct Load {
   double utilisation = 0;  ///< the worst stage's response / its budget
-  int soft_overruns = 0;   ///< of all stages, since the last step
   double queue_fill = 0;   ///< the fullest queue, 0…1
 };
 

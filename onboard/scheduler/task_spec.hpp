@@ -33,8 +33,7 @@ struct TaskSpec {
 
 void declare(config::Section& section, TaskSpec& spec);
 
-/// How much of a core may be promised away (faults.md §3; rate-monotonic scheduling is safe below 69 %, Liu & Layland
-/// 1973).
+/// How much of a core may be promised away. Rate-monotonic scheduling is safe below 69 % (Liu & Layland 1973).
 inline constexpr double kMaxUtilisation = 0.70;
 
 /// The tasks with period, budgets and utilisation, and the sum of each core: for reading.

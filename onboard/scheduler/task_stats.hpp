@@ -6,7 +6,7 @@
 
 namespace cairn::scheduler {
 
-/// What the ticks of one task cost (faults.md §3). Its thread writes, anyone reads.
+/// What the ticks of one task cost (docs/real-time.md). Its thread writes, anyone reads.
 struct TaskStats {
   RelaxedCounter ticks;
   RelaxedCounter slips;          ///< releases passed because an earlier tick was still running

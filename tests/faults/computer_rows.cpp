@@ -27,7 +27,7 @@ Measured overload() {
   for (Time now{}; now < Time{20s}; now += 100ms) {
     const bool heavy = now >= Time{5s} && now < Time{15s};
     const int before = static_cast<int>(controller.level());
-    const int level = static_cast<int>(controller.step(now, {heavy ? 1.5 : 0.5, heavy ? 1 : 0, 0}));
+    const int level = static_cast<int>(controller.step(now, {heavy ? 1.5 : 0.5, 0}));
     m.held = m.held && std::abs(level - before) <= 1;
     worst_level = std::max(worst_level, level);
     if (level > 0 && !m.detect) m.detect = now - Time{5s};

@@ -34,5 +34,26 @@ TEST(Monitor, StagesKeepTheirAddressAndCountOverruns) {
   EXPECT_EQ(first.overruns, 1U) << "no scope lasts less than a nanosecond";
 }
 
+TEST(Monitor, ARecordedTimeCountsAsOverrunAboveTheBudgetAlone) {
+  Monitor monitor;
+  StageStats& bounded = monitor.stage("bounded", Duration{10});
+  StageStats& free = monitor.stage("free");
+  for (const int elapsed : {9, 10, 11, 500}) {
+    bounded.record(Duration{elapsed});
+    free.record(Duration{elapsed});
+  }
+  EXPECT_EQ(bounded.wall.count(), 4U);
+  EXPECT_EQ(bounded.overruns, 2U);
+  EXPECT_EQ(free.overruns, 0U);
+}
+
+TEST(Monitor, TheFirstDeclarationOfAStageSaysItsBudget) {
+  Monitor monitor;
+  monitor.stage("odometry", Duration{40});
+  EXPECT_EQ(monitor.stage("odometry").budget, Duration{40});
+  EXPECT_EQ(monitor.stage("odometry", Duration{7}).budget, Duration{40});
+  EXPECT_EQ(monitor.stages().size(), 1U);
+}
+
 }  // namespace
 }  // namespace cairn

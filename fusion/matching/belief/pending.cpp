@@ -53,6 +53,7 @@ void suspend(Hypothesis& h, const std::string& why) {
   h.earned = h.earned || h.standing == Standing::kAccepted;
   h.standing = Standing::kPending;
   h.agreements = 0;
+  h.rivalled = true;
   h.reason = why;
 }
 
@@ -89,13 +90,14 @@ void judge(Hypothesis& h, const Look& look, const Decision& now, double rival, i
   h.evidence = look.evidence;
   h.probability_correct = now.probability_correct;
   h.contradictions = contradicts(look.evidence, config) ? h.contradictions + 1 : 0;
+  h.rivalled = rival >= config.rivalled;
   if (h.contradictions >= config.contradictions) return drop(h, now.reason);
   if (h.standing == Standing::kAccepted) {
     if (rival >= config.overthrown) suspend(h, "another pose has become likely");
     return;
   }
-  const bool rivalled = rival >= config.rivalled, agrees = h.probability_correct >= config.agrees && !rivalled;
-  h.reason = agrees ? so_often(h, needed) : rivalled ? "another pose may be as good" : now.reason;
+  const bool agrees = h.probability_correct >= config.agrees && !h.rivalled;
+  h.reason = agrees ? so_often(h, needed) : h.rivalled ? "another pose may be as good" : now.reason;
   if (h.earned && !agrees) h.agreements = 0;
   if (!agrees || !(h.earned || on_new_ground(h, look.evidence, config))) return;
   h.ground_m2 = std::max(h.ground_m2, look.evidence.agreeing_m2);

@@ -47,6 +47,7 @@ struct Hypothesis {
   double ground_m2 = 0;    ///< structure that agreed in the last of them, m²
   bool earned = false;     ///< it was accepted before, on ground that was new then
   int contradictions = 0;  ///< last looks in a row that contradicted
+  bool rivalled = false;   ///< at the newest look another place was too likely to decide for this one
 };
 
 /// The places where one map may lie in another, while both grow. No single comparison decides.

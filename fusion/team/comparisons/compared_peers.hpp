@@ -3,7 +3,7 @@
 
 #include <map>
 #include <memory>
-#include <string>
+#include <optional>
 
 #include "fusion/matching/belief/growing_match.hpp"
 #include "fusion/peers/items/item.hpp"
@@ -15,13 +15,21 @@
 
 namespace cairn {
 
+/// What was made of the likeliest place. Comparisons are worth their time as long as it changes.
+struct PlaceStanding {
+  std::optional<matching::Standing> standing{};  ///< none: there is no place
+  int agreements = 0;
+
+  friend bool operator==(const PlaceStanding&, const PlaceStanding&) = default;
+};
+
 /// What the comparisons of this robot's map with one peer's have come to.
 struct ComparedPeer {
   peers::Epoch own_epoch = 0, peer_epoch = 0;       ///< of the maps
   std::unique_ptr<matching::GrowingMatch> match{};  ///< of the whole maps; null while a job has it
   MatchWorth worth{};                               ///< of the next comparison
   Time refined = Time::min();                       ///< when submaps were last looked for
-  std::string likeliest{};                          ///< standing of the likeliest place, last time
+  PlaceStanding likeliest{};                        ///< of the last comparison
   PublishedEdge edge{};                             ///< what this robot publishes of it
   bool found = false;                               ///< the last comparison found the peer
   bool deployment_refuted = false;                  ///< the last comparison contradicts the deployments

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fusion/team/comparisons/match_results.hpp"
 
-#include <string>
 #include <utility>
 
 #include "fusion/team/comparisons/deployments.hpp"
@@ -10,11 +9,10 @@
 namespace cairn {
 namespace {
 
-/// What is made of the likeliest place. A comparison is fruitful if this changes.
-std::string likeliest_in(const matching::PendingHypotheses& places) {
+PlaceStanding likeliest_in(const matching::PendingHypotheses& places) {
   const auto all = places.all();
   if (all.empty()) return {};
-  return std::to_string(static_cast<int>(all.front().standing)) + " " + std::to_string(all.front().agreements);
+  return {.standing = all.front().standing, .agreements = all.front().agreements};
 }
 
 std::optional<IndexedEdge> refined_edge(const MatchJob& job, ComparedPeers& compared) {
@@ -53,7 +51,7 @@ std::optional<IndexedEdge> take_result(MatchJob job, const TeamView& team, Compa
   if (job.refinement) return refined_edge(job, compared);
   peer->match = std::move(job.match);
   if (!job.ran) return std::nullopt;
-  const std::string before = std::exchange(peer->likeliest, likeliest_in(peer->match->hypotheses()));
+  const PlaceStanding before = std::exchange(peer->likeliest, likeliest_in(peer->match->hypotheses()));
   peer->worth.end(peer->likeliest != before, now);
   weigh_deployment(job, team, *peer);
   return whole_map_edge(job, team, *peer);

@@ -22,10 +22,11 @@ std::string clipped(std::string_view text) {
 std::string short_text(const std::string& text) { return text.size() > LiveView::kMaxText ? clipped(text) : text; }
 
 LiveJson to_json(const LiveView::Stage& s) {
-  return {{"name", short_text(s.name)}, {"p50_ms", s.p50_ms},       {"p99_ms", s.p99_ms},   {"p999_ms", s.p999_ms},
-          {"max_ms", s.max_ms},         {"budget_ms", s.budget_ms}, {"count", s.count},     {"overruns", s.overruns},
-          {"slips", s.slips},           {"misses", s.misses},       {"dropped", s.dropped}, {"queued", s.queued},
-          {"capacity", s.capacity}};
+  return {{"name", short_text(s.name)}, {"p50_ms", s.p50_ms},    {"p99_ms", s.p99_ms},
+          {"p999_ms", s.p999_ms},       {"max_ms", s.max_ms},    {"deadline_ms", s.deadline_ms},
+          {"budget_ms", s.budget_ms},   {"count", s.count},      {"overruns", s.overruns},
+          {"slips", s.slips},           {"misses", s.misses},    {"dropped", s.dropped},
+          {"queued", s.queued},         {"capacity", s.capacity}};
 }
 LiveJson to_json(const LiveView::Event& e) {
   return {{"t_s", e.t_s}, {"stage", short_text(e.stage)}, {"what", short_text(e.what)}, {"count", e.count}};
@@ -34,12 +35,14 @@ LiveJson to_json(const LiveView::Event& e) {
 LiveJson to_json(const LiveView::Peer& p) {
   return {{"name", short_text(p.name)},
           {"merged", p.merged},
+          {"state", short_text(p.state)},
           {"reason", short_text(p.reason)},
           {"heard_s_ago", p.heard_s_ago},
           {"tiles", p.tiles},
           {"tx_bytes", p.tx_bytes},
           {"rx_bytes", p.rx_bytes},
-          {"clock_offset_s", p.clock_offset_s}};
+          {"clock_offset_s", p.clock_offset_s},
+          {"deployment_contradicted", p.deployment_contradicted}};
 }
 
 template <class T, class Make>
@@ -112,6 +115,7 @@ void read_stage(const LiveJson& json, LiveView::Stage& s) {
   in.read("p99_ms", s.p99_ms);
   in.read("p999_ms", s.p999_ms);
   in.read("max_ms", s.max_ms);
+  in.read("deadline_ms", s.deadline_ms);
   in.read("budget_ms", s.budget_ms);
   in.read("count", s.count);
   in.read("overruns", s.overruns);
@@ -136,12 +140,14 @@ void read_peer(const LiveJson& json, LiveView::Peer& p) {
   const Members in(json);
   in.read("name", p.name);
   in.read("merged", p.merged);
+  in.read("state", p.state);
   in.read("reason", p.reason);
   in.read("heard_s_ago", p.heard_s_ago);
   in.read("tiles", p.tiles);
   in.read("tx_bytes", p.tx_bytes);
   in.read("rx_bytes", p.rx_bytes);
   in.read("clock_offset_s", p.clock_offset_s);
+  in.read("deployment_contradicted", p.deployment_contradicted);
 }
 
 }  // namespace

@@ -17,8 +17,9 @@ struct LiveView {
   struct Stage {
     std::string name;
     double p50_ms = 0, p99_ms = 0, p999_ms = 0, max_ms = 0;  ///< of the response, since the run began
-    double budget_ms = 0;                                    ///< 0: none declared
-    std::uint64_t count = 0, overruns = 0;                   ///< ticks or calls; those above the budget
+    double deadline_ms = 0;                                  ///< of the response
+    double budget_ms = 0;                                    ///< of the execution; 0: none declared
+    std::uint64_t count = 0, overruns = 0;                   ///< ticks; those whose execution was above the budget
     std::uint64_t slips = 0, misses = 0;                     ///< releases passed; deadlines missed
     std::uint64_t dropped = 0, queued = 0, capacity = 0;     ///< of its input; capacity 0: it has no queue
   };
@@ -30,10 +31,12 @@ struct LiveView {
   struct Peer {
     std::string name;
     bool merged = false;
-    std::string reason;       ///< for people
+    std::string state;        ///< why it is merged or not: PeerState as a word
+    std::string reason;       ///< the same for people, with figures
     double heard_s_ago = -1;  ///< negative: never
     std::uint64_t tiles = 0, tx_bytes = 0, rx_bytes = 0;
-    double clock_offset_s = 0;  ///< its clock less this robot's, as far as known
+    double clock_offset_s = 0;             ///< its clock less this robot's, as far as known
+    bool deployment_contradicted = false;  ///< the deployments of the two do not fit to their maps
   };
   std::string robot;
   double t_s = 0;  ///< robot time

@@ -13,7 +13,9 @@ void declare(config::Section& s, RobotProfile& p) {
   s.text("name", p.name, "the robot's name in files and to its peers");
   s.integer("threads", p.threads, {1, 64}, "", "threads for odometry and mapping; the result does not depend on it");
   s.group("lidar", p.lidar, "the LiDAR and its mount");
-  s.group("camera", p.camera, "the colour camera, single or stereo; it exists when capture.device is named");
+  s.group("camera", p.camera,
+          "the colour camera, single or stereo; it exists when capture.device is named; it is watched and recorded, by "
+          "cairn record and cairn run --record");
   s.group("thermal", p.thermal, "the thermal camera; likewise");
   s.group("depth", p.depth, "the depth camera; likewise");
   s.group("drive", p.drive, "the drive on its CAN bus; it exists when interface is named");

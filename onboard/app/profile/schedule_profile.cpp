@@ -16,4 +16,11 @@ void declare(config::Section& s, ScheduleProfile& p) {
   s.group("saving", p.saving, "map, pose and scans for a restart, where --state says so");
 }
 
+void declare_stages(const ScheduleProfile& profile, Monitor& monitor) {
+  monitor.stage("odometry", profile.odometry.soft());
+  monitor.stage("mapping", profile.mapping.soft());
+  monitor.stage("packet_to_pose", profile.odometry.deadline());
+  monitor.stage("packet_to_map", profile.mapping.deadline());
+}
+
 }  // namespace cairn

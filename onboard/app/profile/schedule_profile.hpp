@@ -2,6 +2,7 @@
 #pragma once
 
 #include "hal/config/config.hpp"
+#include "hal/monitor.hpp"
 #include "onboard/scheduler/task_spec.hpp"
 
 namespace cairn {
@@ -30,5 +31,9 @@ struct ScheduleProfile {
 };
 
 void declare(config::Section& section, ScheduleProfile& profile);
+
+/// Gives the stages of a run the budgets of their tasks: execution of odometry and mapping `soft_ms`, the latencies
+/// from a scan's last byte their deadline. To be called before the tasks are made. Other stages have no budget.
+void declare_stages(const ScheduleProfile& profile, Monitor& monitor);
 
 }  // namespace cairn

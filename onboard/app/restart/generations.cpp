@@ -47,8 +47,9 @@ Generations::Generations(fs::path folder, Monitor& monitor, FileCalls& calls)
 std::optional<Generation> Generations::load_file(std::size_t slot, Time now, const MapLimits& limits) {
   const fs::path path = folder_ / kMapFiles[slot];
   const auto refuse = [&](Error error) {
-    if (error.code != Errc::kNotFound)
-      monitor_.event(now, "saved map", to_string(at(path.filename(), std::move(error))));
+    if (error.code == Errc::kNotFound) return std::nullopt;
+    damaged_ = true;
+    monitor_.event(now, "saved map", to_string(at(path.filename(), std::move(error))));
     return std::nullopt;
   };
   const auto bytes = read_file(path, limits.max_file_bytes);

@@ -45,6 +45,8 @@ class Generations {
   /// The newest generation that is whole, with the newest pose and scans of its epoch; none when there is none. One
   /// event for each file that is not what it should be. To be called once, before the first save.
   [[nodiscard]] std::optional<Generation> load(Time now, const MapLimits& limits = {});
+  /// After load(): a map file was there that could not be read.
+  [[nodiscard]] bool damaged() const { return damaged_; }
 
   /// The bytes of the next generation. `state.sequence` is set here.
   [[nodiscard]] std::vector<std::byte> encode(const SemanticOcTree& map, SavedState state) const;
@@ -70,6 +72,7 @@ class Generations {
   FileCalls& calls_;
   std::uint64_t sequence_ = 0;  ///< of the newest generation on disk
   std::size_t next_ = 0;        ///< the slot that is written next
+  bool damaged_ = false;
 };
 
 }  // namespace cairn

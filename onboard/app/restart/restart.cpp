@@ -47,6 +47,7 @@ Before look_back(Generations& generations, const RestartProfile& profile, double
                  Monitor& monitor) {
   Before before;
   auto saved = generations.load(now);
+  before.state_lost = !saved && generations.damaged();
   if (!saved) return before;
   before.epoch = saved->newest_epoch;
   const std::string_view why_not = objection(*saved, profile, resolution_m, now);

@@ -25,6 +25,7 @@ struct Before {
   std::optional<Generation> resumed;  ///< goes on from here; none: begins anew
   std::uint32_t epoch = 0;            ///< of the map on disk; a new one gets the next number
   bool crash_loop = false;            ///< one start too many
+  bool state_lost = false;            ///< maps were saved, and none of them can be read
 };
 
 /// The machine's boot id: stamps of two boots cannot be compared. Empty where the kernel does not tell.

@@ -50,7 +50,7 @@ void OdometryTask::locate(const ArrivedScan& arrived, Tick& tick) {
     out->arrival = arrived.arrival;
     parts_.motions.push(tick);
   }
-  if (tick.takes_time()) latency_.wall.record(tick.figure_now() - arrived.arrival);
+  if (tick.takes_time()) latency_.record(tick.figure_now() - arrived.arrival);
   if (progress_) progress_(arrived.scan.valid.end, ++count_);
 }
 
@@ -84,8 +84,8 @@ void MappingTask::tick(Tick& tick) {
 
 void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
   const Shed level = decide(motion, tick);
-  if (level != level_.exchange(level, std::memory_order_relaxed))
-    monitor_.event(motion.scan.stamp, "overload", "shed: " + std::string(to_string(level)));
+  if (const Shed now = in_force(level); now != in_force(level_.exchange(level, std::memory_order_relaxed)))
+    monitor_.event(motion.scan.stamp, "overload", "shed: " + std::string(to_string(now)));
   ++scans_at_[static_cast<std::size_t>(level)];
   const ShedPlan plan = plan_of(level);
   if (count_++ % static_cast<std::uint64_t>(plan.scan_stride) != 0) return;
@@ -96,7 +96,7 @@ void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
     copier_->mapped(motion.scan);
   note_changes(motion.scan, tick);
   memory_short_.store(!extended && extended.error().code == Errc::kLimit, std::memory_order_relaxed);
-  if (tick.takes_time()) latency_.wall.record(tick.figure_now() - motion.arrival);
+  if (tick.takes_time()) latency_.record(tick.figure_now() - motion.arrival);
 }
 
 void MappingTask::share_tiles(TileChannel& tiles) {

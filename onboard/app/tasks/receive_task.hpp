@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hal/monitor.hpp"
+#include "hal/relaxed_counter.hpp"
 #include "onboard/app/door/door.hpp"
 #include "onboard/app/tasks/messages.hpp"
 #include "onboard/safety/rejection.hpp"
@@ -21,11 +22,11 @@ class ReceiveTask final : public scheduler::Task {
  public:
   static constexpr std::size_t kMaxInputs = 8, kScansSlot = 8, kSeenSlot = 9;
 
-  /// What came in; of the task's thread, or of a run that has ended.
+  /// What came in; of the task's thread, or of a run that has ended. Any thread may read the counters.
   struct Figures {
     std::optional<Time> start;  ///< arrival of the first packet
     Time end{};                 ///< arrival of the last
-    std::uint64_t scans = 0, lost_packets = 0;
+    RelaxedCounter scans, lost_packets;
   };
 
   /// All must outlive the task.

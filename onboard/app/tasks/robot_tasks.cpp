@@ -161,11 +161,13 @@ void RobotTasks::note_changes() {
 void RobotTasks::tell(Telling& telling, FaultSet faults, Time now) {
   telling.set_decision(noted_);
   telling.set_shed(mapping_.shed());
+  telling.set_scans(receive_.figures().scans);
   if (team_ && team_->team().view().refresh()) telling.set_peers(team_->team().view().value());
   faults = faults | schedule_faults_.look();
   faults.set(Fault::kTaskHung, !telling.tick(now));
   faults.set(Fault::kBestEffort, best_effort_);
   faults.set(Fault::kCrashLoop, before_.crash_loop);
+  faults.set(Fault::kStateLost, before_.state_lost);
   faults.set(Fault::kOverload, mapping_.shed() != Shed::kNothing);
   faults.set(Fault::kMemoryShort, mapping_.memory_short());
   safety_.report(faults);

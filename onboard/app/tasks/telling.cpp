@@ -40,8 +40,9 @@ LiveView::Stage stage_of(const scheduler::Line& line) {
                         to_milliseconds(h.percentile(0.999)),
                         to_milliseconds(h.max()),
                         to_milliseconds(line.spec.deadline()),
+                        line.spec.soft_ms,
                         s.ticks,
-                        s.soft_overruns + s.hard_overruns,
+                        s.soft_overruns,
                         s.slips,
                         s.misses};
   for (const scheduler::ChannelBase* channel : line.from) {
@@ -83,6 +84,7 @@ LiveView Telling::view(Time now) const {
   if (decision_.cause) v.cause = to_string(*decision_.cause);
   v.shed = to_string(shed_);
   v.epoch = decision_.epoch;
+  v.scans = scans_;
   v.rss_mb = peak_rss_mb();
   for (const FaultRow& row : fault_table())
     if (decision_.active.has(row.fault)) v.faults.emplace_back(row.code);

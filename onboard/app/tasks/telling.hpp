@@ -33,7 +33,8 @@ class Telling {
 
   /// What there was to hear last: on the thread of tick().
   void set_decision(const FailsafeDecision& decision) { decision_ = decision; }
-  void set_shed(Shed level) { shed_ = level; }
+  void set_shed(Shed level) { shed_ = in_force(level); }
+  void set_scans(std::uint64_t scans) { scans_ = scans; }
   void set_peers(const std::vector<LiveView::Peer>& peers) { peers_ = peers; }
   /// A chore. False while a task hangs: Fault::kTaskHung.
   bool tick(Time now);
@@ -46,6 +47,7 @@ class Telling {
   std::string robot_;
   FailsafeDecision decision_;
   Shed shed_ = Shed::kNothing;
+  std::uint64_t scans_ = 0;
   std::vector<LiveView::Peer> peers_;
   std::optional<LiveServer> server_;
   std::optional<Watchdog> watchdog_;

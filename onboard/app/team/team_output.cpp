@@ -49,8 +49,10 @@ PeerStats stats_of(const TeamTask& task, peers::RobotId robot) {
     stats.age_p99_s = to_seconds(lag->second.percentile(0.99));
   const PeerStanding standing = team.standing(robot, task.last_step());
   stats.tiles = tiles_of(team, robot);
-  stats.accepted = standing.merged;
+  stats.accepted = standing.merged();
+  stats.state = to_string(standing.state);
   stats.reason = standing.reason;
+  stats.deployment_contradicted = standing.deployment_contradicted;
   stats.T_map_peer = pose_of(team, robot);
   return stats;
 }

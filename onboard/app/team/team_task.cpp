@@ -17,7 +17,7 @@ namespace {
 constexpr Duration kStep = std::chrono::milliseconds(100), kTell = std::chrono::seconds(1);
 // A tile takes some tens of microseconds, memory for more nodes a few more: 2 ms, less what the last step takes too
 // long.
-constexpr Duration kSlice = std::chrono::microseconds(1500);
+constexpr Duration kFusionSlice = std::chrono::microseconds(1500);
 constexpr int kSliceTiles = 100;
 
 }  // namespace
@@ -113,7 +113,7 @@ void TeamTask::fuse(Tick& tick) {
   }
   if (team_->map().up_to_date()) return;
   const StageTimer timing(fusion_);
-  Budget budget = tick.budget(kFuseSlot, tick.figure_now() + kSlice, kSliceTiles);
+  Budget budget = tick.budget(kFuseSlot, tick.figure_now() + kFusionSlice, kSliceTiles);
   (void)team_->fuse(budget);
   tick.settle(kFuseSlot, budget);
 }
@@ -146,12 +146,18 @@ void TeamTask::tell(Time now) {
     const bool known = layer != team_->exchange().layers().end();
     const std::string name = link.name.empty() ? "robot " + std::to_string(robot) : link.name;
     const auto clock = link.clock.estimate();
-    peers.push_back({name, standing.merged, standing.reason,
-                     link.last_heard != Time::min() ? to_seconds(now - link.last_heard) : -1,
-                     known ? layer->second.holding.items().size() : 0, link.sent_bytes, link.received_bytes,
-                     clock ? to_seconds(clock->offset) : 0});
+    peers.push_back({.name = name,
+                     .merged = standing.merged(),
+                     .state = std::string(to_string(standing.state)),
+                     .reason = standing.reason,
+                     .heard_s_ago = link.last_heard != Time::min() ? to_seconds(now - link.last_heard) : -1,
+                     .tiles = known ? layer->second.holding.items().size() : 0,
+                     .tx_bytes = link.sent_bytes,
+                     .rx_bytes = link.received_bytes,
+                     .clock_offset_s = clock ? to_seconds(clock->offset) : 0,
+                     .deployment_contradicted = standing.deployment_contradicted});
     bool& merged = merged_[robot];
-    if (standing.merged != std::exchange(merged, standing.merged))
+    if (standing.merged() != std::exchange(merged, standing.merged()))
       monitor_.event(now, "team", (merged ? "merged with " : "not merged any more with ") + name);
   }
   view_.publish();

@@ -19,8 +19,8 @@
 
 namespace cairn {
 
-/// Where the robot believed to be. The covariance is that of the right perturbation of T_odom_base (hal/se3.hpp),
-/// accumulated since the first pose; zero where nothing is claimed.
+/// An estimated pose. The covariance is that of the right perturbation of T_odom_base (hal/se3.hpp),
+/// accumulated since the first pose; zero if the estimate claims none.
 struct PoseEstimate {
   Time stamp{};
   UncertainPose T_odom_base;
@@ -49,7 +49,9 @@ struct PeerStats {
   double age_p99_s = 0;
   UncertainPose T_map_peer;
   bool accepted = false;
-  std::string reason;
+  std::string state;                     ///< why it is accepted or not, as a word that scripts may rely on: "no_link"
+  std::string reason;                    ///< the same for people, with figures
+  bool deployment_contradicted = false;  ///< the deployments of the two do not fit to their maps
 };
 
 /// The team's map, as this robot has it.
@@ -61,21 +63,24 @@ struct TeamStats {
   std::string sha256;                        ///< over team.cairn and team.tum: the same on every robot of the team
 };
 
-/// All that a run leaves in report.json and report.html. The run fills it in and hands it to write_report().
+/// The content of report.json and report.html. The run fills it in, and write_report() writes it.
 struct RunReport {
   std::string robot, profile;
   std::string source;   ///< the recording, or "live"
   std::string version;  ///< of the program
-  std::string started;  ///< UTC as text; metadata only
+  std::string started;  ///< UTC of the first packet as ISO 8601; metadata only. Empty: not known
 
   double distance_m = 0;  ///< length of the estimated trajectory
   double duration_s = 0;  ///< on the robot's time line
-  std::uint64_t scans = 0, lost_packets = 0;
+  std::uint64_t scans = 0;
+  std::uint64_t lost_packets = 0;  ///< of the LiDAR, by the gaps in its data
+  /// Live: what each device counted as lost or doubtful, by the device's id: "lidar", {"kernel_drops", 3}.
+  std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::uint64_t>>>> losses;
   TickStats ticks;  ///< of the control task
   std::vector<TaskFigures> tasks;
   std::string mode;                                         ///< at the end
   std::string mode_cause;                                   ///< the fault's code; empty: none
-  std::vector<std::pair<std::string, std::uint64_t>> shed;  ///< scans mapped at each level of shedding
+  std::vector<std::pair<std::string, std::uint64_t>> shed;  ///< scans at each level of shedding, `nothing` first
   OdometryStats odometry;
   double peak_rss_mb = 0;
   std::uint64_t control_thread_allocations = 0;

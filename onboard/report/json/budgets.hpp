@@ -18,7 +18,7 @@ struct BudgetLimit {
   int line = 0;  ///< in the file, from 1
 };
 
-/// What came of it.
+/// A limit and the value that the run measured.
 struct BudgetVerdict {
   BudgetLimit limit;
   double measured = 0;
@@ -30,11 +30,11 @@ struct BudgetVerdict {
 [[nodiscard]] Result<std::vector<BudgetLimit>> parse_budgets(std::string_view yaml, std::string_view file_name);
 [[nodiscard]] Result<std::vector<BudgetLimit>> load_budgets(const std::filesystem::path& file);
 
-/// Compares. Error kInvalidConfig: a field that the report has not got, or that is no number; all at once. A limit that
-/// cannot be checked would otherwise pass for ever.
+/// Compares limits with a report. Error kInvalidConfig: fields that are missing in the report or are no numbers, all at
+/// once. A limit that cannot be checked must not count as kept.
 [[nodiscard]] Result<std::vector<BudgetVerdict>> check_budgets(const std::vector<BudgetLimit>& limits,
                                                                const nlohmann::ordered_json& report);
-/// A table for reading: field, limit, measured, and which were not kept.
+/// A table for people: field, limit, measured value, kept or exceeded.
 [[nodiscard]] std::string to_table(const std::vector<BudgetVerdict>& verdicts);
 [[nodiscard]] bool all_kept(const std::vector<BudgetVerdict>& verdicts);
 

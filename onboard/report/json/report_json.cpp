@@ -78,6 +78,15 @@ Json shed_json(const RunReport& report) {
   return shed;
 }
 
+Json losses_json(const RunReport& report) {
+  Json losses = Json::object();
+  for (const auto& [device, counts] : report.losses) {
+    losses[device] = Json::object();
+    for (const auto& [name, count] : counts) losses[device][name] = count;
+  }
+  return losses;
+}
+
 Json tasks_json(const RunReport& report) {
   Json tasks = Json::object();
   for (const TaskFigures& task : report.tasks) tasks[task.spec.name] = task_json(task);
@@ -106,7 +115,9 @@ Json peers_json(const RunReport& report) {
                    {"T_map_peer", numbers(p.T_map_peer.mean.matrix())},
                    {"covariance", numbers(p.T_map_peer.covariance)},
                    {"accepted", p.accepted},
-                   {"reason", p.reason}};
+                   {"state", p.state},
+                   {"reason", p.reason},
+                   {"deployment_contradicted", p.deployment_contradicted}};
   return peers;
 }
 
@@ -217,11 +228,12 @@ Json to_json(const RunReport& report) {
           {"profile", report.profile},
           {"source", report.source},
           {"version", report.version},
-          {"started", report.started},
+          {"started", report.started.empty() ? Json(nullptr) : Json(report.started)},
           {"distance_m", report.distance_m},
           {"duration_s", report.duration_s},
           {"scans", report.scans},
           {"lost_packets", report.lost_packets},
+          {"losses", losses_json(report)},
           {"stages", stages_json(report.monitor)},
           {"ticks",
            {{"count", report.ticks.count},

@@ -12,7 +12,7 @@ namespace cairn {
 /// Objects with their members in the order they are written down, so that a report reads from general to particular.
 using Json = nlohmann::ordered_json;
 
-/// Field names are fixed (interface.md): scripts rely on them. What is not known is null.
+/// Field names are fixed, because scripts rely on them: docs/api.md lists them. A value that is not known is null.
 [[nodiscard]] Json to_json(const TrajectoryError& error);
 [[nodiscard]] Json to_json(const MapSummary& map);
 [[nodiscard]] Json to_json(const MapComparison& comparison);

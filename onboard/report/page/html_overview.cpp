@@ -83,6 +83,15 @@ void note_schedule(Notes& notes, const RunReport& report) {
   notes.count(shed, "warn", "scans were mapped while work was shed.");
 }
 
+void note_losses(Notes& notes, const RunReport& report) {
+  for (const auto& [device, counts] : report.losses) {
+    std::string text;
+    for (const auto& [name, n] : counts)
+      if (n > 0) text += (text.empty() ? "" : ", ") + escape(name) + " " + count(n);
+    if (!text.empty()) notes.add("warn", "Device <b>" + escape(device) + "</b> reports " + text + ".");
+  }
+}
+
 void note_covariance(Notes& notes, std::span<const PoseError> errors) {
   const auto inside = share_inside_3_sigma(errors);
   for (std::size_t i = 0; const char* axis : {"x", "y", "z", "roll", "pitch", "yaw"}) {
@@ -133,6 +142,7 @@ std::string notes(const RunReport& report, const Figures& figures) {
   notes.count(report.odometry.degenerate_scans, "warn",
               "scans left a direction of motion open (a corridor, an open field); the covariance says which.");
   notes.count(report.lost_packets, "warn", "LiDAR packets were lost.");
+  note_losses(notes, report);
   notes.count(report.control_thread_allocations, "warn", "allocations on the control thread after warm-up.");
   note_covariance(notes, figures.pose_errors);
   if (figures.error && figures.error->unmatched > 0)

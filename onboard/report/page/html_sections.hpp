@@ -17,10 +17,10 @@ struct Figures {
   std::vector<PoseError> pose_errors;
 };
 
-// Each gives one part of the page, or nothing where there is nothing to show.
+// Each returns one part of the page; empty if there is nothing to show.
 [[nodiscard]] std::string header(const RunReport& report);
 [[nodiscard]] std::string tiles(const RunReport& report, const Figures& figures);
-/// What an operator should look at first: overruns, losses, claims that do not hold.
+/// The section "Worth a look": overruns, losses, covariances that are too small.
 [[nodiscard]] std::string notes(const RunReport& report, const Figures& figures);
 [[nodiscard]] std::string map_section(const RunReport& report, const std::string& svg);
 [[nodiscard]] std::string accuracy_section(const RunReport& report, const Figures& figures);

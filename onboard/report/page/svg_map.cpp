@@ -50,7 +50,7 @@ Frame frame_of(const std::optional<MapPicture>& picture, const Path& trajectory,
   return frame;
 }
 
-Result<std::string> layer(const Frame& frame, const MapPicture& picture, const Image& image, const char* css) {
+Result<std::string> layer(const Frame& frame, const MapPicture& picture, const Raster& image, const char* css) {
   const auto png = encode_png(image);
   if (!png) return png.error();
   const double tall = picture.cell_m * picture.height;

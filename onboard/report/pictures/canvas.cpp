@@ -17,7 +17,7 @@ struct Box {
 };
 
 /// Pixels of the image within `margin` of the rectangle that a and b span.
-Box pixels_around(const Image& image, const Pixel& a, const Pixel& b, double margin) {
+Box pixels_around(const Raster& image, const Pixel& a, const Pixel& b, double margin) {
   const auto low = [&](double v, int size) {
     return static_cast<int>(std::clamp(std::floor(v - margin), 0.0, size * 1.0));
   };
@@ -35,7 +35,7 @@ double distance_to_segment(const Pixel& p, const Pixel& a, const Pixel& b) {
   return (p - a - share * ab).norm();
 }
 
-void draw_segment(Image& image, const Pixel& a, const Pixel& b, const Stroke& stroke, std::vector<float>& coverage) {
+void draw_segment(Raster& image, const Pixel& a, const Pixel& b, const Stroke& stroke, std::vector<float>& coverage) {
   const double radius = stroke.width / 2;
   const Box box = pixels_around(image, a, b, radius + 1);
   for (int y = box.y0; y <= box.y1; ++y)
@@ -77,13 +77,13 @@ const Glyph* glyph_of(char c) {
 
 }  // namespace
 
-void fill_rectangle(Image& image, int x, int y, int width, int height, Rgba colour) {
+void fill_rectangle(Raster& image, int x, int y, int width, int height, Rgba colour) {
   for (int v = std::max(0, y); v < std::min(image.height(), y + height); ++v)
     for (int u = std::max(0, x); u < std::min(image.width(), x + width); ++u)
       image.at(u, v) = blend(image.at(u, v), colour);
 }
 
-void draw_line(Image& image, std::span<const Pixel> points, const Stroke& stroke) {
+void draw_line(Raster& image, std::span<const Pixel> points, const Stroke& stroke) {
   // Coverage is collected first, so that a half-transparent line is not darker where its segments meet.
   std::vector<float> coverage(static_cast<std::size_t>(image.width()) * static_cast<std::size_t>(image.height()));
   for_each_dash(points, stroke.dash,
@@ -94,11 +94,11 @@ void draw_line(Image& image, std::span<const Pixel> points, const Stroke& stroke
       if (coverage[i] > 0) image.at(x, y) = blend(image.at(x, y), stroke.colour, static_cast<double>(coverage[i]));
 }
 
-void draw_disc(Image& image, const Pixel& centre, double radius, Rgba colour) {
+void draw_disc(Raster& image, const Pixel& centre, double radius, Rgba colour) {
   draw_line(image, std::array{centre, centre}, {colour, 2 * radius, 0});
 }
 
-void draw_text(Image& image, int x, int y, std::string_view text, int scale, Rgba colour) {
+void draw_text(Raster& image, int x, int y, std::string_view text, int scale, Rgba colour) {
   for (const char c : text) {
     if (const Glyph* glyph = glyph_of(c))
       for (int row = 0; row < kGlyphHeight; ++row)

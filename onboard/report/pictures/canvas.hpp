@@ -5,7 +5,7 @@
 #include <span>
 #include <string_view>
 
-#include "onboard/report/pictures/image.hpp"
+#include "onboard/report/pictures/raster.hpp"
 
 namespace cairn {
 
@@ -19,15 +19,15 @@ struct Stroke {
   double dash = 0.0;   ///< length of a dash and of the gap after it, pixels; 0: solid
 };
 
-void fill_rectangle(Image& image, int x, int y, int width, int height, Rgba colour);
+void fill_rectangle(Raster& image, int x, int y, int width, int height, Rgba colour);
 /// Smooth-edged.
-void draw_line(Image& image, std::span<const Pixel> points, const Stroke& stroke);
-void draw_disc(Image& image, const Pixel& centre, double radius, Rgba colour);
+void draw_line(Raster& image, std::span<const Pixel> points, const Stroke& stroke);
+void draw_disc(Raster& image, const Pixel& centre, double radius, Rgba colour);
 
 inline constexpr int kGlyphWidth = 6, kGlyphHeight = 7;  ///< pixels per character at scale 1, with the gap after it
 /// A 5×7 raster font with digits, lower-case letters and . - + : = / ( ) _; upper-case letters are drawn as lower-case
 /// ones, everything else as a blank. (x, y) is the upper left corner.
-void draw_text(Image& image, int x, int y, std::string_view text, int scale, Rgba colour);
+void draw_text(Raster& image, int x, int y, std::string_view text, int scale, Rgba colour);
 [[nodiscard]] int text_width(std::string_view text, int scale);
 
 }  // namespace cairn

@@ -52,9 +52,9 @@ Layout layout_of(const MapPicture& p, double pixels_per_m, int text) {
   return {44 * text, 14 * text, pixels(p.width), pixels(p.height), text, pixels_per_m, &p};
 }
 
-void put_map(Image& image, const Layout& layout) {
+void put_map(Raster& image, const Layout& layout) {
   const MapPicture& p = *layout.picture;
-  const Image occupied = paint_occupied(p);
+  const Raster occupied = paint_occupied(p);
   for (int y = 0; y < layout.map_height; ++y)
     for (int x = 0; x < layout.map_width; ++x) {
       const int column = std::min(p.width - 1, static_cast<int>((x + 0.5) / (layout.pixels_per_m * p.cell_m)));
@@ -66,7 +66,7 @@ void put_map(Image& image, const Layout& layout) {
 
 std::string metres(double value) { return fmt::format("{:g}", value == 0 ? 0.0 : value); }
 
-void draw_grid(Image& image, const Layout& layout) {
+void draw_grid(Raster& image, const Layout& layout) {
   const MapPicture& p = *layout.picture;
   const Rgba faint{kInk.r, kInk.g, kInk.b, 26};
   const double step = round_below(160 * layout.text / layout.pixels_per_m);
@@ -88,7 +88,7 @@ void draw_grid(Image& image, const Layout& layout) {
   draw_text(image, layout.scale_x - 4 * t - text_width("y m", t), 3 * t, top ? "y m" : "z m", t, kInk);
 }
 
-void draw_paths(Image& image, const Layout& layout, const std::vector<MapPath>& paths) {
+void draw_paths(Raster& image, const Layout& layout, const std::vector<MapPath>& paths) {
   const double width = 1.5 * layout.text;
   for (const MapPath& path : paths) {
     std::vector<Pixel> points;
@@ -106,7 +106,7 @@ void draw_paths(Image& image, const Layout& layout, const std::vector<MapPath>& 
 }
 
 /// Over all paths, and inside of the picture.
-void draw_names(Image& image, const Layout& layout, const std::vector<MapPath>& paths) {
+void draw_names(Raster& image, const Layout& layout, const std::vector<MapPath>& paths) {
   const int t = layout.text;
   for (const MapPath& path : paths) {
     if (path.name.empty() || path.points.empty()) continue;
@@ -119,7 +119,7 @@ void draw_names(Image& image, const Layout& layout, const std::vector<MapPath>& 
   }
 }
 
-void draw_scale_bar(Image& image, const Layout& layout) {
+void draw_scale_bar(Raster& image, const Layout& layout) {
   const int t = layout.text;
   const double length = round_below(std::max(1.0, layout.map_width / 4.0) / layout.pixels_per_m);
   const int pixels = std::max(1, static_cast<int>(std::lround(length * layout.pixels_per_m)));
@@ -130,7 +130,7 @@ void draw_scale_bar(Image& image, const Layout& layout) {
   draw_text(image, x + pixels + 5 * t, y - 2 * t, metres(length) + " m", t, kInk);
 }
 
-void draw_legend(Image& image, const Layout& layout) {
+void draw_legend(Raster& image, const Layout& layout) {
   const MapPicture& p = *layout.picture;
   const int t = layout.text, x = layout.scale_x + layout.map_width + 10 * t;
   const int height = std::clamp(layout.map_height - 24 * t, 30 * t, 160 * t), y = layout.scale_y + 14 * t;
@@ -161,8 +161,8 @@ Rgba height_colour(double share) {
   return mix(kStops[below], kStops[below + 1], at - static_cast<double>(below));
 }
 
-Image paint_occupied(const MapPicture& p) {
-  Image image(p.width, p.height, {0, 0, 0, 0});
+Raster paint_occupied(const MapPicture& p) {
+  Raster image(p.width, p.height, {0, 0, 0, 0});
   for (int row = 0; row < p.height; ++row)
     for (int column = 0; column < p.width; ++column) {
       const std::uint32_t filled = p.filled[p.index(column, row)];
@@ -175,8 +175,8 @@ Image paint_occupied(const MapPicture& p) {
   return image;
 }
 
-Image paint_free(const MapPicture& p) {
-  Image image(p.width, p.height, {255, 255, 255, 0});
+Raster paint_free(const MapPicture& p) {
+  Raster image(p.width, p.height, {255, 255, 255, 0});
   for (int row = 0; row < p.height; ++row)
     for (int column = 0; column < p.width; ++column)
       if (p.free[p.index(column, row)] != 0) image.at(column, p.height - 1 - row).a = 255;
@@ -187,7 +187,7 @@ double pixels_per_metre(const MapPicture& picture, const MapDrawing& drawing) {
   return drawing.pixels_per_m > 0 ? drawing.pixels_per_m : 1400 / longer_m(picture);
 }
 
-Result<Image> draw_map(const MapPicture& picture, const MapDrawing& drawing) {
+Result<Raster> draw_map(const MapPicture& picture, const MapDrawing& drawing) {
   const double pixels_per_m = pixels_per_metre(picture, drawing);
   const double pixels = std::max(1.0, picture.width * picture.cell_m * pixels_per_m) *
                         std::max(1.0, picture.height * picture.cell_m * pixels_per_m);
@@ -196,7 +196,8 @@ Result<Image> draw_map(const MapPicture& picture, const MapDrawing& drawing) {
   const int text = longer_m(picture) * pixels_per_m > 700 ? 2 : 1;
   const Layout layout = layout_of(picture, pixels_per_m, text);
   const int height = std::max(layout.map_height, 64 * text);
-  Image image(layout.scale_x + layout.map_width + 64 * text, layout.scale_y + height + 40 * text, {255, 255, 255, 255});
+  Raster image(layout.scale_x + layout.map_width + 64 * text, layout.scale_y + height + 40 * text,
+               {255, 255, 255, 255});
   put_map(image, layout);
   draw_grid(image, layout);
   draw_paths(image, layout, drawing.paths);

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "onboard/report/pictures/canvas.hpp"
-#include "onboard/report/pictures/image.hpp"
 #include "onboard/report/pictures/map_picture.hpp"
+#include "onboard/report/pictures/raster.hpp"
 
 namespace cairn {
 
@@ -16,9 +16,9 @@ namespace cairn {
 
 /// Occupied cells alone, one pixel a cell and row 0 on top; everything else is transparent. Colour is height,
 /// brightness follows the slope, and columns of one or two voxels (floors) are thinner than walls.
-[[nodiscard]] Image paint_occupied(const MapPicture& picture);
+[[nodiscard]] Raster paint_occupied(const MapPicture& picture);
 /// Free cells in white, everything else transparent.
-[[nodiscard]] Image paint_free(const MapPicture& picture);
+[[nodiscard]] Raster paint_free(const MapPicture& picture);
 
 /// A path over the map, already projected: (right, up) in metres.
 struct MapPath {
@@ -35,7 +35,7 @@ struct MapDrawing {
 [[nodiscard]] double pixels_per_metre(const MapPicture& picture, const MapDrawing& drawing);
 /// The finished picture: map, paths, grid, axes, scale bar and height legend.
 /// Error: it would have more than 100 million pixels.
-[[nodiscard]] Result<Image> draw_map(const MapPicture& picture, const MapDrawing& drawing);
+[[nodiscard]] Result<Raster> draw_map(const MapPicture& picture, const MapDrawing& drawing);
 
 /// 1, 2 or 5 times a power of ten, at most `limit` (> 0): lengths of scale bars and distances of grid lines.
 [[nodiscard]] double round_below(double limit);

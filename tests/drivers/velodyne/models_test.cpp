@@ -45,8 +45,8 @@ TEST(Models, RingsAreThoseOfTheManuals) {
                                    11, 29, 28, 13, 14, 31, 30, 16));
 }
 
-// All beams leave through one point: offset = f·tan(−elevation), with f of ecosystem.md §1.3. The Hi-Res manual's table
-// was evidently made by halving steps and is up to 0.42 mm off that.
+// All beams leave through one point: offset = f·tan(−elevation), with f as the manuals draw it. The Hi-Res manual's
+// table was evidently made by halving steps and is up to 0.42 mm off that.
 TEST(Models, VerticalOffsetsFollowTheFocalDistance) {
   const std::tuple<const char*, double, double> focal_mm[] = {
       {"VLP-16", 41.91, 0.06}, {"VLP-16-HiRes", 41.91, 0.42}, {"HDL-32E", 28.83, 0.09}, {"VLP-32C", 42.4, 1e-6}};

@@ -29,16 +29,16 @@ TEST_F(PeerStandingTest, GoesFromNeverHeardOfToNoPlaceFound) {
   EXPECT_EQ(standing().reason, "being compared");
   (void)compared_.at(2, KnownTeam::kEpoch, KnownTeam::kEpoch);
   EXPECT_EQ(standing().reason, "no place found where the maps overlap");
-  EXPECT_FALSE(standing().merged);
+  EXPECT_FALSE(standing().merged());
 }
 
 TEST_F(PeerStandingTest, AMergedPeerMayContradictItsDeployment) {
   team_.poses.T_team_odom = {{1, SE3()}, {2, KnownTeam::at(8, 0)}};
-  EXPECT_TRUE(standing().merged);
+  EXPECT_TRUE(standing().merged());
   EXPECT_EQ(standing().reason, "merged");
   team_.deploy(1, SE3(), 0.1, 0.01);
   team_.deploy(2, KnownTeam::at(3, 0), 0.1, 0.01);
-  EXPECT_TRUE(standing().merged);
+  EXPECT_TRUE(standing().merged());
   EXPECT_EQ(standing().reason, "merged; the deployments of the two contradict that by 5.0 m and 0.0 degrees");
 }
 

@@ -87,7 +87,8 @@ struct Mission {
   int merged_after = 0;  ///< comparisons; 0: never
   SE3 T_a_b;
   std::string a_says, b_says;
-  int wrongly_merged = 0;  ///< comparisons before which they were
+  bool a_contradicts = false;  ///< a's deployments, by the maps
+  int wrongly_merged = 0;      ///< comparisons before which they were
 
   Mission(const UncertainPose& T_site_a, const UncertainPose& T_site_b) {
     Team a = deployed(1, T_site_a, 0.1), b = deployed(2, T_site_b, 0.1);
@@ -109,6 +110,7 @@ struct Mission {
     EXPECT_EQ(comparisons, 5);
     EXPECT_EQ(merged(a), merged(b));
     a_says = a.standing(2, now).reason;
+    a_contradicts = a.standing(2, now).deployment_contradicted;
     b_says = b.standing(1, now).reason;
   }
 
@@ -133,6 +135,7 @@ TEST(TeamDeployment, ARightOneTakesNoMoreAgreements) {
   ASSERT_GT(unknown.merged_after, 0) << unknown.a_says;
   EXPECT_LE(known.merged_after, unknown.merged_after);
   EXPECT_EQ(known.a_says, "merged");
+  EXPECT_FALSE(known.a_contradicts);
 }
 
 TEST(TeamDeployment, AWrongOneIsContradictedByTheMaps) {
@@ -140,6 +143,7 @@ TEST(TeamDeployment, AWrongOneIsContradictedByTheMaps) {
   const Mission rough(known_to(kSomewhere, 0.3, 0.04), known_to(kSomewhere * wrong, 0.3, 0.04));
   EXPECT_EQ(rough.wrongly_merged, 0);
   EXPECT_THAT(rough.a_says, HasSubstr("deployments"));
+  EXPECT_TRUE(rough.a_contradicts);
   if (rough.merged_after > 0) {
     EXPECT_THAT(rough.a_says, HasSubstr("contradict that by 3.6 m"));
     EXPECT_THAT(rough.b_says, HasSubstr("contradict that by"));

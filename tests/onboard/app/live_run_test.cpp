@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <semaphore>
 
+#include "drivers/recording/formats/utc.hpp"
 #include "drivers/velodyne/transport/udp_sender.hpp"
 #include "drivers/velodyne/transport/udp_source.hpp"
 #include "hal/workers.hpp"
@@ -87,6 +88,10 @@ TEST(LiveRun, IsRepeatedToTheBitFromWhatItRecorded) {
   const RunReport& ran = (*result)->report;
   EXPECT_GT(ran.scans, 3U);
   EXPECT_EQ(ran.control_thread_allocations, 0U);
+  ASSERT_EQ(ran.losses.size(), 1U);
+  EXPECT_EQ(ran.losses[0].first, "lidar");
+  EXPECT_EQ(ran.losses[0].second.front().first, "kernel_drops");
+  EXPECT_TRUE(recording::parse_iso_utc(ran.started)) << ran.started;
 
   for (const int threads : {1, 2, 4}) {
     RunOptions again = live;
@@ -98,6 +103,7 @@ TEST(LiveRun, IsRepeatedToTheBitFromWhatItRecorded) {
     const auto repeated = run(again);
     ASSERT_TRUE(repeated) << to_string(repeated.error());
     EXPECT_EQ((*repeated)->report.output_sha256, ran.output_sha256) << threads << " threads";
+    EXPECT_EQ((*repeated)->report.started, ran.started);
     for (const Event& e : (*repeated)->monitor.events()) EXPECT_NE(e.stage, "schedule") << e.what;
   }
 }

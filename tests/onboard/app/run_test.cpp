@@ -15,8 +15,12 @@
 #include "drivers/recording/formats/scan_file.hpp"
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "drivers/recording/recording_writer.hpp"
+#include "onboard/app/profile/schedule_profile.hpp"
 #include "onboard/mapping/files/map_file.hpp"
+#include "onboard/report/json/budgets.hpp"
+#include "onboard/report/json/report_json.hpp"
 #include "tests/support/box_world.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/vlp16_drive.hpp"
 
@@ -114,8 +118,28 @@ TEST_F(RunTest, TheReportHoldsTheFieldsThatScriptsRelyOn) {
     EXPECT_TRUE(report.contains(field)) << field;
   EXPECT_EQ(report["scans"], kScans);
   EXPECT_EQ(report["stages"]["odometry"]["count"], kScans);
+  const ScheduleProfile schedule;
+  EXPECT_EQ(report["stages"]["odometry"]["budget_ms"], schedule.odometry.soft_ms);
+  EXPECT_EQ(report["stages"]["mapping"]["budget_ms"], schedule.mapping.soft_ms);
+  EXPECT_EQ(report["stages"]["packet_to_map"]["budget_ms"], schedule.mapping.deadline_ms);
+  EXPECT_TRUE(report["stages"]["decode"]["budget_ms"].is_null());
+  EXPECT_TRUE(report["started"].is_null()) << "this recording knows no time of day";
+  EXPECT_EQ(report["shed"], (nlohmann::json{{"nothing", kScans}, {"map_density", 0}, {"scan_decimation", 0}}));
+  EXPECT_TRUE(report["losses"].empty()) << "a replay has no devices";
   EXPECT_GT(report["map"]["occupied"], 100);
   for (const char* file : {"map.ot", "report.html", "config.yaml"}) EXPECT_TRUE(fs::exists(*folder_ / "fields" / file));
+}
+
+TEST_F(RunTest, EveryShippedBudgetIsAboutAFieldThatTheReportHas) {
+  const auto result = run(options("budgets"));
+  ASSERT_TRUE(result);
+  for (const char* file : {"husky.yaml", "uav.yaml"}) {
+    const auto limits = load_budgets(places::source() / "config" / "budgets" / file);
+    ASSERT_TRUE(limits) << to_string(limits.error());
+    const auto verdicts = check_budgets(*limits, to_json((*result)->report));
+    ASSERT_TRUE(verdicts) << to_string(verdicts.error());
+    EXPECT_EQ(verdicts->size(), limits->size());
+  }
 }
 
 TEST_F(RunTest, GivesTheSameBytesForAnyNumberOfThreadsAndEveryTime) {

@@ -150,8 +150,8 @@ inline std::unique_ptr<SampleRun> sample_run(int scans = 600, double resolution 
   r.map = summarise(*run->map);
   r.map_file_bytes = 48213;
   if (auto picture = look_at(*run->map, {})) r.picture = std::move(*picture);
-  r.peers[text("robot_2")] = {120000, 98000, 341, 0.42, {sample::pose_at(3), Matrix6::Identity()}, true, ""};
-  r.peers[text("robot_3")] = {1000, 0, 0, 12.5, {}, false, text("too little overlap")};
+  r.peers[text("robot_2")] = {120000, 98000, 341, 0.42, {sample::pose_at(3), Matrix6::Identity()}, true, "merged", ""};
+  r.peers[text("robot_3")] = {1000, 0, 0, 12.5, {}, false, text("no_place"), text("too little overlap")};
   r.effective_config = text("voxel_size_m: 0.5  # m, edge of a map voxel\nmax_range_m: 30\n");
   r.output_sha256 = "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08";
   return run;

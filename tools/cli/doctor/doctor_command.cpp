@@ -84,18 +84,20 @@ int diagnose(const DoctorArguments& options) {
 }  // namespace
 
 void add_doctor_command(Commands& commands) {
-  auto* sub = commands.app.add_subcommand("doctor", "what is wrong, in one line each, and the remedy");
+  auto* sub = commands.app.add_subcommand(
+      "doctor", "says what is wrong with machine, devices, recording or team, and the remedy");
   auto o = std::make_shared<DoctorArguments>();
-  sub->add_option("--config", o->config, "robot profile: opens each of its devices and listens to it");
-  sub->add_option("--recording", o->recording, "recording: looks for damage, losses and silence");
+  sub->add_option("--config", o->config, "robot profile: open each of its devices and listen to it");
+  sub->add_option("--recording", o->recording, "recording: look for damage, losses and silent sensors");
   sub->add_option(
       "--peer", o->peer,
-      "why this robot of the team (or all) has not merged: by the core that runs, or by --run or --recording");
-  sub->add_option("--run", o->run, "with --peer: the folder that a run left");
-  sub->add_option("--live-view", o->live_view, "with --peer: where the core serves its live view")
+      "name of a robot of the team, or all: say why it is not merged. Asks the running core, or reads --run or "
+      "--recording");
+  sub->add_option("--run", o->run, "with --peer: folder of a finished run");
+  sub->add_option("--live-view", o->live_view, "with --peer: socket of the running core, its --live-view")
       ->default_val("/run/cairn/live.sock");
   sub->add_option("--seconds", o->seconds, "how long to listen to each device")->check(CLI::Range(0.01, 3600.0));
-  sub->add_option("--root", o->root, "another root with proc, sys and dev, such as a robot's mounted disk");
+  sub->add_option("--root", o->root, "folder with proc, sys and dev to examine instead of /, such as a mounted disk");
   sub->add_flag("--json", o->json, "one JSON object on stdout");
   sub->callback([&commands, o] { commands.job = [o] { return diagnose(*o); }; });
 }

@@ -7,8 +7,8 @@
 
 namespace cairn::cli {
 
-/// What is plugged into this computer and what keeps it from real time. `root` is `/`, or a tree like it with proc, sys
-/// and dev.
+/// Devices that are plugged into this computer, and what keeps it from real time. `root` is `/`, or a folder like it
+/// with proc, sys and dev.
 [[nodiscard]] Findings examine_cameras(const std::filesystem::path& root);
 [[nodiscard]] Findings examine_can(const std::filesystem::path& root);
 [[nodiscard]] Findings examine_gpio(const std::filesystem::path& root);

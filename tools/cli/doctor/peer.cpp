@@ -4,10 +4,8 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
-#include <algorithm>
-#include <array>
+#include <cmath>
 #include <nlohmann/json.hpp>
-#include <utility>
 
 #include "hal/files/file.hpp"
 #include "onboard/app/run.hpp"
@@ -22,42 +20,18 @@ using Peers = std::vector<LiveView::Peer>;
 using Level = Finding::Level;
 
 constexpr double kClockNoteS = 1;
-constexpr const char* kContradicted = "deployments";
-
-/// What to do about a reason, by what it has in it.
-std::string remedy_for(const std::string& reason) {
-  constexpr std::array<std::pair<const char*, const char*>, 15> kRemedies{{
-      {kContradicted, "correct team.deployment in the profile that is wrong, or leave it out"},
-      {"never heard",
-       "start cairn-peers on both robots; its --peer addresses and --domain must fit, its --socket be the "
-       "profile's team.socket"},
-      {"no link", "look at the radio, and whether the peer's cairn-peers still runs"},
-      {"another version", "bring both robots to one version of Cairn"},
-      {"could be read", "bring both robots to one version of Cairn"},
-      {"has voxels", "give both profiles the same mapping.resolution_m"},
-      {"banned", "it is listened to again after a while; if that goes on, update or stop it"},
-      {"said nothing", "it has not mapped anything yet, or the link carries hellos only"},
-      {"too little mapped", "drive on"},
-      {"being compared", "wait"},
-      {"compares the two", "ask it: cairn doctor --peer there"},
-      {"no place found", "drive where the other has been"},
-      {"another pose", "ambiguous: drive on, to something that exists only once"},
-      {"agreed on new ground", "nearly there: drive on where both have been"},
-      {"at odds", "one of the robots' findings is wrong; they sort it out as their maps grow"},
-  }};
-  for (const auto& [part, remedy] : kRemedies)
-    if (reason.find(part) != std::string::npos) return remedy;
-  return "drive on: more of both maps decides it";
-}
+constexpr const char* kContradicted = "correct team.deployment in the profile that is wrong, or leave it out";
 
 Finding judge(const LiveView::Peer& peer) {
   const std::string heard = peer.heard_s_ago >= 0 ? fmt::format(", heard {:.1f} s ago", peer.heard_s_ago) : "";
   const std::string figures = fmt::format(" ({} tiles{})", peer.tiles, heard);
-  if (peer.merged && peer.reason.find(kContradicted) != std::string::npos)
+  if (peer.merged && peer.deployment_contradicted)
     return {Level::kNote, peer.name + ": " + peer.reason + figures,
             "measure again where both were put down, and correct team.deployment in the profile that is wrong"};
   if (peer.merged) return {Level::kOk, peer.name + ": merged" + figures, {}};
-  return {Level::kProblem, peer.name + " is not merged: " + peer.reason + figures, remedy_for(peer.reason)};
+  const auto state = peer_state_from(peer.state).value_or(PeerState::kUndecided);
+  return {Level::kProblem, peer.name + " is not merged: " + peer.reason + figures,
+          peer.deployment_contradicted ? kContradicted : remedy_for(state)};
 }
 
 Findings problem(const Error& error) { return {{Level::kProblem, to_string(error), {}}}; }
@@ -72,8 +46,14 @@ Result<Peers> peers_of_report(const fs::path& run) {
   Peers peers;
   for (const auto& [name, p] : json["peers"].items())
     if (p.is_object())
-      peers.push_back({name, p.value("accepted", false), p.value("reason", ""), -1, p.value("tiles", std::uint64_t{0}),
-                       p.value("tx_bytes", std::uint64_t{0}), p.value("rx_bytes", std::uint64_t{0}), 0});
+      peers.push_back({.name = name,
+                       .merged = p.value("accepted", false),
+                       .state = p.value("state", ""),
+                       .reason = p.value("reason", ""),
+                       .tiles = p.value("tiles", std::uint64_t{0}),
+                       .tx_bytes = p.value("tx_bytes", std::uint64_t{0}),
+                       .rx_bytes = p.value("rx_bytes", std::uint64_t{0}),
+                       .deployment_contradicted = p.value("deployment_contradicted", false)});
   return peers;
 }
 
@@ -104,6 +84,46 @@ Result<Peers> peers_of_recording(const fs::path& recording) {
 
 }  // namespace
 
+const char* remedy_for(PeerState state) {
+  switch (state) {
+    case PeerState::kMerged:
+      return "";
+    case PeerState::kNeverHeard:
+      return "start cairn-peers on both robots; its --peer addresses and --domain must fit, its --socket be the "
+             "profile's team.socket";
+    case PeerState::kBanned:
+      return "it is listened to again after a while; if that goes on, update or stop it";
+    case PeerState::kOtherVersion:
+    case PeerState::kUnreadable:
+      return "bring both robots to one version of Cairn";
+    case PeerState::kOtherResolution:
+      return "give both profiles the same mapping.resolution_m";
+    case PeerState::kNoLink:
+      return "look at the radio, and whether the peer's cairn-peers still runs";
+    case PeerState::kNoMap:
+      return "it has not mapped anything yet, or the link carries hellos only";
+    case PeerState::kTooLittleMapped:
+      return "drive on";
+    case PeerState::kPeerCompares:
+      return "ask it: cairn doctor --peer there";
+    case PeerState::kBeingCompared:
+      return "wait";
+    case PeerState::kNoPlace:
+      return "drive where the other has been";
+    case PeerState::kAtOdds:
+      return "one of the robots' findings is wrong; they sort it out as their maps grow";
+    case PeerState::kAmbiguous:
+      return "ambiguous: drive on, to something that exists only once";
+    case PeerState::kAgreeing:
+      return "nearly there: drive on where both have been";
+    case PeerState::kContradicted:
+      return "drive where the other has been: the maps contradict the place that was found";
+    case PeerState::kUndecided:
+      break;
+  }
+  return "drive on: more of both maps decides it";
+}
+
 Findings judge_peers(const Peers& peers, const std::string& name) {
   Findings findings;
   for (const LiveView::Peer& peer : peers) {
@@ -116,7 +136,7 @@ Findings judge_peers(const Peers& peers, const std::string& name) {
   }
   if (!findings.empty()) return findings;
   const std::string who = name == "all" ? "any peer" : name;
-  return {{Level::kProblem, who + ": never heard of", remedy_for("never heard")}};
+  return {{Level::kProblem, who + ": never heard of", remedy_for(PeerState::kNeverHeard)}};
 }
 
 Findings examine_peer(const PeerQuestion& question) {

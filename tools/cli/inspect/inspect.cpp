@@ -6,10 +6,12 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "drivers/camera/npy.hpp"
 #include "drivers/recording/formats/pcd_file.hpp"
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "drivers/recording/formats/utc.hpp"
 #include "drivers/recording/recording_reader.hpp"
+#include "drivers/thermal/models.hpp"
 #include "drivers/velodyne/models.hpp"
 #include "drivers/velodyne/packet.hpp"
 #include "drivers/velodyne/transport/pcap_source.hpp"
@@ -194,6 +196,32 @@ Result<Json> inspect_native_file(const InspectOptions& options, NativeFile file)
   return inspect_stream(options, file.recording, **source, {{"kind", entry.kind}, {"path", options.path.string()}});
 }
 
+/// By the size of its pictures, with or without telemetry rows.
+std::string thermal_model(const camera::NpyHeader& header) {
+  for (const thermal::Model& m : thermal::models())
+    if (m.width == header.width && (m.height == header.height || m.height + m.rows == header.height))
+      return std::string(m.name);
+  return "plain";
+}
+
+/// The file knows neither times nor the sensor. Two bytes a pixel are temperatures, or depth where a name says so.
+Result<Json> inspect_array(const InspectOptions& options) {
+  camera::NpySource::Options as;
+  const bool depth = says_depth(options.path);
+  if (depth) as.deep = camera::FrameFormat::kZ16;
+  auto source = camera::NpySource::open(options.path, as);
+  if (!source) return source.error();
+  const camera::NpyHeader& header = (*source)->header();
+  const bool grey = header.pixel_bytes == 1;
+  const std::string kind(grey ? recording::kCamera : depth ? recording::kDepth : recording::kThermal);
+  SourceEntry entry{"source", kind, options.path.filename().string(), "", options.model};
+  if (entry.model.empty() && kind == recording::kThermal) entry.model = thermal_model(header);
+  Recording recording;
+  recording.sources.push_back(std::move(entry));
+  return inspect_stream(options, recording, **source,
+                        {{"kind", kind}, {"path", options.path.string()}, {"assumed_rate_hz", as.rate_hz}});
+}
+
 /// "points_per_scan": 3 → "points per scan: 3", nested values indented below.
 void write_plain(std::string& out, const Json& value, const std::string& indent) {
   const auto scalar = [](const Json& v) {
@@ -224,14 +252,16 @@ Result<Json> inspect(const InspectOptions& options) {
   if (auto file = recognise_native_file(options.path)) return inspect_native_file(options, std::move(*file));
   const std::string extension = options.path.extension().string();
   if (extension == ".pcd") return inspect_cloud(options);
+  if (extension == ".npy") return inspect_array(options);
   if (extension == ".cairn" || extension == ".ot" || extension == ".bt") return inspect_map(options);
   if (extension != ".tum" && extension != ".txt")
-    return Error{Errc::kUnsupported,
-                 "what this file holds is not known",
-                 options.path.string(),
-                 {},
-                 "known: folders of recordings, pcap, pcapng, candump, gpio.csv, lists of pictures, .pcd, .cairn, .ot, "
-                 ".bt, .tum"};
+    return Error{
+        Errc::kUnsupported,
+        "what this file holds is not known",
+        options.path.string(),
+        {},
+        "known: folders of recordings, pcap, pcapng, candump, gpio.csv, lists of pictures, .npy, .pcd, .cairn, "
+        ".ot, .bt, .tum"};
   Json json{{"kind", "trajectory"}, {"path", options.path.string()}};
   json.update(describe_trajectory(options.path));
   return json;

@@ -18,9 +18,9 @@ struct InspectOptions {
   std::optional<std::uint64_t> scan;  ///< which one, counted from 0; none: the first complete one
 };
 
-/// What is in a folder of a recording, one of its files (candump, gpio.csv, a list of pictures), a capture (pcap,
-/// pcapng), a map (.cairn, .ot, .bt), a trajectory (.tum, .txt) or a point cloud (.pcd). Damage that leaves something
-/// to tell is told in `damage`, not as an Error.
+/// What is in the folder of a recording, one of its files (candump, gpio.csv, a list of pictures), a capture (pcap,
+/// pcapng), an array of pictures (.npy), a map (.cairn, .ot, .bt), a trajectory (.tum, .txt) or a point cloud (.pcd).
+/// Damage that leaves something to tell is told in `damage`, not as an Error.
 [[nodiscard]] Result<Json> inspect(const InspectOptions& options);
 
 /// The same as indented text for people.

@@ -27,12 +27,13 @@ int run(const InspectArguments& options) {
 }  // namespace
 
 void add_inspect_command(Commands& commands) {
-  auto* sub = commands.app.add_subcommand("inspect", "what is in a capture, recording, map, trajectory or point cloud");
+  auto* sub = commands.app.add_subcommand(
+      "inspect", "says what a recording, capture, map, trajectory, point cloud or array holds");
   auto o = std::make_shared<InspectArguments>();
   sub->add_option("path", o->inspect.path, "file or folder")->required();
-  sub->add_option("--model", o->inspect.model, "sensor model, instead of what the packets or the recording say");
-  sub->add_option("--out", o->inspect.out, "write one scan as PCD: x y z intensity ring time return_type");
-  sub->add_option("--scan", o->inspect.scan, "which scan, counted from 0; default: the first complete one");
+  sub->add_option("--model", o->inspect.model, "sensor model, instead of the one in the packets or the recording");
+  sub->add_option("--out", o->inspect.out, "file for one scan as PCD: x y z intensity ring time return_type");
+  sub->add_option("--scan", o->inspect.scan, "number of the scan, from 0; default: the first complete one");
   sub->add_flag("--json", o->json, "one JSON object on stdout");
   sub->callback([&commands, o] { commands.job = [o] { return run(*o); }; });
 }

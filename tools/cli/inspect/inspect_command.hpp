@@ -5,7 +5,7 @@
 
 namespace cairn::cli {
 
-/// `cairn inspect FILE|DIR`: what is in a capture, recording, map, trajectory or point cloud.
+/// `cairn inspect FILE|DIR`: says what a recording, capture, map, trajectory, point cloud or array holds.
 void add_inspect_command(Commands& commands);
 
 }  // namespace cairn::cli

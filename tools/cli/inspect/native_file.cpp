@@ -51,6 +51,13 @@ std::string_view kind_of_pictures(const fs::path& folder) {
 
 }  // namespace
 
+bool says_depth(const fs::path& pictures) {
+  std::error_code error;
+  const fs::path absolute = fs::absolute(pictures, error);
+  return absolute.filename().string().find("depth") != std::string::npos ||
+         kind_of_pictures(absolute.parent_path()) == recording::kDepth;
+}
+
 std::optional<NativeFile> recognise_native_file(const fs::path& path) {
   std::error_code error;
   const fs::path absolute = fs::absolute(path, error);

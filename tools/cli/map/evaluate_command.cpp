@@ -115,21 +115,22 @@ void add(Commands& commands, CLI::App* sub, const std::shared_ptr<Options>& opti
 }
 
 void add_trajectory(Commands& commands, CLI::App& evaluate, const std::shared_ptr<Options>& options) {
-  CLI::App* sub = evaluate.add_subcommand("trajectory", "position and heading errors of a trajectory");
+  CLI::App* sub = evaluate.add_subcommand("trajectory", "compares a trajectory with the true one");
   sub->add_option("estimate", options->estimate, "TUM file, or the folder of a run")->required();
   sub->add_option("--ground-truth", options->truth, "TUM file, or the folder of a recording")->required();
-  sub->add_option("--align", options->align,
-                  "before absolute errors are taken: first (first poses), se3 (least squares, evo's -a), none")
+  sub->add_option(
+         "--align", options->align,
+         "how the two are aligned for absolute errors: first (first poses), se3 (least squares, as evo -a), none")
       ->check(CLI::IsMember({"first", "se3", "none"}))
       ->capture_default_str();
-  sub->add_option("--max-gap", options->max_gap_s, "the ground truth is interpolated over gaps of at most this, s")
+  sub->add_option("--max-gap", options->max_gap_s, "longest gap that the ground truth is interpolated over, s")
       ->check(CLI::Range(0.0, 1e6))
       ->capture_default_str();
   add(commands, sub, options, evaluate_trajectory);
 }
 
 void add_map(Commands& commands, CLI::App& evaluate, const std::shared_ptr<Options>& options) {
-  CLI::App* sub = evaluate.add_subcommand("map", "how well the occupied voxels of a map lie on the true ones");
+  CLI::App* sub = evaluate.add_subcommand("map", "compares the occupied voxels of a map with the true ones");
   sub->add_option("estimate", options->estimate, "map, or the folder of a run")->required();
   sub->add_option("--ground-truth", options->truth, "true map, or the folder of a recording")->required();
   CLI::Option* pose =
@@ -137,12 +138,13 @@ void add_map(Commands& commands, CLI::App& evaluate, const std::shared_ptr<Optio
           ->delimiter(',')
           ->expected(6);
   CLI::Option* from = sub->add_option("--trajectory", options->trajectory,
-                                      "the run's trajectory: its first pose and the true one give the pose")
+                                      "the run's trajectory; its first pose and the true one give the pose")
                           ->excludes(pose);
   CLI::Option* to = sub->add_option("--ground-truth-trajectory", options->true_trajectory, "the true trajectory");
   from->needs(to);
   to->needs(from);
-  sub->add_option("--tolerance", options->tolerance_m, "how far a voxel may be off, m; default: a voxel's diagonal")
+  sub->add_option("--tolerance", options->tolerance_m,
+                  "distance up to which a voxel counts as correct, m; default: a voxel's diagonal")
       ->check(CLI::PositiveNumber);
   add(commands, sub, options, evaluate_map);
 }

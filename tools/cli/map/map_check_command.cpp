@@ -115,9 +115,10 @@ int run(const Options& options) {
 
 void add_map_check_command(Commands& commands, CLI::App& map) {
   CLI::App* sub =
-      map.add_subcommand("check", "submaps of one robot, in one frame: which of them contradict each other");
+      map.add_subcommand("check", "says which submaps of one robot contradict each other; all in one frame");
   const auto options = std::make_shared<Options>();
-  sub->add_option("files", options->files, "two or more maps (.cairn, .ot or .bt), in the order they were made")
+  sub->add_option("files", options->files,
+                  "two or more maps (.cairn, .ot or .bt), in the order in which they were made")
       ->required()
       ->expected(2, -1);
   sub->add_flag("--json", options->json, "one JSON object on stdout");

@@ -108,7 +108,7 @@ int compare_maps(const Options& options) {
     add("mean_entropy_occupancy_b", summary_b.mean_entropy_occupancy);
     add("mean_entropy_book", summary_a.mean_entropy_book);
     add("mean_entropy_book_b", summary_b.mean_entropy_book);
-    // Maps carry no label evidence yet.
+    // The fields are there for scripts; they are null until maps carry labels.
     for (const char* name : {"label_agreement", "miou", "mean_entropy_label"}) json[name] = nullptr;
     return print(json);
   }
@@ -197,28 +197,27 @@ CLI::App* add(Commands& commands, CLI::App& map, const std::string& name, const 
 }  // namespace
 
 void add_map_command(Commands& commands) {
-  CLI::App& map = *commands.app.add_subcommand(
-      "map", "what is in a map, how two differ, whether the parts of one agree, a picture, other formats");
+  CLI::App& map = *commands.app.add_subcommand("map", "describes, compares, checks, draws and converts maps");
   map.require_subcommand(1);
   const auto options = std::make_shared<Options>();
   add(commands, map, "info", "counts, size, volume, entropy and sensor model", options, info);
-  CLI::App* two =
-      add(commands, map, "compare", "two maps of one frame and resolution, voxel by voxel", options, compare_maps);
+  CLI::App* two = add(commands, map, "compare", "compares two maps of the same frame and resolution, voxel by voxel",
+                      options, compare_maps);
   two->add_option("other", options->other, "the second map")->required();
   add_map_check_command(commands, map);
-  CLI::App* picture = add(commands, map, "render", "a PNG of the map", options, render);
+  CLI::App* picture = add(commands, map, "render", "draws the map as PNG", options, render);
   picture->add_option("--out", options->out, "file to write")->required();
   picture->add_option("--view", options->view, "top, side or front")->capture_default_str();
-  picture->add_option("--height-min", options->height_min_m, "leave out what is lower, m");
-  picture->add_option("--height-max", options->height_max_m,
-                      "leave out what is higher, m; without it, a view from above is cut open below a ceiling");
+  picture->add_option("--height-min", options->height_min_m, "voxels below this height are left out, m");
+  picture->add_option(
+      "--height-max", options->height_max_m,
+      "voxels above this height are left out, m; default: a view from above is cut open below the ceiling");
   picture->add_option("--trajectory", options->trajectory, "path to draw over the map (TUM)");
   picture->add_option("--ground-truth", options->ground_truth,
-                      "path to draw dashed (TUM); moved into the trajectory's frame where one is given");
-  picture
-      ->add_option("--scale", options->pixels_per_m, "pixels per metre; chosen from the size of the map if not given")
+                      "path to draw dashed (TUM); with --trajectory it is moved into that frame");
+  picture->add_option("--scale", options->pixels_per_m, "pixels per metre; default: from the size of the map")
       ->check(CLI::PositiveNumber);
-  CLI::App* other = add(commands, map, "export", "the map in another format", options, export_map);
+  CLI::App* other = add(commands, map, "export", "writes the map in another format", options, export_map);
   other->add_option("--out", options->out, "file to write: .cairn, .ot, .bt, .ply or .pcd")->required();
 }
 

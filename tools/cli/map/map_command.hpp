@@ -5,8 +5,8 @@
 
 namespace cairn::cli {
 
-/// `cairn map info|compare|check|render|export FILE…`: what is in a map, how two differ, whether the parts of one
-/// agree, a picture, another format.
+/// `cairn map info|compare|check|render|export FILE…`: describes, compares, checks, draws and converts
+/// maps.
 void add_map_command(Commands& commands);
 
 }  // namespace cairn::cli

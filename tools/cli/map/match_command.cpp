@@ -113,28 +113,28 @@ int run(const Options& options) {
 }  // namespace
 
 void add_match_command(Commands& commands) {
-  CLI::App* sub = commands.app.add_subcommand("match", "relative pose of two maps");
+  CLI::App* sub = commands.app.add_subcommand("match", "finds the relative pose of two maps");
   const auto options = std::make_shared<Options>();
-  sub->add_option("a", options->a, "map (.cairn, .ot or .bt) whose frame the pose is given in")->required();
-  sub->add_option("b", options->b, "map whose pose is sought")->required();
-  sub->add_option("--method", options->method, "how; global_6dof: neither map's z need be upwards")
+  sub->add_option("a", options->a, "first map (.cairn, .ot or .bt); the pose is in its frame")->required();
+  sub->add_option("b", options->b, "second map, whose pose is sought")->required();
+  sub->add_option("--method", options->method, "method; global_6dof allows maps whose z does not point up")
       ->check(CLI::IsMember(
           std::vector<std::string>(matching::all_method_names().begin(), matching::all_method_names().end())))
       ->capture_default_str();
   CLI::Option* initial = sub->add_option("--initial", options->initial,
-                                         "x,y,z,roll,pitch,yaw of b in a, m and rad; without it all headings and "
-                                         "distances are searched, z being upwards in both")
+                                         "guess: x,y,z,roll,pitch,yaw of b in a, m and rad; without it all headings "
+                                         "and distances are searched, with z upwards in both maps")
                              ->delimiter(',')
                              ->expected(6);
-  sub->add_option("--sigma", options->sigma_m, "standard deviation of the guess's x and y, m; 3σ is searched")
+  sub->add_option("--sigma", options->sigma_m, "standard deviation of the guess in x and y, m; 3 σ are searched")
       ->check(CLI::Range(0.01, 7.0))
       ->needs(initial)
       ->capture_default_str();
-  sub->add_option("--sigma-deg", options->sigma_deg, "standard deviation of its heading, degrees")
+  sub->add_option("--sigma-deg", options->sigma_deg, "standard deviation of the guess in heading, degrees")
       ->check(CLI::Range(0.1, 180.0))
       ->needs(initial)
       ->capture_default_str();
-  sub->add_option("--max-steps", options->max_steps, "steps after which the best so far is the result")
+  sub->add_option("--max-steps", options->max_steps, "number of steps after which the search ends with its best result")
       ->check(CLI::Range(1, matching::kAmpleSteps))
       ->capture_default_str();
   sub->add_flag("--json", options->json, "one JSON object on stdout");

@@ -62,7 +62,7 @@ int run(const Options& options) {
   const SE3 T_a_b = SE3::from_xyz_rpy(Eigen::Map<const Vector6>(options.pose.data()));
   const auto all = contributions(std::move(*a), std::move(*b), T_a_b);
   const Duration start = thread_cpu_time();
-  const auto fused = merging::merge(all, {*merging::policy_from(options.policy), {}});
+  const auto fused = merging::merge(all, {.policy = *merging::policy_from(options.policy)});
   const double seconds = to_seconds(thread_cpu_time() - start);
   if (!fused) return fail(fused.error());
   if (const auto saved = save_map(**fused, options.out); !saved) return fail(saved.error());
@@ -72,16 +72,16 @@ int run(const Options& options) {
 }  // namespace
 
 void add_merge_command(Commands& commands) {
-  CLI::App* sub = commands.app.add_subcommand("merge", "two maps as one");
+  CLI::App* sub = commands.app.add_subcommand("merge", "fuses two maps into one");
   const auto options = std::make_shared<Options>();
   const auto names = merging::policy_names();
-  sub->add_option("a", options->a, "map (.cairn, .ot or .bt) whose frame the result has")->required();
-  sub->add_option("b", options->b, "the other map")->required();
+  sub->add_option("a", options->a, "first map (.cairn, .ot or .bt); the result is in its frame")->required();
+  sub->add_option("b", options->b, "second map")->required();
   sub->add_option("--pose", options->pose, "x,y,z,roll,pitch,yaw of b in a, m and rad, as cairn match finds it")
       ->delimiter(',')
       ->expected(6)
       ->required();
-  sub->add_option("--policy", options->policy, "how voxels that both maps know become one")
+  sub->add_option("--policy", options->policy, "rule for voxels that both maps know")
       ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())))
       ->capture_default_str();
   sub->add_option("--out", options->out, "file to write: .cairn, .ot, .bt, .ply or .pcd")->required();

@@ -135,29 +135,31 @@ int list_faults(bool json) {
 
 void add_faults_command(Commands& commands) {
   auto* sub =
-      commands.app.add_subcommand("faults", "a recording as bad cables, radios and computers would have made it");
+      commands.app.add_subcommand("faults", "copies a recording with faults: lost, late, repeated or damaged packets");
   auto o = std::make_shared<FaultArguments>();
   const CLI::Range share(0.0, 1.0);
-  sub->add_option("recording", o->recording, "folder of the recording; or `list`: what counts as a fault, and its mode")
+  sub->add_option("recording", o->recording,
+                  "folder of the recording; or `list`, which prints the robot's faults and their modes")
       ->required();
   sub->add_option("--out", o->out, "folder of the new recording");
-  sub->add_option("--source", o->source, "only this source, such as lidar; default: all");
+  sub->add_option("--source", o->source, "source to damage, such as lidar; default: all");
   sub->add_option("--drop", o->faults.drop, "share of packets that are lost")->check(share);
   sub->add_option("--repeat", o->faults.repeat, "share that arrives twice")->check(share);
   sub->add_option("--swap", o->faults.swap, "share that arrives after the next packet")->check(share);
   sub->add_option("--cut", o->faults.cut, "share that arrives without its end")->check(share);
   sub->add_option("--flip", o->faults.flip, "share that arrives with one bit turned")->check(share);
   sub->add_option("--extend", o->faults.extend, "share that arrives with bytes added")->check(share);
-  sub->add_option("--delay", o->faults.delay, "share that arrives later by --delay-by")->check(share);
+  sub->add_option("--delay", o->faults.delay, "share that arrives later, by --delay-by")->check(share);
   sub->add_option("--delay-by", o->delay_s, "seconds")->check(CLI::Range(0.0, 10.0));
-  sub->add_option("--shift", o->shift_s, "seconds by which arrivals are stamped later, from --shift-after on")
+  sub->add_option("--shift", o->shift_s, "seconds added to all arrivals from --shift-after on")
       ->check(CLI::Range(-1e6, 1e6));
   sub->add_option("--shift-after", o->shift_after_s, "seconds")->check(CLI::Range(0.0, 1e6));
-  sub->add_option("--spell", o->spell, "what --freeze does to the source")->check(CLI::IsMember(kSpells));
-  sub->add_option("--freeze", o->freeze_s, "a spell (silence, if no other) of so many seconds ends every --period")
+  sub->add_option("--spell", o->spell, "what happens to the source during --freeze")->check(CLI::IsMember(kSpells));
+  sub->add_option("--freeze", o->freeze_s,
+                  "length of the spell at the end of each --period, s; without --spell the source is silent")
       ->check(CLI::Range(0.0, 1e6));
   sub->add_option("--period", o->period_s, "seconds")->check(CLI::Range(0.001, 1e6));
-  sub->add_option("--seed", o->faults.seed, "other faults for another number");
+  sub->add_option("--seed", o->faults.seed, "seed of the faults; the same seed gives the same faults");
   sub->add_flag("--overwrite", o->overwrite, "replace the recording in --out");
   sub->add_flag("--json", o->json, "one JSON object on stdout");
   sub->callback(

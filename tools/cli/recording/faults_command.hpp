@@ -5,7 +5,7 @@
 
 namespace cairn::cli {
 
-/// `cairn faults`: a recording with the faults of bad cables, radios and computers, as a new recording.
+/// `cairn faults`: copies a recording with faults: lost, late, repeated or damaged packets.
 void add_faults_command(Commands& commands);
 
 }  // namespace cairn::cli

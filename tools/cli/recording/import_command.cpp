@@ -70,7 +70,7 @@ int import_data(ImportArguments options) {
 }  // namespace
 
 void add_import_command(Commands& commands) {
-  auto* sub = commands.app.add_subcommand("import", "foreign data → recording");
+  auto* sub = commands.app.add_subcommand("import", "makes a recording of other data");
   auto o = std::make_shared<ImportArguments>();
   sub->add_option("kind", o->kind, "velodyne-pcap (a file), kitti-odometry, kitti-raw or pcd-folder (folders)")
       ->required()
@@ -78,12 +78,12 @@ void add_import_command(Commands& commands) {
   sub->add_option("source", o->import.source, "the file or folder to import")->required()->check(CLI::ExistingPath);
   sub->add_option("--out", o->import.out, "folder of the new recording")->required();
   sub->add_option("--robot", o->import.robot, "name of the robot")->capture_default_str();
-  sub->add_option("--model", o->import.model, "sensor model, where the data does not say");
-  sub->add_option("--rate", o->import.rate_hz, "sweeps per second, where the data does not say")
+  sub->add_option("--model", o->import.model, "sensor model, if the data does not say it");
+  sub->add_option("--rate", o->import.rate_hz, "sweeps per second, if the data does not say it")
       ->check(CLI::Range(0.1, 1000.0))
       ->capture_default_str();
   sub->add_option("--deskewed", o->import.deskewed,
-                  "whether the sweeps are motion-compensated, instead of what is usual");
+                  "true or false: the sweeps are motion-compensated; default: as usual for this kind of data");
   sub->add_option("--data-port", o->import.data_port, "velodyne-pcap: UDP port of the data packets")
       ->capture_default_str();
   sub->add_option("--position-port", o->import.position_port, "velodyne-pcap: UDP port of the position packets")

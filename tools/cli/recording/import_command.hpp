@@ -5,7 +5,7 @@
 
 namespace cairn::cli {
 
-/// `cairn import KIND SRC --out DIR`: foreign data → recording.
+/// `cairn import KIND SRC --out DIR`: makes a recording of other data.
 void add_import_command(Commands& commands);
 
 }  // namespace cairn::cli

@@ -164,9 +164,9 @@ int record(const RecordArguments& options) {
 void add_record_command(Commands& commands) {
   auto* sub = commands.app.add_subcommand("record", "records raw sensor bytes");
   auto o = std::make_shared<RecordArguments>();
-  sub->add_option("--config", o->config, "robot profile, such as config/husky.yaml; defaults without one");
+  sub->add_option("--config", o->config, "robot profile, such as config/husky.yaml; default values if not given");
   sub->add_option("--out", o->out, "folder of the new recording")->required();
-  sub->add_option("--seconds", o->seconds, "end after so much time; otherwise at SIGINT or SIGTERM")
+  sub->add_option("--seconds", o->seconds, "length of the recording, s; without it, until SIGINT or SIGTERM")
       ->check(CLI::PositiveNumber);
   sub->add_flag("--overwrite", o->overwrite, "replace the recording in --out");
   sub->add_flag("--json", o->json, "one JSON object on stdout");

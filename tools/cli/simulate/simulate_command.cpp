@@ -110,29 +110,31 @@ int run(Options options) {
 }  // namespace
 
 void add_simulate_command(Commands& commands) {
-  CLI::App* sub = commands.app.add_subcommand("simulate", "robots in a simulated world → recordings with ground truth");
+  CLI::App* sub = commands.app.add_subcommand(
+      "simulate", "drives robots through a simulated world; writes recordings with ground truth");
   const auto options = std::make_shared<Options>();
   simulator::SimulationConfig& s = options->simulation;
   sub->add_option("--scene", s.scene, "the world")->required()->check(CLI::IsMember(simulator::scene_names()));
-  sub->add_option("--out", s.out, "folder to make; gets one recording per robot: robot_1, robot_2, …")->required();
-  sub->add_option("--robots", s.robots, "how many robots")
+  sub->add_option("--out", s.out, "new folder: gets one recording per robot: robot_1, robot_2, …")->required();
+  sub->add_option("--robots", s.robots, "number of robots")
       ->check(CLI::Range(1, simulator::kMaxRobots))
       ->capture_default_str();
   sub->add_option("--seconds", s.seconds, "length of the recordings, s")
       ->check(CLI::Range(0.1, simulator::kMaxSeconds))
       ->capture_default_str();
-  sub->add_option("--seed", s.seed, "same seed, same bytes")->capture_default_str();
-  sub->add_option("--people", s.people, "how many people walk about, crossing the robots' ways")
+  sub->add_option("--seed", s.seed, "seed of paths and noise; the same seed gives the same bytes")
+      ->capture_default_str();
+  sub->add_option("--people", s.people, "number of people who walk about and cross the robots' paths")
       ->check(CLI::Range(0, simulator::kMaxPeople))
       ->capture_default_str();
   sub->add_flag("--night", s.night, "the sun is down and all lamps are off");
-  sub->add_option("--profile", s.profile, "husky drives; uav flies and carries the camera alone")
+  sub->add_option("--profile", s.profile, "husky drives; uav flies and carries a camera only")
       ->check(CLI::IsMember({"husky", "uav"}))
       ->capture_default_str();
-  sub->add_option("--sensors", options->sensors, "what is recorded, with commas; lidar when not given, of a uav camera")
+  sub->add_option("--sensors", options->sensors, "sensors to record, with commas; default: lidar, for a uav camera")
       ->delimiter(',')
       ->check(CLI::IsMember({"lidar", "camera", "thermal", "depth", "drive", "gpio", "all"}));
-  sub->add_option("--threads", s.threads, "changes nothing but the time it takes")
+  sub->add_option("--threads", s.threads, "threads to use; the result does not depend on it")
       ->check(CLI::Range(1U, 256U))
       ->capture_default_str();
   sub->add_option("--range-noise", s.lidar.range_noise_m, "standard deviation of LiDAR ranges, m")
@@ -141,7 +143,7 @@ void add_simulate_command(Commands& commands) {
   sub->add_option("--dropout", s.lidar.dropout, "share of LiDAR returns lost at random")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  sub->add_flag("--pps", s.lidar.pps, "the LiDAR's clock is locked to UTC; otherwise it runs freely");
+  sub->add_flag("--pps", s.lidar.pps, "lock the LiDAR's clock to UTC; otherwise it runs freely");
   sub->add_flag("--json", options->json, "one JSON object on stdout");
   sub->callback([&commands, options] { commands.job = [options] { return run(*options); }; });
 }

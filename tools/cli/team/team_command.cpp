@@ -68,24 +68,23 @@ int run(Options options) {
 
 void add_team_command(Commands& commands) {
   CLI::App* sub = commands.app.add_subcommand(
-      "team",
-      "several robots on this machine, each with its own processes, over an emulated radio; then their maps compared");
+      "team", "runs several robots on this machine, joined by an emulated radio, and compares their team maps");
   const auto options = std::make_shared<Options>();
   team::TeamOptions& team = options->team;
-  sub->add_option("--recordings", team.recordings, "a recording for each robot, or folders of recordings")->required();
-  sub->add_option("--out", team.out, "folder to make; gets one of each robot, team.json and team.png")->required();
-  sub->add_option("--link", options->link, "the radio: link.yaml, or radio (2 Mbit/s, 20 % loss), or clean")
+  sub->add_option("--recordings", team.recordings, "one recording per robot, or folders of recordings")->required();
+  sub->add_option("--out", team.out, "new folder: gets one folder per robot, team.json and team.png")->required();
+  sub->add_option("--link", options->link, "the radio: a link.yaml, radio (2 Mbit/s, 20 % loss) or clean")
       ->capture_default_str();
-  sub->add_option("--config", team.config, "profile of every robot; defaults without one");
-  sub->add_option("--resolution", team.resolution_m, "edge of the maps' voxels, m; default: the profile's")
+  sub->add_option("--config", team.config, "profile of every robot; default values if not given");
+  sub->add_option("--resolution", team.resolution_m, "edge of the maps' voxels, m; default: as the profile says")
       ->check(CLI::Range(0.01, 5.0));
-  sub->add_option("--settle", team.settle_s, "go on so long after the longest recording, s")
+  sub->add_option("--settle", team.settle_s, "time that robots go on after the longest recording, s")
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
   sub->add_option("--kill-peers", team.kills,
-                  "kill each peer process so many times, at moments that the link's seed gives")
+                  "how often each peer process is killed; the times follow from the link's seed")
       ->check(CLI::Range(0, 10'000));
-  sub->add_flag("--loopback", team.loopback, "no network namespaces, even where they are allowed");
+  sub->add_flag("--loopback", team.loopback, "use no network namespaces, even where they are allowed");
   sub->add_option("--core", team.core, "another program than this one as the robots' cores")->group("");
   sub->add_option("--peers", team.peers, "another program than the cairn-peers beside this one")->group("");
   sub->add_flag("--json", options->json, "one JSON object on stdout");

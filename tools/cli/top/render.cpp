@@ -53,16 +53,16 @@ std::string count(std::uint64_t n) {
   return "  many";
 }
 
-/// The 99th percentile as a share of the budget, ten characters wide.
-std::string bar(double p99, double budget) {
-  if (!(budget > 0) || !(p99 >= 0)) return std::string(12, ' ');
-  const double share = std::min(p99 / budget, 9.99);
+/// The 99th percentile as a share of the deadline, ten characters wide.
+std::string bar(double p99, double deadline) {
+  if (!(deadline > 0) || !(p99 >= 0)) return std::string(12, ' ');
+  const double share = std::min(p99 / deadline, 9.99);
   const auto filled = static_cast<std::size_t>(std::min(10.0, std::ceil(10 * share)));
   return "[" + std::string(filled, share > 1 ? '!' : '=') + std::string(10 - filled, ' ') + "]";
 }
 
 Paint paint_of(const LiveView::Stage& s) {
-  if (s.misses > 0 || (s.budget_ms > 0 && s.p99_ms > s.budget_ms)) return Paint::kBad;
+  if (s.misses > 0 || (s.deadline_ms > 0 && s.p99_ms > s.deadline_ms)) return Paint::kBad;
   return s.slips + s.dropped > 0 || s.overruns > 0 ? Paint::kWarn : Paint::kPlain;
 }
 
@@ -72,12 +72,12 @@ Paint paint_of(std::string_view mode) {
 }
 
 std::string row(const LiveView::Stage& s) {
-  const std::string budget = s.budget_ms > 0 ? ms(s.budget_ms) : "      -";
+  const std::string deadline = s.deadline_ms > 0 ? ms(s.deadline_ms) : "      -";
   const std::string queue = s.capacity > 0 ? fmt::format("{:>3}/{:<3}", std::min<std::uint64_t>(s.queued, 999),
                                                          std::min<std::uint64_t>(s.capacity, 999))
                                            : "   -   ";
-  return fmt::format("{:<12.12}{}{}{}{} {} {}{}{}{}{} {}", safe(s.name), ms(s.p50_ms), ms(s.p99_ms), ms(s.p999_ms),
-                     ms(s.max_ms), budget, bar(s.p99_ms, s.budget_ms), count(s.overruns), count(s.slips),
+  return fmt::format("{:<12.12}{}{}{}{}  {} {}{}{}{}{} {}", safe(s.name), ms(s.p50_ms), ms(s.p99_ms), ms(s.p999_ms),
+                     ms(s.max_ms), deadline, bar(s.p99_ms, s.deadline_ms), count(s.overruns), count(s.slips),
                      count(s.misses), count(s.dropped), queue);
 }
 
@@ -98,8 +98,8 @@ std::vector<std::string> render(const LiveView& v, const Screen& screen) {
   lines.add(mode + "   shed " + safe(v.shed) + fmt::format("   epoch {}", v.epoch), paint_of(v.mode));
   lines.add("faults: " + joined(v.faults), v.faults.empty() ? Paint::kPlain : Paint::kWarn);
   lines.add("");
-  lines.add(fmt::format("{:<12}{:>7}{:>7}{:>7}{:>7} {:>7} {:<12}{:>6}{:>6}{:>6}{:>6}  {}", "stage (ms)", "p50", "p99",
-                        "p99.9", "max", "budget", " p99/budget", "over", "slips", "miss", "drop", "queue"),
+  lines.add(fmt::format("{:<12}{:>7}{:>7}{:>7}{:>7} {:>8} {:<12}{:>6}{:>6}{:>6}{:>6}  {}", "task (ms)", "p50", "p99",
+                        "p99.9", "max", "deadline", "p99/deadline", "over", "slips", "miss", "drop", "queue"),
             Paint::kBold);
   for (const LiveView::Stage& s : v.stages) lines.add(row(s), paint_of(s));
   lines.add("");

@@ -51,8 +51,7 @@ int watch(const TopArguments& a) {
   for (;;) {
     const auto line = client->next(kPatience);
     if (!line) return fail(line.error());
-    if (!*line)
-      return fail({Errc::kLinkDown, "the core says nothing", a.socket.string(), {}, "its housekeeping hangs"});
+    if (!*line) return fail({Errc::kLinkDown, "the core says nothing", a.socket.string(), {}, "its watch task hangs"});
     const auto view = parse_line(**line);
     if (!view) return fail(view.error());
     show(*view, a);
@@ -64,11 +63,12 @@ int watch(const TopArguments& a) {
 }  // namespace
 
 void add_top_command(Commands& commands) {
-  auto* sub = commands.app.add_subcommand("top", "a running core, live: stages, budgets, mode, faults, events");
+  auto* sub =
+      commands.app.add_subcommand("top", "shows a running core: mode, faults, tasks with their deadlines, events");
   auto a = std::make_shared<TopArguments>();
-  sub->add_option("--socket", a->socket, "where the core serves its live view")->default_val("/run/cairn/live.sock");
-  sub->add_flag("--once", a->once, "one view, and done");
-  sub->add_flag("--json", a->json, "the lines as they come");
+  sub->add_option("--socket", a->socket, "socket of the core: its --live-view")->default_val("/run/cairn/live.sock");
+  sub->add_flag("--once", a->once, "show one view and end");
+  sub->add_flag("--json", a->json, "print the lines of JSON as they come");
   sub->callback([&commands, a] { commands.job = [a] { return watch(*a); }; });
 }
 

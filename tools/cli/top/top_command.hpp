@@ -5,7 +5,7 @@
 
 namespace cairn::cli {
 
-/// `cairn top`: a running core, seen from a terminal.
+/// `cairn top`: shows a running core in a terminal.
 void add_top_command(Commands& commands);
 
 }  // namespace cairn::cli

@@ -2,13 +2,15 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <optional>
 #include <vector>
 
 #include "drivers/drive/canopen/canopen.hpp"
 #include "drivers/drive/canopen/cia402.hpp"
 #include "hal/time.hpp"
+#include "tools/simulator/motor/object_dictionary.hpp"
+#include "tools/simulator/motor/power_states.hpp"
+#include "tools/simulator/motor/wheel_motor.hpp"
 #include "tools/simulator/world/random.hpp"
 
 namespace cairn::simulator {
@@ -23,9 +25,8 @@ struct DriveModelConfig {
   std::uint64_t seed = 1;
 };
 
-/// A CiA 402 motor controller with its motor and wheel, as seen from the bus: boot-up, NMT, SDO, PDO mapping, SYNC,
-/// heartbeats both ways, power state machine, profile velocity with ramps, encoder, faults. Pure: frames and time in,
-/// frames out.
+/// A CiA 402 motor controller with its motor and wheel, as seen from the bus: boot-up, NMT, SDO, PDO, SYNC, heartbeats
+/// both ways, profile velocity with ramps, encoder, faults. Pure: frames and time in, frames out.
 class DriveModel {
  public:
   using Frames = std::vector<drive::CanFrame>;
@@ -43,49 +44,35 @@ class DriveModel {
   /// Without SDO answers, heartbeats and PDOs, but still moving: a broken wire.
   void mute(bool muted) { muted_ = muted; }
   /// The wheel follows the world instead of the motor, for simulating a robot along a given path.
-  void follow(double angle_rad, double speed_rad_s);
+  void follow(double angle_rad, double speed_rad_s) { wheel_.follow(angle_rad, speed_rad_s); }
 
-  [[nodiscard]] drive::cia402::State state() const { return state_; }
+  [[nodiscard]] drive::cia402::State state() const { return power_.state(); }
   [[nodiscard]] drive::canopen::NmtState nmt() const { return nmt_; }
-  [[nodiscard]] double angle() const { return angle_; }  ///< of the wheel, rad
-  [[nodiscard]] double speed() const { return speed_; }  ///< rad/s
-  [[nodiscard]] std::uint32_t object(drive::canopen::Object object) const;
+  [[nodiscard]] double angle() const { return wheel_.angle(); }  ///< of the wheel, rad
+  [[nodiscard]] double speed() const { return wheel_.speed(); }  ///< rad/s
+  /// 0 for an object that does not exist.
+  [[nodiscard]] std::uint32_t object(drive::canopen::Object object) const { return objects_.value(object); }
 
  private:
-  struct Entry {
-    std::uint32_t value = 0;
-    std::uint8_t bytes = 4;
-    bool writable = true;
-  };
-  using Key = std::uint32_t;
-  static constexpr Key key(drive::canopen::Object o) { return static_cast<Key>(o.index) << 8U | o.sub; }
-
-  void reset_dictionary();
-  void define_pdos();
   void boot(Time now, Frames& out);
-  void put(drive::canopen::Object object, std::uint32_t value);
   void command(drive::canopen::NmtCommand command, Time now, Frames& out);
   void answer(const drive::CanFrame& frame, Frames& out);
-  std::uint32_t write(const drive::canopen::SdoRequest& request);
-  void take_rpdo(const drive::CanFrame& frame);
-  void send_tpdos(Frames& out);
-  void obey(std::uint16_t controlword);
+  void obey_if_written(drive::canopen::Object object);
   void move(double dt);
   void watch_host(Time now, Frames& out);
-  [[nodiscard]] std::uint16_t statusword() const;
-  [[nodiscard]] double ramp(drive::canopen::Object object) const;
+  [[nodiscard]] double ramp(drive::canopen::Object object) const;  // rad/s²
   void refresh();
 
   DriveModelConfig config_;
   Random random_;
-  std::map<Key, Entry> dictionary_;
-  bool powered_ = false, muted_ = false, fault_for_ever_ = false, followed_ = false;
+  ObjectDictionary objects_;
+  PowerStates power_;
+  WheelMotor wheel_;
+  bool powered_ = false, muted_ = false;
   drive::canopen::NmtState nmt_ = drive::canopen::NmtState::kBootUp;
-  drive::cia402::State state_ = drive::cia402::State::kSwitchOnDisabled;
-  std::uint16_t controlword_ = 0;
   std::optional<Time> stepped_, host_heard_;
   Time heartbeat_at_{};
-  double angle_ = 0, angle_at_boot_ = 0, speed_ = 0;
+  double angle_at_boot_ = 0;
 };
 
 }  // namespace cairn::simulator

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <gtest/gtest.h>
 
+#include <numbers>
+
 #include "fusion/matching/book/em.hpp"
 #include "fusion/matching/book/methods.hpp"
 #include "fusion/matching/book/oicp.hpp"
@@ -10,7 +12,13 @@
 namespace cairn::matching {
 namespace {
 
-class BookMatchers : public testing::TestWithParam<std::string_view> {
+/// A method, and how far from the truth it may end in the test below.
+struct Reach {
+  std::string_view method;
+  double most_m, most_deg;
+};
+
+class BookMatchers : public testing::TestWithParam<Reach> {
  protected:
   static const FeaturedPair& corridor() {
     static const FeaturedPair made(
@@ -22,30 +30,36 @@ class BookMatchers : public testing::TestWithParam<std::string_view> {
   const MapFeatures &a = corridor().a, &b = corridor().b;
 };
 
-TEST_P(BookMatchers, ComesNearerFromNearby) {
-  const auto matcher = make_any_matcher(GetParam(), a, b);
+/// Voxels of 0.2 m, from 0.30 m and 2.3° beside the truth. Measured: oicp 1.8 cm, pmm 1.6 cm, icp 1.8 cm, each 0.05°;
+/// p2plane 0.4 cm and 0.10°; em 11 cm and 0.92°, whose kernel does not get narrower than a voxel.
+TEST_P(BookMatchers, FindsThePoseFromNearby) {
+  const auto matcher = make_any_matcher(GetParam().method, a, b);
   ASSERT_TRUE(matcher);
   const SE3 start = pair.T_a_b * SE3::from_xyz_rpy((Vector6() << 0.15, -0.25, 0.05, 0, 0, 0.04).finished());
   Budget budget = Budget::steps(kAmpleSteps), again = Budget::steps(kAmpleSteps);
   const UncertainPose initial{start, default_prior_covariance()};
   const auto r = (*matcher)->match(initial, budget);
   ASSERT_TRUE(r);
-  EXPECT_LT(error(r->T_a_b.mean), 0.85 * error(start));
+  EXPECT_GT(error(start), 0.29);
+  EXPECT_LT(error(r->T_a_b.mean), GetParam().most_m);
+  EXPECT_LT(180 / std::numbers::pi * rotation_angle(r->T_a_b.mean.inverse() * pair.T_a_b), GetParam().most_deg);
   EXPECT_GT(r->overlap, 0.3);
   EXPECT_GT(r->iterations, 1);
   EXPECT_EQ((*matcher)->match(initial, again)->T_a_b.mean.matrix(), r->T_a_b.mean.matrix());
 }
 
 TEST_P(BookMatchers, OneStepIsAResult) {
-  const auto matcher = make_any_matcher(GetParam(), a, b);
+  const auto matcher = make_any_matcher(GetParam().method, a, b);
   Budget budget = Budget::steps(1);
   const auto r = (*matcher)->match(UncertainPose{pair.T_a_b, default_prior_covariance()}, budget);
   ASSERT_TRUE(r);
   EXPECT_EQ(r->iterations, 1);
 }
 
-INSTANTIATE_TEST_SUITE_P(All, BookMatchers, testing::Values("oicp", "pmm", "em", "icp", "p2plane"),
-                         [](const auto& p) { return std::string(p.param); });
+INSTANTIATE_TEST_SUITE_P(All, BookMatchers,
+                         testing::Values(Reach{"oicp", 0.03, 0.2}, Reach{"pmm", 0.03, 0.2}, Reach{"em", 0.14, 1.2},
+                                         Reach{"icp", 0.03, 0.2}, Reach{"p2plane", 0.01, 0.2}),
+                         [](const auto& p) { return std::string(p.param.method); });
 
 TEST(Em, PairsFallAsTheSparseMapFills) {
   const support::Scene scene = support::corridor();

@@ -21,9 +21,12 @@ TEST(LiveView, ParseIsTheInverseOfToLine) {
   EXPECT_EQ(to_line(*back), line);
   EXPECT_EQ(back->stages[2].dropped, 44U);
   EXPECT_EQ(back->stages[1].p999_ms, 58.1);
+  EXPECT_EQ(back->stages[1].deadline_ms, 60);
+  EXPECT_EQ(back->stages[1].budget_ms, 40);
   EXPECT_EQ(back->events[1].what, "lidar_late");
   EXPECT_EQ(back->epoch, 2U);
   EXPECT_TRUE(back->peers[0].merged);
+  EXPECT_EQ(back->peers[1].state, "no_link");
   EXPECT_EQ(back->peers[1].reason, "no link: not heard for 12 s");
   EXPECT_EQ(back->peers[1].clock_offset_s, -7.5);
 }

@@ -55,7 +55,22 @@ TEST_F(RestartTest, AnEmptyFolderIsNoEvent) {
   const Before before = look(11);
   EXPECT_FALSE(before.resumed);
   EXPECT_EQ(before.epoch, 0U);
+  EXPECT_FALSE(before.state_lost);
   EXPECT_EQ(said(), "");
+}
+
+TEST_F(RestartTest, TheStateIsLostOnlyWhenNoSavedMapCanBeRead) {
+  save();
+  Generations generations(folder.path(), *monitor);
+  ASSERT_TRUE(generations.load({}));
+  ASSERT_TRUE(generations.save(*random_map<SemanticOcTree>(2, 20), state));
+  std::filesystem::resize_file(folder / Generations::kMapFiles[0], 20);
+  EXPECT_FALSE(look(11).state_lost) << "the other generation is whole";
+  std::filesystem::resize_file(folder / Generations::kMapFiles[1], 20);
+  const Before before = look(11);
+  EXPECT_FALSE(before.resumed);
+  EXPECT_TRUE(before.state_lost);
+  EXPECT_NE(said().find("map.b.cairn"), std::string::npos) << said();
 }
 
 TEST_F(RestartTest, BeginsAnewAndSaysWhy) {

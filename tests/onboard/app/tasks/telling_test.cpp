@@ -17,6 +17,8 @@ class TellingTest : public testing::Test {
     scheduler::TaskSpec spec;
     spec.name = "odometry";
     spec.rate_hz = 10;
+    spec.deadline_ms = 90;
+    spec.soft_ms = 40;
     line_ = &executive_.add(spec);
     executive_.add(spec).live_only = true;
   }
@@ -40,6 +42,8 @@ TEST_F(TellingTest, TheViewHoldsTheTasksTheModeAndTheEvents) {
   line_->stats.response.record(12ms);
   line_->stats.ticks = 5;
   line_->stats.misses = 1;
+  line_->stats.soft_overruns = 2;  // of which one was above the hard budget, too
+  line_->stats.hard_overruns = 1;
   monitor_.event(now_, "lidar", "late");
   FailsafeDecision decision;
   decision.mode = Mode::kHold;
@@ -47,16 +51,29 @@ TEST_F(TellingTest, TheViewHoldsTheTasksTheModeAndTheEvents) {
   decision.active = {Fault::kLidarLate, Fault::kLidarSilent};
   decision.epoch = 3;
   telling.set_decision(decision);
-  telling.set_shed(Shed::kSemantics);
+  telling.set_shed(Shed::kMapDensity);
+  telling.set_scans(834);
   const LiveView v = telling.view(now_);
   ASSERT_EQ(v.stages.size(), 2U);
   EXPECT_NEAR(v.stages[0].p99_ms, 12, 0.1);
   EXPECT_EQ(v.stages[0].misses, 1U);
+  EXPECT_EQ(v.stages[0].deadline_ms, 90);
+  EXPECT_EQ(v.stages[0].budget_ms, 40);
+  EXPECT_EQ(v.stages[0].overruns, 2U);
+  EXPECT_EQ(v.scans, 834U);
   EXPECT_EQ(v.mode, "hold");
   EXPECT_EQ(v.cause, "lidar_silent");
   EXPECT_EQ(v.faults, (std::vector<std::string>{"lidar_late", "lidar_silent"}));
-  EXPECT_EQ(v.shed, "semantics");
+  EXPECT_EQ(v.shed, "map_density");
   EXPECT_EQ(v.events.back().what, "late");
+}
+
+TEST_F(TellingTest, ALevelThatLeavesNothingOutIsNotToldAsShed) {
+  Telling telling(executive_, monitor_, {"husky", {}, {}, {}}, now_);
+  for (const Shed level : {Shed::kPeerTiles, Shed::kSemantics}) {
+    telling.set_shed(level);
+    EXPECT_EQ(telling.view(now_).shed, "nothing");
+  }
 }
 
 TEST_F(TellingTest, OneLinePerSecondAndSignsOfLifeWhileAllIsWell) {

@@ -13,7 +13,7 @@ namespace {
 
 nlohmann::json parsed(const RunReport& report) { return nlohmann::json::parse(to_text(to_json(report))); }
 
-// The names are a promise to scripts: this list is interface.md's.
+// The names are a promise to scripts: docs/api.md lists them.
 TEST(ReportJson, HasEveryPromisedField) {
   const auto run = sample_run(100);
   const auto json = parsed(run->report);
@@ -43,8 +43,8 @@ TEST(ReportJson, HasEveryPromisedField) {
     for (const char* field : {"count", "mean_ms", "p50_ms", "p99_ms", "p999_ms", "max_ms", "budget_ms", "overruns",
                               "cpu_mean_ms", "cpu_p50_ms", "cpu_p99_ms", "cpu_p999_ms", "cpu_max_ms"})
       EXPECT_TRUE(json.at("stages").at(stage).at(field).is_number()) << stage << ' ' << field;
-  for (const char* field :
-       {"tx_bytes", "rx_bytes", "tiles", "age_p99_s", "T_map_peer", "covariance", "accepted", "reason"})
+  for (const char* field : {"tx_bytes", "rx_bytes", "tiles", "age_p99_s", "T_map_peer", "covariance", "accepted",
+                            "state", "reason", "deployment_contradicted"})
     EXPECT_TRUE(json.at("peers").at("robot_2").contains(field)) << field;
   EXPECT_EQ(json["peers"]["robot_2"]["T_map_peer"].size(), 16U);
   EXPECT_EQ(json["peers"]["robot_2"]["covariance"].size(), 36U);
@@ -84,7 +84,18 @@ TEST(ReportJson, OfAnEmptyRunIsComplete) {
   EXPECT_TRUE(json["stages"].is_object() && json["stages"].empty());
   EXPECT_TRUE(json["peers"].is_object() && json["peers"].empty());
   EXPECT_TRUE(json["events"].is_array() && json["events"].empty());
+  EXPECT_TRUE(json["losses"].is_object() && json["losses"].empty());
   EXPECT_TRUE(json["ground_truth"].is_null());
+  EXPECT_TRUE(json["started"].is_null());
+}
+
+TEST(ReportJson, SaysWhatEachDeviceLost) {
+  RunReport report;
+  report.losses = {{"lidar", {{"kernel_drops", 3}, {"foreign", 0}}}, {"drive", {{"kernel_drops", 0}}}};
+  const auto losses = parsed(report)["losses"];
+  EXPECT_EQ(losses["lidar"]["kernel_drops"], 3);
+  EXPECT_EQ(losses["lidar"]["foreign"], 0);
+  EXPECT_EQ(losses["drive"].size(), 1U);
 }
 
 TEST(ReportJson, SaysWhyThereIsNoErrorAgainstGroundTruth) {

@@ -122,6 +122,14 @@ TEST(ReportHtml, PointsOutModeDemotionsAndWhatWasShed) {
     EXPECT_THAT(page, HasSubstr(note));
 }
 
+TEST(ReportHtml, PointsOutWhatDevicesLostAndNoZeros) {
+  RunReport report;
+  report.losses = {{"lidar<1>", {{"kernel_drops", 0}, {"foreign", 0}}}};
+  EXPECT_THAT(to_html(report).value(), HasSubstr("Nothing to report"));
+  report.losses[0].second[0].second = 3;
+  EXPECT_THAT(to_html(report).value(), HasSubstr("Device <b>lidar&lt;1&gt;</b> reports kernel_drops 3."));
+}
+
 TEST(ReportHtml, InVirtualTimeTasksHaveNoResponse) {
   RunReport report;
   report.tasks.emplace_back().spec.name = "drive";

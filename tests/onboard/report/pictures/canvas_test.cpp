@@ -12,7 +12,7 @@ namespace {
 
 constexpr Rgba kWhite{255, 255, 255, 255}, kBlack{0, 0, 0, 255};
 
-int ink(const Image& image) {
+int ink(const Raster& image) {
   int pixels = 0;
   for (int y = 0; y < image.height(); ++y)
     for (int x = 0; x < image.width(); ++x) pixels += image.at(x, y) == kWhite ? 0 : 1;
@@ -20,7 +20,7 @@ int ink(const Image& image) {
 }
 
 TEST(DrawLine, CoversItsWidthAndNothingElse) {
-  Image image(20, 9, kWhite);
+  Raster image(20, 9, kWhite);
   draw_line(image, std::array{Pixel{2.5, 4.5}, Pixel{17.5, 4.5}}, {kBlack, 1, 0});
   for (int x = 2; x <= 17; ++x) EXPECT_EQ(image.at(x, 4), kBlack) << x;
   for (int x = 2; x <= 17; ++x) EXPECT_EQ(image.at(x, 3), kWhite) << x;
@@ -29,13 +29,13 @@ TEST(DrawLine, CoversItsWidthAndNothingElse) {
 }
 
 TEST(DrawLine, IsNotDarkerWhereSegmentsMeet) {
-  Image image(20, 9, kWhite);
+  Raster image(20, 9, kWhite);
   draw_line(image, std::array{Pixel{2.5, 4.5}, Pixel{10.5, 4.5}, Pixel{17.5, 4.5}}, {{0, 0, 0, 128}, 1, 0});
   EXPECT_EQ(image.at(10, 4), image.at(6, 4));
 }
 
 TEST(DrawLine, DashesAreAsLongAsTheGaps) {
-  Image image(100, 3, kWhite);
+  Raster image(100, 3, kWhite);
   draw_line(image, std::array{Pixel{0, 1.5}, Pixel{30, 1.5}, Pixel{100, 1.5}}, {kBlack, 1, 10});
   for (int x = 0; x < 100; ++x) {
     const int phase = x % 20;
@@ -49,7 +49,7 @@ TEST(DrawLine, DashesAreAsLongAsTheGaps) {
 
 TEST(DrawLine, SurvivesPointsFarOutsideAndNotNumbers) {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-  Image image(10, 10, kWhite);
+  Raster image(10, 10, kWhite);
   draw_line(image, std::array{Pixel{nan, 1}, Pixel{3, inf}, Pixel{-inf, 4}}, {kBlack, 1, 3});
   EXPECT_EQ(ink(image), 0);
   draw_line(image, std::array{Pixel{-1e12, 5.5}, Pixel{1e12, 5.5}}, {kBlack, 1, 3});
@@ -59,7 +59,7 @@ TEST(DrawLine, SurvivesPointsFarOutsideAndNotNumbers) {
 }
 
 TEST(DrawDisc, HasItsArea) {
-  Image image(60, 60, kWhite);
+  Raster image(60, 60, kWhite);
   draw_disc(image, {30, 30}, 20, kBlack);
   double area = 0;
   for (int y = 0; y < 60; ++y)
@@ -68,7 +68,7 @@ TEST(DrawDisc, HasItsArea) {
 }
 
 TEST(FillRectangle, IsCutAtTheEdges) {
-  Image image(4, 4, kWhite);
+  Raster image(4, 4, kWhite);
   fill_rectangle(image, -2, 2, 4, 10, kBlack);
   EXPECT_EQ(ink(image), 4);
   EXPECT_EQ(image.at(1, 3), kBlack);
@@ -80,7 +80,7 @@ TEST(DrawText, EveryGlyphIsDifferentAndInsideItsBox) {
   const std::string_view known = "0123456789.-+:=/()abcdefghijklmnopqrstuvwxyz";
   std::vector<std::vector<bool>> shapes;
   for (const char c : known) {
-    Image image(kGlyphWidth, kGlyphHeight, kWhite);
+    Raster image(kGlyphWidth, kGlyphHeight, kWhite);
     draw_text(image, 0, 0, std::string_view(&c, 1), 1, kBlack);
     std::vector<bool> shape;
     for (int y = 0; y < kGlyphHeight; ++y)
@@ -92,7 +92,7 @@ TEST(DrawText, EveryGlyphIsDifferentAndInsideItsBox) {
 }
 
 TEST(DrawText, WhatItDoesNotKnowIsBlankAndCapitalsAreSmall) {
-  Image blank(40, 10, kWhite), large(40, 10, kWhite), small(40, 10, kWhite);
+  Raster blank(40, 10, kWhite), large(40, 10, kWhite), small(40, 10, kWhite);
   draw_text(blank, 0, 0, "\x01\xff ~", 1, kBlack);
   EXPECT_EQ(ink(blank), 0);
   draw_text(large, 0, 0, "XYZ", 1, kBlack);

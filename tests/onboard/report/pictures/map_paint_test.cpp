@@ -24,7 +24,7 @@ MapPicture tiny() {
 }
 
 TEST(PaintOccupied, IsTheColourOfTheHeightAtTheLowerLeft) {
-  const Image image = paint_occupied(tiny());
+  const Raster image = paint_occupied(tiny());
   EXPECT_EQ(image.at(0, 1), height_colour(1));
   EXPECT_EQ(image.at(1, 1).a, 0);
   EXPECT_EQ(image.at(0, 0).a, 0);
@@ -38,14 +38,14 @@ TEST(PaintOccupied, ShowsFloorsThinnerThanWalls) {
 }
 
 TEST(PaintFree, MarksFreeCellsOnly) {
-  const Image image = paint_free(tiny());
+  const Raster image = paint_free(tiny());
   EXPECT_EQ(image.at(1, 1), (Rgba{255, 255, 255, 255}));
   EXPECT_EQ(image.at(0, 1).a, 0);
   EXPECT_EQ(image.at(1, 0).a, 0);
 }
 
 /// The map's pixels begin where the first pixel is not the white of the margin.
-Pixel corner_of(const Image& image, Rgba unknown) {
+Pixel corner_of(const Raster& image, Rgba unknown) {
   for (int y = 0; y < image.height(); ++y)
     for (int x = 0; x < image.width(); ++x)
       if (image.at(x, y) == unknown) return {x, y};
@@ -69,8 +69,8 @@ TEST(DrawMap, HasTheRightPixelsAfterDecoding) {
 
 TEST(DrawMap, DrawsPathsAtTheirPlace) {
   const MapPicture p = tiny();
-  const Image without = draw_map(p, {40, {}}).value();
-  const Image with = draw_map(p, {40, {{{{0.5, 1.5}, {1.5, 1.5}}, false}}}).value();
+  const Raster without = draw_map(p, {40, {}}).value();
+  const Raster with = draw_map(p, {40, {{{{0.5, 1.5}, {1.5, 1.5}}, false}}}).value();
   int changed = 0, lowest = 0, highest = with.height();
   for (int y = 0; y < with.height(); ++y)
     for (int x = 0; x < with.width(); ++x)
@@ -83,7 +83,7 @@ TEST(DrawMap, DrawsPathsAtTheirPlace) {
   EXPECT_LT(lowest - highest, 12);
 }
 
-std::size_t pixels_of(const Image& image, Rgba colour) {
+std::size_t pixels_of(const Raster& image, Rgba colour) {
   return static_cast<std::size_t>(std::count(image.data(), image.data() + image.width() * image.height(), colour));
 }
 

@@ -120,8 +120,8 @@ TEST(DoctorCommand, DamageOfARecordingIsNamed) {
 TEST(DoctorCommand, SaysWhyAPeerHasNotMergedByWhatARunLeft) {
   const TemporaryFolder folder;
   put(folder / "report.json", R"json({"peers": {
-    "robot_2": {"accepted": true, "reason": "merged", "tiles": 12},
-    "robot_3": {"accepted": false, "reason": "another pose may be as good (overlap 0.86, 9 m²)", "tiles": 7},
+    "robot_2": {"accepted": true, "state": "merged", "reason": "merged", "tiles": 12},
+    "robot_3": {"accepted": false, "state": "ambiguous", "reason": "another pose may be as good (overlap 0.86, 9 m²)", "tiles": 7},
     "robot_4": 5}})json");
   const Outcome all = doctor({"--peer", "all", "--run", folder / ""});
   EXPECT_EQ(all.exit_code, kFailed);
@@ -137,8 +137,10 @@ TEST(DoctorCommand, SaysWhyAPeerHasNotMergedByWhatARunLeft) {
 TEST(DoctorCommand, ADeploymentThatTheMapsContradictIsNamed) {
   const TemporaryFolder folder;
   put(folder / "report.json", R"json({"peers": {
-    "robot_2": {"accepted": true, "reason": "merged; the deployments of the two contradict that by 3.6 m", "tiles": 12},
-    "robot_3": {"accepted": false, "reason": "dropped; the maps contradict the deployments of the two"}}})json");
+    "robot_2": {"accepted": true, "state": "merged", "deployment_contradicted": true,
+                "reason": "merged; the deployments of the two contradict that by 3.6 m", "tiles": 12},
+    "robot_3": {"accepted": false, "state": "contradicted", "deployment_contradicted": true,
+                "reason": "dropped; the maps contradict the deployments of the two"}}})json");
   const Outcome merged = doctor({"--peer", "robot_2", "--run", folder / ""});
   EXPECT_EQ(merged.exit_code, kDone);
   EXPECT_THAT(merged.out, HasSubstr("note: robot_2: merged; the deployments of the two contradict that by 3.6 m"));
@@ -153,6 +155,25 @@ TEST(DoctorCommand, SaysWhereThereIsNothingToBeHeardOfAPeer) {
   put(folder / "report.json", "[1, 2");
   EXPECT_THAT(doctor({"--peer", "x", "--run", folder / ""}).out, HasSubstr("not the report of a run"));
   EXPECT_THAT(doctor({"--peer", "x", "--recording", folder / "none"}).out, HasSubstr("problem"));
+}
+
+TEST(DoctorCommand, EveryStateOfAPeerHasARemedyButTheGoodOne) {
+  for (std::size_t i = 0; i < kPeerStates; ++i) {
+    const auto state = static_cast<PeerState>(i);
+    LiveView::Peer peer{.name = "robot_2", .merged = state == PeerState::kMerged};
+    peer.state = to_string(state);
+    const auto findings = judge_peers({peer}, "robot_2");
+    ASSERT_EQ(findings.size(), 1U);
+    EXPECT_EQ(findings[0].remedy, remedy_for(state)) << peer.state;
+    EXPECT_EQ(findings[0].remedy.empty(), peer.merged) << peer.state;
+    EXPECT_EQ(findings[0].level, peer.merged ? Finding::Level::kOk : Finding::Level::kProblem) << peer.state;
+  }
+}
+
+TEST(DoctorCommand, AStateOfALaterVersionHasTheGeneralRemedy) {
+  const auto findings = judge_peers({{.name = "robot_2", .state = "dancing", .reason = "it dances"}}, "all");
+  ASSERT_EQ(findings.size(), 1U);
+  EXPECT_EQ(findings[0].remedy, remedy_for(PeerState::kUndecided));
 }
 
 TEST(DoctorCommand, AClockThatDiffersIsANote) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // `cairn inspect` over cameras, CAN buses and GPIO lines: whole recordings and their files on their own.
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 #include <fstream>
@@ -66,6 +67,52 @@ TEST(InspectSensors, AListOfPicturesOnItsOwn) {
   EXPECT_EQ(thermal["kind"], "thermal");
   EXPECT_EQ(thermal["sources"][0]["thermal"]["pictures"], 10);
   EXPECT_EQ(look_into({folder / "r/depth/data.csv", "--json"}).json()["sources"][0]["depth"]["pictures"], 10);
+}
+
+/// An array as numpy.save() writes it; pixels of two bytes that all hold `value`.
+void write_array(const std::string& path, const std::string& type, int frames, int height, int width, char value) {
+  const std::string shape = fmt::format("({}, {}, {})", frames, height, width);
+  const std::string header = "{'descr': '" + type + "', 'fortran_order': False, 'shape': " + shape + ", }\n";
+  std::ofstream file(path, std::ios::binary);
+  file << "\x93NUMPY\x01" << '\0' << static_cast<char>(header.size()) << '\0' << header;
+  file << std::string(static_cast<std::size_t>(frames * height * width) * (type == "<u2" ? 2 : 1), value);
+}
+
+TEST(InspectSensors, AnArrayOfPicturesIsToldByItsPixelsAndItsName) {
+  const TemporaryFolder folder;
+  write_array(folder / "a.npy", "<u2", 5, 120, 160, '\x60');
+  const auto lepton = look_into({folder / "a.npy", "--json"}).json();
+  EXPECT_EQ(lepton["kind"], "thermal");
+  EXPECT_EQ(lepton["assumed_rate_hz"], 9.0);
+  EXPECT_EQ(lepton["sources"][0]["model"], "lepton3");
+  EXPECT_EQ(lepton["sources"][0]["thermal"]["pictures"], 5);
+  EXPECT_EQ(lepton["damaged"], 0);
+
+  write_array(folder / "b.npy", "<u2", 2, 48, 64, '\x60');
+  EXPECT_EQ(look_into({folder / "b.npy", "--json"}).json()["sources"][0]["thermal"]["sizes"][0], "64x48");
+  write_array(folder / "depth.npy", "<u2", 3, 48, 64, '\x05');
+  EXPECT_EQ(look_into({folder / "depth.npy", "--json"}).json()["sources"][0]["depth"]["pictures"], 3);
+  write_array(folder / "grey.npy", "|u1", 4, 48, 64, '\x05');
+  EXPECT_EQ(look_into({folder / "grey.npy", "--json"}).json()["sources"][0]["camera"]["pictures"], 4);
+}
+
+TEST(InspectSensors, AnArrayThatEndsEarlyIsDamagedAndADamagedHeaderAnError) {
+  const TemporaryFolder folder;
+  write_array(folder / "a.npy", "<u2", 5, 120, 160, '\x60');
+  std::filesystem::resize_file(folder / "a.npy", std::filesystem::file_size(folder / "a.npy") - 1);
+  const auto json = look_into({folder / "a.npy", "--json"}).json();
+  EXPECT_EQ(json["sources"][0]["thermal"]["pictures"], 4);
+  EXPECT_EQ(json["damaged"], 1);
+  write_array(folder / "b.npy", ">u2", 1, 4, 4, 'x');
+  EXPECT_EQ(look_into({folder / "b.npy"}).exit_code, kFailed);
+}
+
+TEST(InspectSensors, ARealArrayOfTemperatures) {
+  const auto path = support::recorded_data("thermal/lepton3_possum_161x120x160_u16.npy");
+  if (!std::filesystem::exists(path)) GTEST_SKIP() << "no " << path;
+  const auto json = look_into({path.string(), "--json"}).json();
+  EXPECT_EQ(json["sources"][0]["thermal"]["pictures"], 161);
+  EXPECT_EQ(json["damaged"], 0);
 }
 
 TEST(InspectSensors, AMissingPictureIsDamageAndNotAnEnd) {

@@ -19,17 +19,17 @@ std::string text(const LiveView& view, const Screen& screen = {120, 40, false}) 
   return all;
 }
 
-TEST(RenderTop, ShowsStagesAgainstTheirBudgets) {
+TEST(RenderTop, ShowsTasksAgainstTheirDeadlines) {
   const std::string shown = text(support::sample_view());
   EXPECT_EQ(shown,
             "husky   t 83.4 s   834 scans   412 MB\n"
-            "mode degraded (lidar_late)   shed peer_tiles   epoch 2\n"
+            "mode degraded (lidar_late)   shed map_density   epoch 2\n"
             "faults: lidar_late, disk_failing\n"
             "\n"
-            "stage (ms)      p50    p99  p99.9    max  budget  p99/budget   over slips  miss  drop  queue\n"
-            "safety         0.01   0.03   0.12   0.40    1.00 [=         ]     0     0     0     0    -   \n"
-            "odometry      21.70  44.20  58.10  63.50   60.00 [========  ]     3     0     0     0   1/8  \n"
-            "mapping       38.00    105    140    141   80.00 [!!!!!!!!!!]    61    12     2    44   8/8  \n"
+            "task (ms)       p50    p99  p99.9    max deadline p99/deadline  over slips  miss  drop  queue\n"
+            "safety         0.01   0.03   0.12   0.40     1.00 [=         ]     0     0     0     0    -   \n"
+            "odometry      21.70  44.20  58.10  63.50    60.00 [========  ]     3     0     0     0   1/8  \n"
+            "mapping       38.00    105    140    141    80.00 [!!!!!!!!!!]    61    12     2    44   8/8  \n"
             "\n"
             "events, newest first\n"
             "     83.1 s      1x  failsafe: lidar_late\n"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/report/pictures/image.hpp"
+#include "onboard/report/pictures/raster.hpp"
 
 #include <png.h>
 
@@ -24,7 +24,7 @@ Rgba mix(Rgba a, Rgba b, double share) {
   return {channel(a.r, b.r), channel(a.g, b.g), channel(a.b, b.b), channel(a.a, b.a)};
 }
 
-Result<std::vector<std::byte>> encode_png(const Image& image) {
+Result<std::vector<std::byte>> encode_png(const Raster& image) {
   static_assert(sizeof(Rgba) == 4, "pixels are handed to libpng as they lie");
   png_image png{};
   png.version = PNG_IMAGE_VERSION;

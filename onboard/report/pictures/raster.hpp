@@ -20,10 +20,10 @@ struct Rgba {
 /// Linear mixture: share 0 is a, 1 is b.
 [[nodiscard]] Rgba mix(Rgba a, Rgba b, double share);
 
-/// Rows from top to bottom.
-class Image {
+/// A drawn picture, rows from top to bottom. What a camera sends is an Image (hal/image.hpp).
+class Raster {
  public:
-  Image(int width, int height, Rgba fill) : width_(width), height_(height), pixels_(size_of(width, height), fill) {}
+  Raster(int width, int height, Rgba fill) : width_(width), height_(height), pixels_(size_of(width, height), fill) {}
 
   [[nodiscard]] int width() const { return width_; }
   [[nodiscard]] int height() const { return height_; }
@@ -42,6 +42,6 @@ class Image {
 };
 
 /// The same picture gives the same bytes.
-Result<std::vector<std::byte>> encode_png(const Image& image);
+Result<std::vector<std::byte>> encode_png(const Raster& image);
 
 }  // namespace cairn

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/report/pictures/image.hpp"
+#include "onboard/report/pictures/raster.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,8 @@
 namespace cairn {
 namespace {
 
-Image noise(int width, int height) {
-  Image image(width, height, {});
+Raster noise(int width, int height) {
+  Raster image(width, height, {});
   std::mt19937 engine(1);
   const auto byte = [&] { return static_cast<std::uint8_t>(engine() & 255U); };
   for (int y = 0; y < height; ++y)
@@ -21,7 +21,7 @@ Image noise(int width, int height) {
 
 TEST(EncodePng, IsReadBackPixelByPixelAndAlwaysTheSame) {
   for (const auto& [width, height] : {std::pair{1, 1}, {7, 3}, {64, 129}}) {
-    const Image image = noise(width, height);
+    const Raster image = noise(width, height);
     const auto bytes = encode_png(image);
     ASSERT_TRUE(bytes.has_value());
     EXPECT_EQ(*bytes, encode_png(image).value());
@@ -34,7 +34,7 @@ TEST(EncodePng, IsReadBackPixelByPixelAndAlwaysTheSame) {
   }
 }
 
-TEST(EncodePng, OfAnEmptyPictureIsAnErrorNotACrash) { EXPECT_FALSE(encode_png(Image(0, 0, {})).has_value()); }
+TEST(EncodePng, OfAnEmptyPictureIsAnErrorNotACrash) { EXPECT_FALSE(encode_png(Raster(0, 0, {})).has_value()); }
 
 TEST(Blend, IsTheUpperColourWhereItIsOpaqueAndTheLowerWhereItIsNot) {
   const Rgba under{10, 20, 30, 255}, over{200, 100, 50, 255};
