@@ -18,11 +18,19 @@ Duration read(clockid_t id) {
 Time LiveClock::now() const { return Time{read(CLOCK_MONOTONIC)}; }
 
 Duration LiveClock::realtime_offset() {
-  // Bracketed, so that a preemption between the two reads costs half its length at most.
-  const Duration before = read(CLOCK_MONOTONIC);
-  const Duration realtime = read(CLOCK_REALTIME);
-  const Duration after = read(CLOCK_MONOTONIC);
-  return realtime - (before + (after - before) / 2);
+  // Bracketed, and again after a preemption between the reads, which would cost half its length.
+  constexpr Duration kTight = std::chrono::microseconds(20);
+  constexpr int kTries = 5;
+  Duration offset{}, width = Duration::max();
+  for (int tries = 0; tries < kTries && width > kTight; ++tries) {
+    const Duration before = read(CLOCK_MONOTONIC);
+    const Duration realtime = read(CLOCK_REALTIME);
+    const Duration after = read(CLOCK_MONOTONIC);
+    if (after - before >= width) continue;
+    width = after - before;
+    offset = realtime - (before + width / 2);
+  }
+  return offset;
 }
 
 void LiveClock::wait_until(Time t) {

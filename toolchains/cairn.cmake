@@ -111,7 +111,8 @@ function(cairn_library name)
   cairn_unite(cairn_${name})
 endfunction()
 
-# cairn_test(NAME SOURCES … [LINK lib …]): one GoogleTest program test_NAME; ctest lists its cases.
+# cairn_test(NAME SOURCES … [LINK lib …]): one GoogleTest program test_NAME; ctest lists its cases. Suites whose names
+# begin with Slow get the label slow: what takes too long for every change.
 function(cairn_test name)
   cmake_parse_arguments(A "" "" "SOURCES;LINK" ${ARGN})
   cairn_compile_allocators_alone(${A_SOURCES})
@@ -122,7 +123,10 @@ function(cairn_test name)
   target_compile_options(test_${name} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>
     $<$<BOOL:${CAIRN_FUZZ}>:-fno-sanitize=fuzzer-no-link>)
   cairn_unite(test_${name})
-  gtest_discover_tests(test_${name} TEST_PREFIX "${name}/" NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST PROPERTIES TIMEOUT 900)
+  # The time limits are for what hangs: no test may fail because a machine is slow.
+  set(how TEST_PREFIX "${name}/" NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 300)
+  gtest_discover_tests(test_${name} ${how} TEST_FILTER -Slow* PROPERTIES TIMEOUT 900)
+  gtest_discover_tests(test_${name} ${how} TEST_FILTER Slow* TEST_LIST test_${name}_SLOW PROPERTIES TIMEOUT 3600 LABELS slow)
 endfunction()
 
 # cairn_fuzz(NAME SOURCE [LINK lib …]): a libFuzzer target fuzz_NAME. Without CAIRN_FUZZ the same entry point runs over
@@ -139,7 +143,7 @@ function(cairn_fuzz name source)
     add_executable(fuzz_${name} ${source})
     target_link_libraries(fuzz_${name} PRIVATE cairn_fuzz_replay)
     add_test(NAME fuzz_corpus/${name} COMMAND fuzz_${name} ${corpus})
-    set_tests_properties(fuzz_corpus/${name} PROPERTIES TIMEOUT 300)
+    set_tests_properties(fuzz_corpus/${name} PROPERTIES TIMEOUT 900)
   endif()
   target_link_libraries(fuzz_${name} PRIVATE cairn_flags ${A_LINK})
   add_dependencies(fuzzers fuzz_${name})

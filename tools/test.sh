@@ -1,31 +1,46 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Builds the tests and runs them:
-#   tools/test.sh [--asan | --tsan | --clang | --fuzz | --cross] [ctest arguments, such as -R mapping]
-#     (none)   g++, every test
-#     --asan   with AddressSanitizer and UndefinedBehaviorSanitizer
-#     --tsan   with ThreadSanitizer, the rooms that use threads
-#     --clang  with clang++
-#     --fuzz   with clang++ and both of --asan, built as the fuzz targets are: CI's way, for it saves a build
-#     --cross  for aarch64, run under qemu-user (makes the sysroot at first)
+#   tools/test.sh [--asan | --tsan | --clang | --fuzz | --fuzz-all | --cross] [--slow] [ctest arguments]
+#     (none)      g++, every test but those with the label slow
+#     --asan      with AddressSanitizer and UndefinedBehaviorSanitizer
+#     --tsan      with ThreadSanitizer, the rooms that use threads
+#     --clang     with clang++
+#     --fuzz      with clang++ and both of --asan, the rooms that read foreign bytes; builds all fuzz targets
+#     --fuzz-all  the same with every test
+#     --cross     for aarch64, run under qemu-user (makes the sysroot at first)
+#     --slow      the slow tests, too (alone: --slow -L slow)
+#   Further arguments go to ctest: -R mapping runs the tests of one room.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-preset=dev groups=(build test) targets=() select=()
+preset=dev groups=(build test) targets=() select=() without=(-LE '^slow$')
+
+# only ROOM…: builds and runs these test programs alone.
+only() {
+  targets+=(--target "${@/#/test_}")
+  select=(-R "^($(IFS='|' && echo "$*"))/")
+}
+
 case ${1:-} in
   --asan) preset=asan && shift ;;
   --tsan)
-    preset=tsan targets=(--target test_hal test_odometry test_mapping test_scheduler test_app)
-    select=(-R '^(hal|odometry|mapping|scheduler|app)/')
-    shift
+    preset=tsan && shift
+    only hal odometry mapping scheduler app
     ;;
-  --clang | --fuzz) preset=${1#--} groups+=(ci) && shift ;;
+  --clang | --fuzz-all) preset=${1#--} preset=${preset%-all} groups+=(ci) && shift ;;
+  --fuzz)
+    preset=fuzz groups+=(ci) targets=(--target fuzzers) && shift
+    only hal velodyne camera thermal depth recording drive gpio peer_link peer_process peers mapping generations live \
+      scheduler
+    ;;
   --cross)
     # qemu-user knows neither the kernel's receive stamps nor its drop counts, without which no UDP port is opened.
     preset=aarch64 groups=(build cross) select=(-E '/(UdpSourceTest|RecordCommand)\.')
     shift
     ;;
-  -h | --help) sed -n '3,10s/^# //p' "$0" && exit ;;
+  -h | --help) sed -n '3,13s/^# //p' "$0" && exit ;;
 esac
+[[ ${1:-} != --slow ]] || { without=() && shift; }
 
 tools/packages.sh "${groups[@]}"
 [[ $preset != aarch64 ]] || toolchains/make_sysroot.sh
@@ -34,4 +49,4 @@ build "$preset" "${targets[@]}"
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_stack_use_after_return=1:strict_string_checks=1}
 export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1:halt_on_error=1}
 export TSAN_OPTIONS=${TSAN_OPTIONS:-halt_on_error=1:second_deadlock_stack=1}
-ctest --preset "$preset" --parallel "$(nproc)" --no-tests=error "${select[@]}" "$@"
+ctest --preset "$preset" --parallel "$(nproc)" --no-tests=error "${select[@]}" "${without[@]}" "$@"

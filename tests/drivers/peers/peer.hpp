@@ -96,14 +96,18 @@ inline std::vector<std::byte> datagram(unsigned kind, std::size_t size) {
   return bytes;
 }
 
-/// Sends until the other side has it: discovery takes a moment, and nothing is kept for who is not there.
-inline bool arrives(Peer& from, Peer& to, std::uint64_t robot, const std::vector<std::byte>& bytes) {
+/// Sends until the other side has it: discovery takes a moment, and nothing is kept for who is not there. Adds to
+/// `before` what else came until then. Gives up after five minutes, as only a fault makes it.
+inline bool arrives(Peer& from, Peer& to, std::uint64_t robot, const std::vector<std::byte>& bytes,
+                    std::vector<std::vector<std::byte>>* before = nullptr) {
   const LiveClock clock;
-  for (const Time end = clock.now() + std::chrono::seconds(30); clock.now() < end;) {
+  for (const Time end = clock.now() + std::chrono::minutes(5); clock.now() < end;) {
     from.link.join();
     from.link.send({LinkFrame::Kind::kSend, robot, bytes});
-    for (const auto& got : to.received(100))
+    for (const auto& got : to.received(100)) {
       if (got == bytes) return true;
+      if (before != nullptr) before->push_back(got);
+    }
   }
   return false;
 }

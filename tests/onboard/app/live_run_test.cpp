@@ -11,10 +11,9 @@
 #include <semaphore>
 
 #include "drivers/recording/formats/utc.hpp"
-#include "drivers/velodyne/transport/udp_sender.hpp"
-#include "drivers/velodyne/transport/udp_source.hpp"
 #include "hal/workers.hpp"
 #include "onboard/app/run.hpp"
+#include "tests/support/loopback_lidar.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/vlp16_drive.hpp"
@@ -24,38 +23,19 @@ namespace {
 
 const Vector6 kMountOfLidar = (Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished();
 constexpr double kLiveSeconds = 1.6;
-constexpr Duration kBurst = from_seconds(0.02), kLastWords = from_seconds(0.1);
+constexpr std::size_t kLeastScans = 4;
 
-/// Two ports that nobody else uses while they are held; a moment later nobody does either, as a rule.
-std::pair<int, int> ports_for_now() {
-  velodyne::Config any;
-  any.data_port = any.position_port = 0;
-  const LiveClock clock;
-  const auto source = velodyne::UdpSource::open(any, SourceId{0}, clock).value();
-  return {source->data_port(), source->position_port()};
-}
-
-/// Sends the packets at least as far apart as they came: after a pause of the whole machine, no faster than before.
-void send(const std::vector<Packet>& packets, int port) {
-  const auto wire = velodyne::UdpSender::open("127.0.0.1").value();
-  const LiveClock clock;
-  Time due = clock.now();
-  for (std::size_t i = 0; i < packets.size(); ++i) {
-    if (i > 0) due = std::max(due + (packets[i].arrival - packets[i - 1].arrival), clock.now() - kBurst);
-    LiveClock::wait_until(due);
-    ASSERT_TRUE(wire->send(packets[i].payload(), static_cast<std::uint16_t>(port)));
-  }
-  LiveClock::wait_until(clock.now() + kLastWords);
-}
-
-/// Runs live from before the first of these packets until after the last, however long the machine takes for them.
-Result<std::unique_ptr<RunResult>> run_while(const std::vector<Packet>& packets, int port, RunOptions options) {
+/// Runs live from before the first of these packets until after the last, and until some scans have been located,
+/// however long the machine takes for them.
+Result<std::unique_ptr<RunResult>> run_while(const std::vector<Packet>& packets, RunOptions options) {
   Result<std::unique_ptr<RunResult>> result = Error{Errc::kNotFound, "the run has not begun"};
   std::binary_semaphore listening(0);
   std::atomic<bool> asked = false, sent = false;
+  std::atomic<std::size_t> located = 0;
+  options.progress = [&](Time, std::size_t scans) { located = scans; };
   options.stop = [&] {
     if (!asked.exchange(true)) listening.release();
-    return sent.load();
+    return sent && located >= kLeastScans;
   };
   Workers both(2);
   both.for_each(2, [&](std::size_t side) {
@@ -64,7 +44,7 @@ Result<std::unique_ptr<RunResult>> run_while(const std::vector<Packet>& packets,
       if (!asked.exchange(true)) listening.release();  // it never ran
     } else {
       listening.acquire();
-      send(packets, port);
+      support::LoopbackLidar().send(packets, [] { return false; });
       sent = true;
     }
   });
@@ -73,20 +53,17 @@ Result<std::unique_ptr<RunResult>> run_while(const std::vector<Packet>& packets,
 
 TEST(LiveRun, IsRepeatedToTheBitFromWhatItRecorded) {
   const support::TemporaryFolder folder;
-  const auto ports = ports_for_now();
-  std::ofstream(folder / "robot.yaml") << "lidar:\n  data_port: " << ports.first
-                                       << "\n  position_port: " << ports.second
-                                       << "\n  T_base_lidar: [0.2, 0, 0.6, 0, 0, 0]\n";
+  std::ofstream(folder / "robot.yaml") << support::LoopbackLidar::profile("[0.2, 0, 0.6, 0, 0, 0]");
   const support::Vlp16Drive drive(support::lobby(), SE3::from_xyz_rpy(kMountOfLidar), kLiveSeconds, 1);
   RunOptions live;
   live.config = folder / "robot.yaml";
   live.out = folder / "live";
   live.record = folder / "recording";
   live.pace = Pace::kLive;
-  const auto result = run_while(drive.packets(), ports.first, live);
+  const auto result = run_while(drive.packets(), live);
   ASSERT_TRUE(result) << to_string(result.error());
   const RunReport& ran = (*result)->report;
-  EXPECT_GT(ran.scans, 3U);
+  EXPECT_GE(ran.scans, kLeastScans);
   EXPECT_EQ(ran.control_thread_allocations, 0U);
   ASSERT_EQ(ran.losses.size(), 1U);
   EXPECT_EQ(ran.losses[0].first, "lidar");
@@ -129,10 +106,7 @@ RunOptions again_from(const RunOptions& live, const std::filesystem::path& out) 
 
 TEST(LiveRun, AStartAfterAnotherGoesOnInItsMapAndIsRepeatedToTheBit) {
   const support::TemporaryFolder folder;
-  const auto ports = ports_for_now();
-  std::ofstream(folder / "robot.yaml") << "lidar:\n  data_port: " << ports.first
-                                       << "\n  position_port: " << ports.second
-                                       << "\n  T_base_lidar: [0.2, 0, 0.6, 0, 0, 0]\n"
+  std::ofstream(folder / "robot.yaml") << support::LoopbackLidar::profile("[0.2, 0, 0.6, 0, 0, 0]")
                                        << "restart:\n  within_s: 600\n";  // a sanitiser takes its time
   const support::Vlp16Drive drive(support::lobby(), SE3::from_xyz_rpy(kMountOfLidar), 2 * kLiveSeconds, 1);
   RunOptions options;
@@ -143,7 +117,7 @@ TEST(LiveRun, AStartAfterAnotherGoesOnInItsMapAndIsRepeatedToTheBit) {
   for (const int turn : {0, 1}) {
     options.out = folder / ("live" + std::to_string(turn));
     options.record = folder / ("recording" + std::to_string(turn));
-    const auto result = run_while(part(drive, turn * kLiveSeconds, (turn + 1) * kLiveSeconds), ports.first, options);
+    const auto result = run_while(part(drive, turn * kLiveSeconds, (turn + 1) * kLiveSeconds), options);
     ASSERT_TRUE(result) << to_string(result.error());
     for (const Event& e : (*result)->monitor.events()) EXPECT_NE(e.stage, "restart") << e.what;
     hash = (*result)->report.output_sha256;

@@ -24,10 +24,10 @@ inline std::string text_of(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// Waits until it is so, half a minute at most.
+/// Waits until it is so; gives up after ten minutes, as only a fault makes it.
 inline bool becomes_true(const std::function<bool()>& is_so) {
   const LiveClock clock;
-  for (const Time last = clock.now() + std::chrono::seconds(30); clock.now() < last;) {
+  for (const Time last = clock.now() + std::chrono::minutes(10); clock.now() < last;) {
     if (is_so()) return true;
     (void)::poll(nullptr, 0, 5);
   }

@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <system_error>
 
+#include "drivers/peers/domain_claim.hpp"
 #include "drivers/peers/local_link.hpp"
 #include "tools/team/network/network.hpp"
 #include "tools/team/network/tun_device.hpp"
@@ -41,15 +42,15 @@ Result<Tap> open_tap(const std::filesystem::path& path) {
 
 class LoopbackNetwork final : public Network {
  public:
-  LoopbackNetwork(const LinkConfig& link, std::vector<Tap> taps) : taps_(std::move(taps)), radio_(link, taps_.size()) {}
+  LoopbackNetwork(const LinkConfig& link, std::vector<Tap> taps, peers::DomainClaim claim)
+      : taps_(std::move(taps)), claim_(std::move(claim)), radio_(link, taps_.size()) {}
 
   [[nodiscard]] std::string_view kind() const override {
     return "this machine's loopback, with the radio at each robot's local socket (network namespaces are refused here)";
   }
   [[nodiscard]] int namespace_of(Index /*robot*/) const override { return -1; }
   [[nodiscard]] std::vector<std::string> peer_arguments(Index /*robot*/) const override {
-    // Runs on one machine at the same time keep to domains of their own (DDS has 233).
-    const std::string domain = std::to_string(10 + ::getpid() % 200);
+    const std::string domain = std::to_string(claim_.domain());
     return {"--interface", "lo",       "--socket", kRadioSocket,           "--peer",
             "127.0.0.1",   "--domain", domain,     "--robots-per-address", std::to_string(taps_.size())};
   }
@@ -81,6 +82,7 @@ class LoopbackNetwork final : public Network {
   }
 
   std::vector<Tap> taps_;
+  peers::DomainClaim claim_;
   Radio radio_;
   std::vector<std::byte> memory_;
   std::vector<Radio::Packet> arrived_;
@@ -98,7 +100,9 @@ Result<std::unique_ptr<Network>> make_loopback_network(const LinkConfig& link,
     if (!tap) return tap.error();
     taps.push_back(*std::move(tap));
   }
-  return std::unique_ptr<Network>(std::make_unique<LoopbackNetwork>(link, std::move(taps)));
+  auto claim = peers::DomainClaim::make();
+  if (!claim) return claim.error();
+  return std::unique_ptr<Network>(std::make_unique<LoopbackNetwork>(link, std::move(taps), *std::move(claim)));
 }
 
 }  // namespace cairn::team

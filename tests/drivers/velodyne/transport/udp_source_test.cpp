@@ -15,7 +15,8 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Sends datagrams over loopback; they are in the receiver's buffer when send() returns.
+/// Sends datagrams over loopback. On a busy machine they may reach the receiver's buffer some time after send(), and
+/// those of two senders in any order.
 class Sender {
  public:
   explicit Sender(const char* from = "127.0.0.1") : fd_(socket(AF_INET, SOCK_DGRAM, 0)) {
@@ -54,8 +55,12 @@ Config loopback() {
 
 class UdpSourceTest : public testing::Test {
  protected:
+  static constexpr Duration kHang = 60s, kMoment = 10ms;
+  static constexpr int kMoments = kHang / kMoment;
+
   void open(const Config& config) { source = UdpSource::open(config, SourceId{2}, clock).value(); }
-  Poll next(Duration timeout = 1s) { return source->next(packet, timeout).value(); }
+  /// What a test waits for comes at once; only a fault lets the time run out.
+  Poll next(Duration timeout = kHang) { return source->next(packet, timeout).value(); }
 
   LiveClock clock;
   std::unique_ptr<UdpSource> source;
@@ -64,22 +69,30 @@ class UdpSourceTest : public testing::Test {
 };
 
 TEST_F(UdpSourceTest, DeliversBothPortsWithKernelStamps) {
-  open(loopback());
-  const Time before = clock.now();
-  sender.send(source->data_port(), test::Bytes(1206, std::byte{1}));
-  sender.send(source->position_port(), test::Bytes(512, std::byte{2}));
-  const Time after = clock.now();
+  constexpr Duration kTrusted = 500ms;  // the source takes no stamp that is a second old
+  std::vector<Packet> packets(2);
+  Time before, after;
+  do {
+    open(loopback());
+    before = clock.now();
+    sender.send(source->data_port(), test::Bytes(1206, std::byte{1}));
+    sender.send(source->position_port(), test::Bytes(512, std::byte{2}));
+    for (Packet& p : packets) {
+      ASSERT_EQ(next(), Poll::kPacket);
+      p = packet;
+    }
+    after = clock.now();
+  } while (after - before > kTrusted);  // the machine was busy: once more
   std::size_t sizes = 0;
-  for (std::uint64_t i = 0; i < 2; ++i) {
-    ASSERT_EQ(next(), Poll::kPacket);
-    const bool data = packet.channel == source->data_port();
-    EXPECT_EQ(packet.bytes, test::Bytes(data ? 1206 : 512, data ? std::byte{1} : std::byte{2}));
-    EXPECT_EQ(packet.sequence, i);
-    EXPECT_EQ(packet.source, SourceId{2});
-    EXPECT_FALSE(packet.truncated);
-    EXPECT_GE(packet.arrival, before - 1ms);  // the two clocks are read one after the other
-    EXPECT_LE(packet.arrival, after + 1ms);
-    sizes += packet.bytes.size();
+  for (const Packet& p : packets) {
+    const bool data = p.channel == source->data_port();
+    EXPECT_EQ(p.bytes, test::Bytes(data ? 1206 : 512, data ? std::byte{1} : std::byte{2}));
+    EXPECT_EQ(p.sequence, &p == packets.data() ? 0U : 1U);
+    EXPECT_EQ(p.source, SourceId{2});
+    EXPECT_FALSE(p.truncated);
+    EXPECT_GE(p.arrival, before - 1ms);  // the two clocks are read one after the other
+    EXPECT_LE(p.arrival, after + 1ms);
+    sizes += p.bytes.size();
   }
   EXPECT_EQ(sizes, 1206U + 512U);
   EXPECT_EQ(source->counters().unstamped, 0U);
@@ -113,22 +126,28 @@ TEST_F(UdpSourceTest, OtherSendersAreIgnored) {
   sensor.send(source->data_port(), test::Bytes(1206, std::byte{9}));
   ASSERT_EQ(next(), Poll::kPacket);
   EXPECT_EQ(packet.bytes[0], std::byte{9});
+  for (int i = 0; i < kMoments && source->counters().foreign < 10; ++i) EXPECT_EQ(next(kMoment), Poll::kTimeout);
   EXPECT_EQ(source->counters().foreign, 10U);
 }
 
 TEST_F(UdpSourceTest, FloodIsDroppedAndCannotHoldTheCaller) {
   Config config = loopback();
   config.max_packets_per_s = 100;  // ten in a window of 0.1 s
-  open(config);
-  for (int i = 0; i < 100; ++i) sender.send(source->data_port(), test::Bytes(16));
-  int delivered = 0;
-  int calls = 0;
-  for (Poll poll = next(0s); poll == Poll::kPacket; poll = next(0s)) ++delivered;
-  while (delivered + static_cast<int>(source->counters().flooded) < 100 && ++calls < 10)
-    delivered += next(0s) == Poll::kPacket ? 1 : 0;
-  EXPECT_EQ(delivered + static_cast<int>(source->counters().flooded), 100);
+  Time begin;
+  do {
+    open(config);
+    begin = clock.now();
+    for (int i = 0; i < 100; ++i) sender.send(source->data_port(), test::Bytes(16));
+    std::uint64_t before = 0;
+    for (int i = 0; i < kMoments && source->counters().delivered + source->counters().flooded < 100; ++i) {
+      (void)next(kMoment);
+      EXPECT_LE(source->counters().flooded - before, static_cast<std::uint64_t>(UdpSource::kMaxLooked))
+          << "in one call";
+      before = source->counters().flooded;
+    }
+  } while (clock.now() - begin > 90ms);  // the machine was busy, and they came in several windows: once more
+  EXPECT_EQ(source->counters().delivered + source->counters().flooded, 100U);
   EXPECT_GE(source->counters().flooded, 50U);
-  EXPECT_GE(calls, 1) << "one call looks at " << UdpSource::kMaxLooked;
 }
 
 TEST_F(UdpSourceTest, FullReceiveBufferIsNoticed) {
@@ -136,14 +155,14 @@ TEST_F(UdpSourceTest, FullReceiveBufferIsNoticed) {
   config.receive_buffer_bytes = 4096;
   open(config);
   EXPECT_GT(source->counters().receive_buffer_bytes, 0);
-  constexpr std::uint64_t kSent = 200;
-  for (std::uint64_t i = 0; i < kSent; ++i) sender.send(source->data_port(), test::Bytes(1206));
-  while (next(0s) == Poll::kPacket) {
-  }
-  sender.send(source->data_port(), test::Bytes(1206));  // brings the drop count along
-  ASSERT_EQ(next(), Poll::kPacket);
+  std::uint64_t sent = 0;
+  const auto send = [&] { sender.send(source->data_port(), test::Bytes(1206)), ++sent; };
+  while (sent < 200) send();
+  const auto noticed = [&] { return source->counters().kernel_drops + source->counters().delivered; };
+  for (int i = 0; i < kMoments && noticed() < sent; ++i)
+    if (next(kMoment) == Poll::kTimeout) send();  // brings the drop count along
   EXPECT_GT(source->counters().kernel_drops, 0U);
-  EXPECT_EQ(source->counters().kernel_drops + source->counters().delivered, kSent + 1);
+  EXPECT_EQ(noticed(), sent);
 }
 
 TEST_F(UdpSourceTest, GrantsTheReceiveBufferThatWasAskedForOrSaysWhatItGot) {

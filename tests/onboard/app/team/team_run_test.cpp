@@ -4,7 +4,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <atomic>
 #include <fstream>
+#include <functional>
 #include <optional>
 
 #include "drivers/peers/local_link.hpp"
@@ -13,8 +16,10 @@
 #include "fusion/peers/items/claim.hpp"
 #include "fusion/peers/items/tile_codec.hpp"
 #include "hal/workers.hpp"
+#include "onboard/app/live/live_view.hpp"
 #include "onboard/app/run.hpp"
 #include "onboard/mapping/files/map_file.hpp"
+#include "tests/support/local_socket.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/vlp16_drive.hpp"
@@ -26,16 +31,17 @@ namespace fs = std::filesystem;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 
-const Vector6 kMountOfLidar = (Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished();
+const Vector6 kPlayedMount = (Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished();
 constexpr double kSeconds = 1.6;
+constexpr std::size_t kLeastPlayed = 4, kLeastTiles = 50;
 
 void record_drive(const fs::path& folder) {
   recording::Recording index;
   index.robot = "first";
   index.realtime_offset_ns = 1'700'000'000'000'000'000;
-  index.sources.push_back({"lidar", "velodyne", "lidar.pcap", "lidar", "VLP-16", kMountOfLidar});
+  index.sources.push_back({"lidar", "velodyne", "lidar.pcap", "lidar", "VLP-16", kPlayedMount});
   auto writer = recording::RecordingWriter::create(folder, index).value();
-  const support::Vlp16Drive drive(support::lobby(), SE3::from_xyz_rpy(kMountOfLidar), kSeconds, 1);
+  const support::Vlp16Drive drive(support::lobby(), SE3::from_xyz_rpy(kPlayedMount), kSeconds, 1);
   for (const Packet& packet : drive.packets()) ASSERT_TRUE(writer.write(packet));
   ASSERT_TRUE(writer.close());
 }
@@ -56,12 +62,11 @@ class Peer {
     exchange_.say(peers::ItemId::tile(0, tile_at(60, 60, 1, 0.1)), bytes);
   }
 
-  /// For so long; the peer process between the two dies and comes back eight times a second.
-  void speak(Duration length) {
+  /// Until `over` says true; the peer process between the two dies and comes back eight times a second.
+  void speak(const std::function<bool()>& over) {
     const LiveClock clock;
-    const Time begin = clock.now();
-    for (int i = 0; i * kTick < length; ++i) {
-      LiveClock::wait_until(begin + i * kTick);
+    for (int i = 0; !over(); ++i) {
+      LiveClock::wait_until(clock.now() + kTick);
       hear(clock.now());
       if (i % 3 == 0) link_.emplace(peers::LocalLink::connect(socket_));
       (void)link_->join();
@@ -71,7 +76,11 @@ class Peer {
       for (const auto& datagram : out) link_->send({peers::LinkFrame::Kind::kReceived, 2, datagram.bytes});
     }
   }
-  [[nodiscard]] const peers::Exchange& exchange() const { return exchange_; }
+  /// Of the robot's map.
+  [[nodiscard]] std::size_t known_items() const {
+    const auto robot = exchange_.layers().find(1);
+    return robot == exchange_.layers().end() ? 0 : robot->second.holding.items().size();
+  }
 
  private:
   static constexpr Duration kTick = std::chrono::milliseconds(40);
@@ -96,6 +105,46 @@ class Peer {
   std::vector<std::byte> memory_;
 };
 
+/// A run while it goes on, as those see it who do not know what it is about to find.
+class Observed {
+ public:
+  /// Adds to the options what it needs; the run ends when `enough` says true.
+  Observed(RunOptions& options, const fs::path& live_view, std::function<bool(const Observed&)> enough)
+      : socket_(live_view), enough_(std::move(enough)) {
+    options.live_view = socket_;
+    options.seconds = 600;  // a hang
+    options.progress = [this](Time, std::size_t scans) { located_ = scans; };
+    options.stop = [this] { return look(); };
+  }
+  Observed(const Observed&) = delete;
+  Observed& operator=(const Observed&) = delete;
+  [[nodiscard]] std::size_t located() const { return located_; }
+  /// The last that it said of the peer with this name.
+  [[nodiscard]] const LiveView::Peer* peer(const std::string& name) const {
+    const auto found = std::ranges::find(view_.peers, name, &LiveView::Peer::name);
+    return found != view_.peers.end() ? &*found : nullptr;
+  }
+
+ private:
+  bool look() {
+    if (!client_) client_.emplace(socket_.string());  // the run serves it before it asks for the first time
+    text_ += client_->read();
+    if (const auto end = text_.rfind('\n'); end != std::string::npos) {
+      const auto begin = end > 0 ? text_.rfind('\n', end - 1) + 1 : 0;  // npos + 1 is 0
+      view_ = parse_line(text_.substr(begin, end + 1 - begin)).value();
+      text_.erase(0, end + 1);
+    }
+    return enough_(*this);
+  }
+
+  fs::path socket_;
+  std::function<bool(const Observed&)> enough_;
+  std::atomic<std::size_t> located_ = 0;
+  std::optional<support::StreamClient> client_;
+  std::string text_;
+  LiveView view_;
+};
+
 class TeamRun : public testing::Test {
  protected:
   TeamRun() {
@@ -115,24 +164,36 @@ class TeamRun : public testing::Test {
 TEST_F(TeamRun, IsRepeatedToTheBitThoughThePeerProcessDies) {
   record_drive(folder_ / "drive");
   options_.record = folder_ / "recorded";
-  options_.seconds = 6;
   Peer peer(folder_ / "p.sock");
+  std::atomic<bool> over = false, map_known = false;
+  Observed observed(options_, folder_ / "v.sock", [&](const Observed& run) {
+    const LiveView::Peer* second = run.peer("second");
+    return run.located() >= kLeastPlayed && map_known && second != nullptr && second->merged && second->tiles > 0;
+  });
   Result<std::unique_ptr<RunResult>> result = Error{Errc::kNotFound, "the run has not begun"};
   Workers both(2);
   both.for_each(2, [&](std::size_t side) {
-    side == 0 ? void(result = run(options_)) : peer.speak(from_seconds(*options_.seconds));
+    if (side == 0) {
+      result = run(options_);
+      over = true;
+    } else {
+      peer.speak([&] {
+        map_known = peer.known_items() > kLeastTiles;
+        return over.load();
+      });
+    }
   });
   ASSERT_TRUE(result) << to_string(result.error());
   const RunReport& ran = (*result)->report;
-  EXPECT_GT(ran.scans, 10U);
+  EXPECT_GE(ran.scans, kLeastPlayed);
   EXPECT_EQ(ran.control_thread_allocations, 0U);
   ASSERT_TRUE(ran.team);
   EXPECT_THAT(ran.team->merged_with, ElementsAre("second"));
   EXPECT_EQ(ran.team->anchor, 1U);
-  EXPECT_GT(ran.team->tiles, 50U);
+  EXPECT_GT(ran.team->tiles, kLeastTiles);
   EXPECT_TRUE(ran.peers.at("second").accepted);
   EXPECT_EQ(ran.peers.at("second").tiles, 1U);
-  EXPECT_GT(peer.exchange().layers().at(1).holding.items().size(), 50U) << "the peer knows the robot's map";
+  EXPECT_GT(peer.known_items(), kLeastTiles) << "the peer knows the robot's map";
   const auto map = load_map(options_.out / "team.cairn").value();
   const auto* pillar = map->search(map->keyToCoord(octomap::OcTreeKey(32768 + 600 + 3, 32768 + 600 + 4, 32768 + 8)));
   ASSERT_NE(pillar, nullptr);
@@ -164,10 +225,10 @@ TEST_F(TeamRun, WithoutAPlaceInATeamSaysHowToGetOne) {
 
 TEST_F(TeamRun, WithoutAPeerProcessTheRunIsAsGoodAsAlone) {
   record_drive(folder_ / "drive");
-  options_.seconds = kSeconds + 1;
+  Observed observed(options_, folder_ / "v.sock", [](const Observed& run) { return run.located() >= kLeastPlayed; });
   const auto result = run(options_);
   ASSERT_TRUE(result) << to_string(result.error());
-  EXPECT_GT((*result)->report.scans, 10U);
+  EXPECT_GE((*result)->report.scans, kLeastPlayed);
   EXPECT_THAT((*result)->report.team->merged_with, ElementsAre());
   EXPECT_TRUE(fs::exists(options_.out / "team.cairn"));
 }

@@ -6,8 +6,7 @@
 #include <fstream>
 
 #include "drivers/recording/formats/recording.hpp"
-#include "drivers/velodyne/transport/udp_source.hpp"
-#include "hal/clock.hpp"
+#include "tests/support/own_address.hpp"
 #include "tests/tools/cli/run_command.hpp"
 
 namespace cairn::cli {
@@ -20,29 +19,20 @@ Outcome record(std::vector<std::string> arguments) {
   return run(add_record_command, std::move(arguments));
 }
 
-/// Two UDP ports of loopback that nobody has: tests run side by side, so that none may choose its own.
-std::pair<int, int> free_ports() {
-  velodyne::Config any;
-  any.bind_address = "127.0.0.1";
-  any.data_port = any.position_port = 0;
-  const LiveClock clock;
-  const auto source = velodyne::UdpSource::open(any, SourceId{0}, clock).value();
-  return {source->data_port(), source->position_port()};
-}
+constexpr int kDataPort = 22368, kPositionPort = 28308;
 
-/// A profile that listens on loopback only, where nobody sends.
-std::string quiet_profile(const TemporaryFolder& folder, std::pair<int, int> ports = free_ports()) {
-  std::ofstream(folder / "robot.yaml") << "name: husky_7\nlidar:\n  model: HDL-32E\n  bind_address: 127.0.0.1\n"
-                                       << "  data_port: " << ports.first << "\n  position_port: " << ports.second
+/// A profile that listens where nobody sends.
+std::string quiet_profile(const TemporaryFolder& folder) {
+  std::ofstream(folder / "robot.yaml") << "name: husky_7\nlidar:\n  model: HDL-32E\n  bind_address: "
+                                       << support::own_address() << "\n  data_port: " << kDataPort
+                                       << "\n  position_port: " << kPositionPort
                                        << "\n  T_base_lidar: [0.1, 0, 0.7, 0, 0, 1.5]\n";
   return folder / "robot.yaml";
 }
 
 TEST(RecordCommand, SilenceIsAFailureThatNamesItsRemedy) {
   const TemporaryFolder folder;
-  const auto ports = free_ports();
-  const Outcome o =
-      record({"--config", quiet_profile(folder, ports), "--out", folder / "r", "--seconds", "0.1", "--json"});
+  const Outcome o = record({"--config", quiet_profile(folder), "--out", folder / "r", "--seconds", "0.1", "--json"});
   EXPECT_EQ(o.exit_code, kFailed);
   EXPECT_THAT(o.err, HasSubstr("check cable"));
   EXPECT_EQ(o.json()["packets"], 0);
@@ -51,8 +41,8 @@ TEST(RecordCommand, SilenceIsAFailureThatNamesItsRemedy) {
   EXPECT_EQ(r->robot, "husky_7");
   EXPECT_EQ(r->profile, "robot.yaml");
   EXPECT_EQ(r->sources[0].model, "HDL-32E");
-  EXPECT_EQ(r->sources[0].data_port, ports.first);
-  EXPECT_EQ(r->sources[0].position_port, ports.second);
+  EXPECT_EQ(r->sources[0].data_port, kDataPort);
+  EXPECT_EQ(r->sources[0].position_port, kPositionPort);
   EXPECT_EQ((*r->sources[0].base_sensor_xyz_rpy)[5], 1.5);
   EXPECT_GT(r->start_utc_ns, 1'700'000'000'000'000'000);
   EXPECT_THAT(r->notes, HasSubstr("kernel_drops"));
