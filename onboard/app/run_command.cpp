@@ -10,6 +10,7 @@
 #include <string>
 
 #include "onboard/app/live/stop_signal.hpp"
+#include "onboard/app/print_tasks.hpp"
 #include "onboard/app/run.hpp"
 #include "onboard/report/json/budgets.hpp"
 #include "onboard/report/json/report_json.hpp"
@@ -22,6 +23,7 @@ struct Arguments {
   std::filesystem::path budgets;
   std::string speed = "real";
   bool json = false;
+  bool print_tasks = false;
 };
 
 void show_progress(Time now, std::size_t scans) {
@@ -55,7 +57,15 @@ int judge(const std::vector<BudgetLimit>& limits, const RunReport& report) {
   return fail({Errc::kLimit, "budgets were exceeded", report.robot, {}, "see the table above"});
 }
 
+int show_tasks(const RunOptions& options) {
+  const auto text = cairn::print_tasks(options);
+  if (!text) return fail(text.error());
+  std::printf("%s", text->c_str());
+  return kDone;
+}
+
 int run_robot(Arguments a) {
+  if (a.print_tasks) return show_tasks(a.run);
   std::vector<BudgetLimit> limits;
   if (!a.budgets.empty()) {
     auto loaded = load_budgets(a.budgets);
@@ -119,6 +129,8 @@ void add_run_options(CLI::App& app, Commands& commands) {
       ->check(CLI::Range(1, 64));
   app.add_option("--seconds", a->run.seconds, "end after so much of the robot's time")->check(CLI::PositiveNumber);
   app.add_flag("--json", a->json, "print report.json on stdout");
+  app.add_flag("--print-tasks", a->print_tasks,
+               "print the tasks of the run (rate, priority, budget) and the channels between them, and end");
   app.callback([&commands, a] { commands.job = [a] { return run_robot(*a); }; });
 }
 

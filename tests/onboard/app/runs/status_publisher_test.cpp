@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/app/tasks/telling.hpp"
+#include "onboard/app/runs/status_publisher.hpp"
 
 #include <gtest/gtest.h>
 
+#include "onboard/scheduler/idle_task.hpp"
 #include "tests/support/local_socket.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -11,44 +12,43 @@ namespace {
 
 using namespace std::chrono_literals;
 
-class TellingTest : public testing::Test {
+class StatusPublisherTest : public testing::Test {
  protected:
-  TellingTest() {
-    scheduler::TaskSpec spec;
-    spec.name = "odometry";
-    spec.rate_hz = 10;
-    line_ = &executive_.add(spec);
-    executive_.add(spec).live_only = true;
+  StatusPublisherTest() {
+    const scheduler::TaskSpec spec{.name = "odometry", .rate_hz = 10};
+    odometry_ = &graph_.add(spec, idle_);
+    graph_.add(spec, idle_, scheduler::TaskRole::kLiveOnly);
   }
-  void run(Telling& telling, int steps, bool alive) {
+  void run(StatusPublisher& publisher, int steps, bool alive) {
     for (int i = 0; i < steps; ++i) {
-      if (alive) ++line_->stats.ticks;
-      well_ = telling.tick(now_ += 50ms);
+      if (alive) ++odometry_->stats.ticks;
+      well_ = publisher.tick(now_ += 50ms);
     }
   }
 
   support::TemporaryFolder folder_;
   Monitor monitor_;
-  scheduler::Executive executive_;
-  scheduler::Line* line_;
+  scheduler::IdleTask idle_;
+  scheduler::TaskGraph graph_;
+  scheduler::ScheduledTask* odometry_;
   Time now_{100s};
   bool well_ = true;
 };
 
-TEST_F(TellingTest, TheViewHoldsTheTasksTheModeAndTheEvents) {
-  Telling telling(executive_, monitor_, {"husky", {}, {}, {}}, now_);
-  line_->stats.response.record(12ms);
-  line_->stats.ticks = 5;
-  line_->stats.misses = 1;
+TEST_F(StatusPublisherTest, TheViewHoldsTheTasksTheModeAndTheEvents) {
+  StatusPublisher publisher(graph_, monitor_, {"husky", {}, {}, {}}, now_);
+  odometry_->stats.response.record(12ms);
+  odometry_->stats.ticks = 5;
+  odometry_->stats.misses = 1;
   monitor_.event(now_, "lidar", "late");
   FailsafeDecision decision;
   decision.mode = Mode::kHold;
   decision.cause = Fault::kLidarSilent;
   decision.active = {Fault::kLidarLate, Fault::kLidarSilent};
   decision.epoch = 3;
-  telling.set_decision(decision);
-  telling.set_shed(Shed::kSemantics);
-  const LiveView v = telling.view(now_);
+  publisher.set_decision(decision);
+  publisher.set_shed(Shed::kSemantics);
+  const LiveView v = publisher.view(now_);
   ASSERT_EQ(v.stages.size(), 2U);
   EXPECT_NEAR(v.stages[0].p99_ms, 12, 0.1);
   EXPECT_EQ(v.stages[0].misses, 1U);
@@ -59,25 +59,25 @@ TEST_F(TellingTest, TheViewHoldsTheTasksTheModeAndTheEvents) {
   EXPECT_EQ(v.events.back().what, "late");
 }
 
-TEST_F(TellingTest, OneLinePerSecondAndSignsOfLifeWhileAllIsWell) {
+TEST_F(StatusPublisherTest, OneLinePerSecondAndSignsOfLifeWhileAllIsWell) {
   support::DatagramListener manager((folder_ / "notify").string());
-  Telling telling(executive_, monitor_, {"husky", folder_ / "live", (folder_ / "notify").string(), 1s}, now_);
+  StatusPublisher publisher(graph_, monitor_, {"husky", folder_ / "live", (folder_ / "notify").string(), 1s}, now_);
   EXPECT_EQ(manager.next(), "READY=1");
   support::StreamClient viewer(folder_ / "live");
-  run(telling, 60, true);
+  run(publisher, 60, true);
   EXPECT_TRUE(well_);
   const std::string seen = viewer.read();
   EXPECT_EQ(std::count(seen.begin(), seen.end(), '\n'), 3);
   EXPECT_NE(manager.next().find("WATCHDOG=1"), std::string::npos);
-  run(telling, 40, false);
+  run(publisher, 40, false);
   EXPECT_FALSE(well_);
   EXPECT_EQ(monitor_.events().back().what, "task odometry hangs");
 }
 
-TEST_F(TellingTest, WhatCannotBeOpenedIsAnEvent) {
-  Telling telling(executive_, monitor_, {"husky", folder_ / "no" / "folder", "relative", {}}, now_);
+TEST_F(StatusPublisherTest, WhatCannotBeOpenedIsAnEvent) {
+  StatusPublisher publisher(graph_, monitor_, {"husky", folder_ / "no" / "folder", "relative", {}}, now_);
   EXPECT_EQ(monitor_.events().size(), 2U);
-  run(telling, 20, true);
+  run(publisher, 20, true);
   EXPECT_TRUE(well_);
 }
 
