@@ -68,7 +68,7 @@ class EdgeReader final : public scheduler::Task {
 recording::Recording gpio_recording() {
   recording::Recording index;
   index.robot = "husky_1";
-  index.sources.push_back({"gpio", "gpio", "gpio.csv", "base_link", ""});
+  index.sources.push_back({"gpio", recording::kGpio, "gpio.csv", "base_link", ""});
   return index;
 }
 

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "onboard/app/door/fitted.hpp"
 #include "onboard/app/profile/schedule_profile.hpp"
 #include "onboard/app/tasks/drive_task.hpp"
 #include "onboard/app/tasks/odometry_task.hpp"
@@ -29,17 +30,13 @@ class TaskRig {
   TaskRig(const TaskRig&) = delete;
   TaskRig& operator=(const TaskRig&) = delete;
 
-  void add(std::string_view kind, std::unique_ptr<Source> source, std::unique_ptr<ScanDecoder> decoder = nullptr) {
+  void add(recording::SensorKind kind, std::unique_ptr<Source> source, std::unique_ptr<ScanDecoder> decoder = nullptr) {
     Input& input = inputs_.emplace_back();
     input.entry.kind = kind;
     input.source = std::move(source);
     input.scans = std::move(decoder);
     receive_.add(input, static_cast<SourceId>(inputs_.size() - 1), {});
-    const auto what = kind == recording::kVelodyne ? Watched::kLidar
-                      : kind == recording::kCamera ? Watched::kCamera
-                      : kind == recording::kDepth  ? Watched::kDepth
-                                                   : Watched::kThermal;
-    fitted_.watched[static_cast<std::size_t>(what)] = true;
+    fitted_.watched[static_cast<std::size_t>(watched_as(kind).value())] = true;
   }
 
   /// `fault`: what its beginning is known by; none: anything.

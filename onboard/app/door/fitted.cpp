@@ -2,20 +2,39 @@
 #include "onboard/app/door/fitted.hpp"
 
 #include <algorithm>
+#include <array>
 
 namespace cairn {
 
-bool has_kind(std::span<const recording::SourceEntry> sources, std::string_view kind) {
-  return std::ranges::any_of(sources, [&](const recording::SourceEntry& entry) { return entry.kind == kind; });
+namespace {
+
+struct WatchedRow {
+  recording::SensorKind kind;
+  std::optional<Watched> watched;
+};
+constexpr std::array kWatchedAs{
+    WatchedRow{recording::kVelodyne, Watched::kLidar}, WatchedRow{recording::kScans, Watched::kLidar},
+    WatchedRow{recording::kCamera, Watched::kCamera},  WatchedRow{recording::kThermal, Watched::kThermal},
+    WatchedRow{recording::kDepth, Watched::kDepth},    WatchedRow{recording::kDrive, Watched::kFeedback},
+    WatchedRow{recording::kGpio, std::nullopt},  // the e-stop has rules of its own
+    WatchedRow{recording::kPeers, std::nullopt},
+};
+static_assert(recording::one_row_per_kind(kWatchedAs));
+
+}  // namespace
+
+bool has_kind(std::span<const recording::SourceEntry> sources, recording::SensorKind kind) {
+  return std::ranges::find(sources, kind, &recording::SourceEntry::kind) != sources.end();
 }
 
+std::optional<Watched> watched_as(recording::SensorKind kind) { return recording::row_of(kind, kWatchedAs).watched; }
+
 Fitted fitted_with(std::span<const recording::SourceEntry> sources, const RobotProfile& profile) {
-  const auto has = [&](std::string_view kind) { return has_kind(sources, kind); };
   Fitted fitted;
-  fitted.watched = {has(recording::kVelodyne) || has(recording::kScans), has(recording::kCamera),
-                    has(recording::kThermal), has(recording::kDepth), has(recording::kDrive)};
-  fitted.drive = has(recording::kDrive);
-  fitted.estop = has(recording::kGpio) && !profile.gpio.driver.estop_line.empty();
+  for (const recording::SourceEntry& entry : sources)
+    if (const auto watched = watched_as(entry.kind)) fitted.watched[static_cast<std::size_t>(*watched)] = true;
+  fitted.drive = has_kind(sources, recording::kDrive);
+  fitted.estop = has_kind(sources, recording::kGpio) && !profile.gpio.driver.estop_line.empty();
   return fitted;
 }
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
-#include <string_view>
 
 #include "drivers/recording/formats/recording.hpp"
 #include "onboard/app/profile/robot_profile.hpp"
@@ -10,7 +10,10 @@
 
 namespace cairn {
 
-[[nodiscard]] bool has_kind(std::span<const recording::SourceEntry> sources, std::string_view kind);
+[[nodiscard]] bool has_kind(std::span<const recording::SourceEntry> sources, recording::SensorKind kind);
+
+/// As what the failsafe watches a sensor for silence; none: it is not watched.
+[[nodiscard]] std::optional<Watched> watched_as(recording::SensorKind kind);
 
 /// What the robot carries, as far as the failsafe watches it. An e-stop counts when the profile names its line: a GPIO
 /// chip may serve the camera trigger alone.

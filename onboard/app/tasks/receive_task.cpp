@@ -3,20 +3,11 @@
 
 #include <algorithm>
 
+#include "onboard/app/door/fitted.hpp"
+
 namespace cairn {
 
 using scheduler::Tick;
-
-namespace {
-
-std::optional<Watched> watched_as(std::string_view kind) {
-  if (kind == recording::kCamera) return Watched::kCamera;
-  if (kind == recording::kThermal) return Watched::kThermal;
-  if (kind == recording::kDepth) return Watched::kDepth;
-  return std::nullopt;
-}
-
-}  // namespace
 
 ReceiveTask::ReceiveTask(Monitor& monitor) : monitor_(monitor), decode_stage_(monitor.stage("decode")) {}
 

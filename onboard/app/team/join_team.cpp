@@ -30,7 +30,8 @@ Result<void> check_team_place(const RobotProfile& profile) {
 
 recording::SourceEntry peers_entry() {
   recording::SourceEntry entry;
-  entry.id = entry.kind = recording::kPeers;
+  entry.id = to_string(recording::kPeers);
+  entry.kind = recording::kPeers;
   entry.file = "peers.log";
   return entry;
 }

@@ -43,7 +43,7 @@ TEST(PrintTasks, AReplayHasNoneThatIsLiveOnly) {
   std::ofstream(folder / "data.csv") << "";
   recording::Recording index;
   index.robot = "husky_1";
-  index.sources.push_back({"lidar", "scans", "data.csv", "lidar", ""});
+  index.sources.push_back({"lidar", recording::kScans, "data.csv", "lidar", ""});
   ASSERT_TRUE(recording::save_recording(folder / ".", index));
   RunOptions options;
   options.recording = folder / ".";

@@ -6,7 +6,7 @@
 namespace cairn {
 namespace {
 
-Fitted with(std::string_view kind, const RobotProfile& profile = {}) {
+Fitted with(recording::SensorKind kind, const RobotProfile& profile = {}) {
   std::vector<recording::SourceEntry> sources(1);
   sources[0].kind = kind;
   return fitted_with(sources, profile);

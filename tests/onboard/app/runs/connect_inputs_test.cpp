@@ -24,9 +24,10 @@ class OnePacket final : public Source {
 };
 
 struct ConnectInputsTest : ::testing::Test {
-  void add(std::string_view kind, Time arrival) {
+  void add(recording::SensorKind kind, Time arrival) {
     Input& input = door.inputs.emplace_back();
-    input.entry.id = input.entry.kind = kind;
+    input.entry.id = to_string(kind);
+    input.entry.kind = kind;
     input.source = std::make_unique<OnePacket>(arrival);
     door.recording.sources.push_back(input.entry);
   }

@@ -18,7 +18,7 @@ struct ReplayRunTest : ::testing::Test {
     options.recording = "a recording";
     options.pace = Pace::kMaximum;
     Input& input = door.inputs.emplace_back();
-    input.entry.id = input.entry.kind = recording::kCamera;
+    input.entry.kind = recording::kCamera;
     input.source = std::make_unique<NoPackets>();
     door.recording.sources.push_back(input.entry);
   }

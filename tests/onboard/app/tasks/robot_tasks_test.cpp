@@ -10,9 +10,9 @@ namespace {
 
 using recording::SourceEntry;
 
-std::vector<SourceEntry> sources(std::initializer_list<std::string_view> kinds) {
+std::vector<SourceEntry> sources(std::initializer_list<recording::SensorKind> kinds) {
   std::vector<SourceEntry> list;
-  for (const std::string_view kind : kinds) list.emplace_back().kind = kind;
+  for (const recording::SensorKind kind : kinds) list.emplace_back().kind = kind;
   return list;
 }
 
