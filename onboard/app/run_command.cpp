@@ -108,26 +108,31 @@ void add_run_command(Commands& commands) {
 
 void add_run_options(CLI::App& app, Commands& commands) {
   auto a = std::make_shared<Arguments>();
-  app.add_option("--config", a->run.config, "robot profile, such as config/husky.yaml; defaults without one");
-  app.add_option("--recording", a->run.recording, "folder of a recording; live hardware without one");
-  app.add_option("--out", a->run.out, "folder for what the run leaves")->default_val("cairn-out");
-  app.add_option("--record", a->run.record, "live: also keep every packet and the schedule, for a replay to the bit");
+  app.add_option("--config", a->run.config, "robot profile, such as config/husky.yaml; without it: the defaults");
+  app.add_option("--recording", a->run.recording, "folder of a recording; without it: live hardware");
+  app.add_option("--out", a->run.out, "folder for the results")->default_val("cairn-out");
+  app.add_option("--record", a->run.record,
+                 "live: keep every packet and the schedule in this folder; a replay of it gives the same bits");
   app.add_option(
       "--state", a->run.state,
-      "live: keep map and pose in this folder, and go on from there after a crash; see the profile's restart");
+      "live: keep map and pose in this folder; after a crash, the next run goes on from there (profile: restart)");
   app.add_flag(
       "--peers", a->run.peers,
-      "take part in the team, through the peer process (cairn-peers) at the profile's team.socket; a recording "
-      "is played as if it were the robot's devices");
-  app.add_option("--live-view", a->run.live_view, "live: a local socket for cairn top, such as /run/cairn/live.sock");
-  app.add_option("--schedule", a->run.schedule, "repeat the schedule.log of a live run; a recording may hold its own");
-  app.add_option("--speed", a->speed, "of a recording: as it was made, or as fast as possible in virtual time")
+      "take part in the team, through the peer process (cairn-peers) at team.socket of the profile; a recording is "
+      "played as if by the robot's devices");
+  app.add_option("--live-view", a->run.live_view, "live: local socket for cairn top, such as /run/cairn/live.sock");
+  app.add_option("--schedule", a->run.schedule,
+                 "repeat this schedule.log of a live run, instead of the recording's own");
+  app.add_option("--speed", a->speed, "pace of a recording: as it was made, or as fast as possible")
       ->check(CLI::IsMember({"real", "max"}))
       ->default_val("real");
-  app.add_option("--assert", a->budgets, "fail when a budget is exceeded, such as config/budgets/husky.yaml");
-  app.add_option("--threads", a->run.threads, "instead of the profile's; the result does not depend on it")
+  app.add_option("--assert", a->budgets,
+                 "fail when one of these budgets is exceeded, such as config/budgets/husky.yaml");
+  app.add_option("--threads", a->run.threads,
+                 "threads of a stage, instead of the profile's; the result does not depend on them")
       ->check(CLI::Range(1, 64));
-  app.add_option("--seconds", a->run.seconds, "end after so much of the robot's time")->check(CLI::PositiveNumber);
+  app.add_option("--seconds", a->run.seconds, "end after so many seconds of the robot's time")
+      ->check(CLI::PositiveNumber);
   app.add_flag("--json", a->json, "print report.json on stdout");
   app.add_flag("--print-tasks", a->print_tasks,
                "print the tasks of the run (rate, priority, budget) and the channels between them, and end");
