@@ -13,7 +13,7 @@ namespace cairn {
 class RobotTasks;
 struct RunOptions;
 
-/// All that is known when a run has ended.
+/// What the output of a run is made of.
 struct RunFacts {
   const RunOptions& options;
   const RobotProfile& profile;
@@ -22,9 +22,9 @@ struct RunFacts {
   Duration shift{};  ///< see Recording::time_shift_ns
 };
 
-/// Makes the folder, so that a run does not end with nowhere to go.
+/// Makes the folder and a file in it, before the run: a run must not end with "permission denied". Error kIo.
 Result<void> prepare_output(const std::filesystem::path& out);
-/// Writes every file of interface.md's "What a run leaves" into options.out and returns what the report says.
+/// Writes trajectory, maps, reports and configuration into options.out and returns the report. Error kIo.
 Result<RunReport> write_output(const RunFacts& facts);
 
 }  // namespace cairn

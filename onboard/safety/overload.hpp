@@ -9,7 +9,8 @@
 
 namespace cairn {
 
-/// What is left undone under overload: each level includes those before it. Never drive, safety or odometry.
+/// The work that is left out under overload. Each level includes those before it. Drive, safety and odometry are never
+/// left out.
 enum class Shed : std::uint8_t {
   kNothing,
   kPeerTiles,       ///< peers' tiles wait
@@ -20,7 +21,7 @@ enum class Shed : std::uint8_t {
 inline constexpr int kShedLevels = 5;
 [[nodiscard]] std::string_view to_string(Shed level);
 
-/// A level as mapping and its neighbours use it.
+/// What a level means for mapping and its neighbours.
 struct ShedPlan {
   bool peer_tiles = true, semantics = true;
   int point_stride = 1;  ///< every n-th point of a scan goes into the map, counted from its first
@@ -28,7 +29,7 @@ struct ShedPlan {
 };
 [[nodiscard]] ShedPlan plan_of(Shed level);
 
-/// What one tick of the pipeline cost, and what waits.
+/// The load of the pipeline in one tick.
 struct Load {
   double utilisation = 0;  ///< the worst stage's response / its budget
   int soft_overruns = 0;   ///< of all stages, since the last step
@@ -43,8 +44,8 @@ struct OverloadConfig {
 };
 void declare(config::Section& section, OverloadConfig& config);
 
-/// Load → what to leave undone. Pure. Between `low` and `high` nothing changes, so that a level which brings the load
-/// there is kept. With ticks of 100 ms or less, all work is back within a second of the load's end.
+/// Decides from the load which work to leave out. Pure. Between `low` and `high` nothing changes, so a level that
+/// brings the load there is kept. With ticks of 100 ms or less, all work is back one second after the load has ended.
 class OverloadController {
  public:
   explicit OverloadController(const OverloadConfig& config) : config_(config) {}
