@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/recording/recording_reader.hpp"
 
+#include <array>
 #include <optional>
 #include <string>
 #include <utility>
@@ -87,39 +88,83 @@ Opened as_source(Result<std::unique_ptr<T>> opened) {
   return std::unique_ptr<Source>(std::move(*opened));
 }
 
-Opened open_capture(const std::filesystem::path& file, const SourceEntry& entry, SourceId id) {
-  PcapSource::Options options;
-  options.source = id;
-  options.ports = {entry.data_port, entry.position_port};
-  auto capture = PcapSource::open(file, options);
-  if (!capture) return capture.error();
-  return std::unique_ptr<Source>(std::make_unique<CaptureSource>(std::move(*capture), file.string()));
+/// A source that is to be opened.
+struct Recorded {
+  const std::filesystem::path& dir;
+  const Recording& recording;
+  const SourceEntry& entry;
+  SourceId id;
+
+  [[nodiscard]] Result<std::filesystem::path> file() const { return resolve_inside(dir, entry.file); }
+};
+
+Opened on_robot_time(Opened utc, const std::filesystem::path& file, const Recorded& r) {
+  if (!utc) return utc;
+  return std::unique_ptr<Source>(
+      std::make_unique<UtcSource>(std::move(*utc), file.string(), r.recording.realtime_offset_ns));
 }
 
-Opened open_can(const std::filesystem::path& file, SourceId id) {
-  return as_source(drive::CandumpSource::open(
-      file, {.source = id, .interface = {}, .stamps = drive::CandumpTime::Stamps::kSinceStart}));
+Opened open_capture(const Recorded& r) {
+  const auto file = r.file();
+  if (!file) return file.error();
+  PcapSource::Options options;
+  options.source = r.id;
+  options.ports = {r.entry.data_port, r.entry.position_port};
+  auto capture = PcapSource::open(*file, options);
+  if (!capture) return capture.error();
+  return on_robot_time(std::unique_ptr<Source>(std::make_unique<CaptureSource>(std::move(*capture), file->string())),
+                       *file, r);
 }
+
+Opened open_scans(const Recorded& r) { return as_source(ScanSource::open(r.dir, r.entry.file)); }
+
+template <camera::FrameFormat kDeepFormat>
+Opened open_pictures(const Recorded& r) {
+  return as_source(ImageFolderSource::open(r.dir, r.entry.file, {r.id, kDeepFormat}));
+}
+
+Opened open_can(const Recorded& r) {
+  const auto file = r.file();
+  if (!file) return file.error();
+  const drive::CandumpSource::Options options{
+      .source = r.id, .interface = {}, .stamps = drive::CandumpTime::Stamps::kSinceStart};
+  return on_robot_time(as_source(drive::CandumpSource::open(*file, options)), *file, r);
+}
+
+Opened open_gpio(const Recorded& r) {
+  const auto file = r.file();
+  if (!file) return file.error();
+  return as_source(gpio::CsvSource::open(*file, r.id));
+}
+
+Opened open_peers(const Recorded& r) {
+  const auto file = r.file();
+  if (!file) return file.error();
+  return as_source(peers::PeersLogSource::open(*file, r.id));
+}
+
+struct ReaderRow {
+  SensorKind kind;
+  Opened (*open)(const Recorded&);
+};
+constexpr std::array kReaders{
+    ReaderRow{kVelodyne, open_capture},
+    ReaderRow{kScans, open_scans},
+    ReaderRow{kCamera, open_pictures<camera::FrameFormat::kY16>},
+    ReaderRow{kThermal, open_pictures<camera::FrameFormat::kY16>},
+    ReaderRow{kDepth, open_pictures<camera::FrameFormat::kZ16>},
+    ReaderRow{kDrive, open_can},
+    ReaderRow{kGpio, open_gpio},
+    ReaderRow{kPeers, open_peers},
+};
+static_assert(one_row_per_kind(kReaders));
 
 }  // namespace
 
 Result<std::unique_ptr<Source>> open_recorded_source(const std::filesystem::path& dir, const Recording& recording,
                                                      std::size_t i) {
   const SourceEntry& entry = recording.sources[i];
-  const auto id = static_cast<SourceId>(i);
-  if (entry.kind == kScans) return as_source(ScanSource::open(dir, entry.file));
-  if (is_picture_kind(entry.kind)) {
-    const auto deep = entry.kind == kDepth ? camera::FrameFormat::kZ16 : camera::FrameFormat::kY16;
-    return as_source(ImageFolderSource::open(dir, entry.file, {id, deep}));
-  }
-  const auto file = resolve_inside(dir, entry.file);
-  if (!file) return file.error();
-  if (entry.kind == kGpio) return as_source(gpio::CsvSource::open(*file, id));
-  if (entry.kind == kPeers) return as_source(peers::PeersLogSource::open(*file, id));
-  auto utc = entry.kind == kDrive ? open_can(*file, id) : open_capture(*file, entry, id);
-  if (!utc) return utc;
-  return std::unique_ptr<Source>(
-      std::make_unique<UtcSource>(std::move(*utc), file->string(), recording.realtime_offset_ns));
+  return row_of(entry.kind, kReaders).open({dir, recording, entry, static_cast<SourceId>(i)});
 }
 
 Result<std::unique_ptr<RecordingReader>> RecordingReader::open(const std::filesystem::path& dir) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/recording/source_writer.hpp"
 
+#include <array>
 #include <cstdio>
 #include <string>
 #include <system_error>
@@ -19,15 +20,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The name that drive.log gives the robot's bus: `canplayer vcan0=can0 -I drive.log` plays it on another.
+/// The name of the robot's bus in drive.log: `canplayer vcan0=can0 -I drive.log` plays it on another bus.
 constexpr const char* kBus = "can0";
 
-/// The folder of the sweeps listed in `index`: scans for data.csv, and one of its own for any other index.
+/// The folder of the sweeps that `index` lists: scans for data.csv, and a folder of its own for any other index.
 std::string scans_folder(const std::string& index) {
   return index == "data.csv" ? "scans" : "scans_" + fs::path(index).stem().string();
 }
 
-/// The sensor's factory address, counted up for further sensors: a recording does not know where its packets came from.
+/// The factory address of the sensor, counted up for further sensors. Packets do not keep where they came from.
 Ipv4 sensor_address(std::size_t source) { return {192, 168, 1, static_cast<std::uint8_t>(201 + source % 50)}; }
 
 class Datagrams final : public SourceWriter {
@@ -154,37 +155,62 @@ class PeerRecords final : public SourceWriter {
 
 using Opened = Result<std::unique_ptr<SourceWriter>>;
 
-Opened open_datagrams(const fs::path& file, std::size_t index, std::int64_t offset) {
-  auto pcap = PcapWriter::create(file);
+/// A source whose files are to be made.
+struct Target {
+  const fs::path& dir;
+  const fs::path& file;
+  const Recording& recording;
+  const SourceEntry& entry;
+  std::size_t index;
+};
+
+Opened open_datagrams(const Target& t) {
+  auto pcap = PcapWriter::create(t.file);
   if (!pcap) return pcap.error();
-  return std::unique_ptr<SourceWriter>(std::make_unique<Datagrams>(std::move(*pcap), index, offset));
+  return std::unique_ptr<SourceWriter>(
+      std::make_unique<Datagrams>(std::move(*pcap), t.index, t.recording.realtime_offset_ns));
 }
 
-Opened open_pictures(const fs::path& index) {
-  auto folder = ImageFolderWriter::create(index.parent_path());
+Opened open_pictures(const Target& t) {
+  auto folder = ImageFolderWriter::create(t.file.parent_path());
   if (!folder) return folder.error();
   return std::unique_ptr<SourceWriter>(std::make_unique<Pictures>(std::move(*folder)));
 }
 
-Opened open_sweeps(const fs::path& dir, const SourceEntry& entry, AppendFile index) {
-  const std::string folder = scans_folder(entry.file);
+Opened open_sweeps(const Target& t) {
+  auto index = AppendFile::create(t.file);
+  if (!index) return index.error();
+  const std::string folder = scans_folder(t.entry.file);
   std::error_code error;
-  fs::create_directories(dir / folder, error);
-  if (error) return Error{Errc::kIo, "cannot create the folder", (dir / folder).string(), {}, error.message()};
-  if (auto header = index.append_line(kScanIndexHeader); !header) return header.error();
-  return std::unique_ptr<SourceWriter>(std::make_unique<Sweeps>(std::move(index), dir, folder));
+  fs::create_directories(t.dir / folder, error);
+  if (error) return Error{Errc::kIo, "cannot create the folder", (t.dir / folder).string(), {}, error.message()};
+  if (auto header = index->append_line(kScanIndexHeader); !header) return header.error();
+  return std::unique_ptr<SourceWriter>(std::make_unique<Sweeps>(std::move(*index), t.dir, folder));
 }
 
-Opened open_gpio(AppendFile file) {
-  if (auto header = file.append_line(gpio::kCsvHeader); !header) return header.error();
-  return std::unique_ptr<SourceWriter>(std::make_unique<GpioLines>(std::move(file)));
+Opened open_can(const Target& t) {
+  auto file = AppendFile::create(t.file);
+  if (!file) return file.error();
+  return std::unique_ptr<SourceWriter>(std::make_unique<CanLines>(std::move(*file), t.recording.realtime_offset_ns));
 }
 
-Opened open_peers(AppendFile file) {
-  peers::append_log_header(file.buffer());
-  if (auto header = file.end_record(); !header) return header.error();
-  return std::unique_ptr<SourceWriter>(std::make_unique<PeerRecords>(std::move(file)));
+Opened open_gpio(const Target& t) {
+  auto file = AppendFile::create(t.file);
+  if (!file) return file.error();
+  if (auto header = file->append_line(gpio::kCsvHeader); !header) return header.error();
+  return std::unique_ptr<SourceWriter>(std::make_unique<GpioLines>(std::move(*file)));
 }
+
+Opened open_peers(const Target& t) {
+  auto file = AppendFile::create(t.file);
+  if (!file) return file.error();
+  peers::append_log_header(file->buffer());
+  if (auto header = file->end_record(); !header) return header.error();
+  return std::unique_ptr<SourceWriter>(std::make_unique<PeerRecords>(std::move(*file)));
+}
+
+/// Adds the files of a source that its own file lists.
+using AddListed = void (*)(const fs::path& dir, const SourceEntry& entry, std::vector<fs::path>& files);
 
 void add_files(const fs::path& folder, std::initializer_list<const char*> extensions, std::vector<fs::path>& files) {
   std::error_code error;
@@ -192,24 +218,42 @@ void add_files(const fs::path& folder, std::initializer_list<const char*> extens
     for (const char* extension : extensions)
       if (entry.is_regular_file(error) && entry.path().extension() == extension) files.push_back(entry.path());
 }
+void add_nothing(const fs::path& /*dir*/, const SourceEntry& /*entry*/, std::vector<fs::path>& /*files*/) {}
+void add_sweeps(const fs::path& dir, const SourceEntry& entry, std::vector<fs::path>& files) {
+  add_files(dir / scans_folder(entry.file), {".bin"}, files);
+}
+void add_pictures(const fs::path& dir, const SourceEntry& entry, std::vector<fs::path>& files) {
+  add_files((dir / entry.file).parent_path() / "data", {".png", ".jpg"}, files);
+}
+
+struct WriterRow {
+  SensorKind kind;
+  Opened (*open)(const Target&);
+  AddListed add_listed;
+};
+constexpr std::array kWriters{
+    WriterRow{.kind = kVelodyne, .open = open_datagrams, .add_listed = add_nothing},
+    WriterRow{.kind = kScans, .open = open_sweeps, .add_listed = add_sweeps},
+    WriterRow{.kind = kCamera, .open = open_pictures, .add_listed = add_pictures},
+    WriterRow{.kind = kThermal, .open = open_pictures, .add_listed = add_pictures},
+    WriterRow{.kind = kDepth, .open = open_pictures, .add_listed = add_pictures},
+    WriterRow{.kind = kDrive, .open = open_can, .add_listed = add_nothing},
+    WriterRow{.kind = kGpio, .open = open_gpio, .add_listed = add_nothing},
+    WriterRow{.kind = kPeers, .open = open_peers, .add_listed = add_nothing},
+};
+static_assert(one_row_per_kind(kWriters));
 
 }  // namespace
 
 Result<std::unique_ptr<SourceWriter>> open_source_writer(const fs::path& dir, const Recording& recording,
                                                          std::size_t index) {
   const SourceEntry& entry = recording.sources[index];
-  const fs::path path = dir / entry.file;
+  const fs::path file = dir / entry.file;
   std::error_code error;
-  fs::create_directories(path.parent_path(), error);
-  if (error) return Error{Errc::kIo, "cannot create the folder", path.parent_path().string(), {}, error.message()};
-  if (entry.kind == kVelodyne) return open_datagrams(path, index, recording.realtime_offset_ns);
-  if (is_picture_kind(entry.kind)) return open_pictures(path);
-  auto file = AppendFile::create(path);
-  if (!file) return file.error();
-  if (entry.kind == kScans) return open_sweeps(dir, entry, std::move(*file));
-  if (entry.kind == kGpio) return open_gpio(std::move(*file));
-  if (entry.kind == kPeers) return open_peers(std::move(*file));
-  return std::unique_ptr<SourceWriter>(std::make_unique<CanLines>(std::move(*file), recording.realtime_offset_ns));
+  fs::create_directories(file.parent_path(), error);
+  if (error) return Error{Errc::kIo, "cannot create the folder", file.parent_path().string(), {}, error.message()};
+  return row_of(entry.kind, kWriters)
+      .open({.dir = dir, .file = file, .recording = recording, .entry = entry, .index = index});
 }
 
 std::vector<fs::path> existing_files(const fs::path& dir, const SourceEntry& entry) {
@@ -218,8 +262,7 @@ std::vector<fs::path> existing_files(const fs::path& dir, const SourceEntry& ent
   const fs::path own = dir / entry.file;
   std::error_code error;
   if (fs::exists(fs::symlink_status(own, error))) files.push_back(own);
-  if (entry.kind == kScans) add_files(dir / scans_folder(entry.file), {".bin"}, files);
-  if (is_picture_kind(entry.kind)) add_files(own.parent_path() / "data", {".png", ".jpg"}, files);
+  row_of(entry.kind, kWriters).add_listed(dir, entry, files);
   return files;
 }
 

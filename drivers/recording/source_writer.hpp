@@ -27,7 +27,7 @@ class SourceWriter {
 [[nodiscard]] Result<std::unique_ptr<SourceWriter>> open_source_writer(const std::filesystem::path& dir,
                                                                        const Recording& recording, std::size_t index);
 
-/// The files of this source that exist in `dir`: its own, and those that it lists.
+/// The files of this source that exist in `dir`: its own file, and the files that it lists.
 [[nodiscard]] std::vector<std::filesystem::path> existing_files(const std::filesystem::path& dir,
                                                                 const SourceEntry& entry);
 

@@ -7,13 +7,15 @@
 #include "onboard/app/restart/restart.hpp"
 #include "onboard/app/restart/start_log.hpp"
 #include "onboard/app/run_output.hpp"
+#include "onboard/app/runs/live_run.hpp"
+#include "onboard/app/runs/replay_run.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
 #include "onboard/app/team/join_team.hpp"
 
 namespace cairn {
 namespace {
 
-/// A schedule that is asked for goes before the recording's own.
+/// The schedule of the options goes before the recording's own.
 Result<void> take_schedule(const RunOptions& options, Door& door) {
   if (options.schedule.empty()) return {};
   auto log = scheduler::load_schedule_log(options.schedule);
@@ -39,18 +41,19 @@ Result<void> check_schedule(const RobotProfile& profile) {
   return scheduler::validate(tasks, static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
 }
 
-/// The past of a live run, in its state folder; what fails there must not keep the robot from starting.
-struct Past {
-  Past(const std::filesystem::path& folder, Monitor& monitor)
+/// The state folder of a live run. A fault in it must not keep the robot from starting.
+struct StateFolder {
+  StateFolder(const std::filesystem::path& folder, Monitor& monitor)
       : generations(folder, monitor), starts(folder / "starts.txt") {}
   Generations generations;
   StartLog starts;
 };
 
-Before look_back(Past& past, const RobotProfile& profile, Time now, Monitor& monitor) {
-  Before before = look_back(past.generations, profile.restart, profile.mapping.resolution_m, now, monitor);
-  before.crash_loop = past.starts.begin(now, boot_id());
-  return before;
+PreviousRun find_previous_run(StateFolder& state, const RobotProfile& profile, Time now, Monitor& monitor) {
+  PreviousRun previous =
+      find_previous_run(state.generations, profile.restart, profile.mapping.resolution_m, now, monitor);
+  previous.crash_loop = state.starts.begin(now, boot_id());
+  return previous;
 }
 
 }  // namespace
@@ -69,16 +72,20 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
   auto door = open_door(options, *profile, clock, result->monitor);  // live devices, or a recording
   if (!door) return door.error();
 
-  std::optional<Past> past;
-  if (live && !options.state.empty()) past.emplace(options.state, result->monitor);
-  Before before;
-  if (past) before = look_back(*past, *profile, clock.now(), result->monitor);
-  if (!live) before.resumed = resumed_in_recording(options.recording, result->monitor);
+  std::optional<StateFolder> state;
+  if (live && !options.state.empty()) state.emplace(options.state, result->monitor);
+  PreviousRun previous;
+  if (state) previous = find_previous_run(*state, *profile, clock.now(), result->monitor);
+  if (!live) previous.resumed = resumed_in_recording(options.recording, result->monitor);
 
-  RobotTasks tasks(*door, *profile, options, before, result->monitor);
-  const auto ran = live ? tasks.run_live(clock, past ? &past->generations : nullptr) : tasks.replay();
-  if (past && ran) past->starts.end();
-  if (!ran) return ran.error();  // packets → scans → poses and map
+  RobotTasks tasks(door->recording.sources, *profile, options, previous, result->monitor);
+  const RunContext context{
+      .door = *door, .profile = *profile, .options = options, .previous = previous, .monitor = result->monitor};
+  LiveRun live_run(tasks, context, clock);
+  const auto ran = live ? live_run.run(state ? &state->generations : nullptr)  // packets → scans → poses and map
+                        : replay_recording(tasks, context);
+  if (!ran) return ran.error();
+  if (state) state->starts.end();
 
   auto report = write_output({options, *profile, tasks, *door, result->monitor});
   if (!report) return report.error();

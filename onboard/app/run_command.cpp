@@ -10,6 +10,7 @@
 #include <string>
 
 #include "onboard/app/live/stop_signal.hpp"
+#include "onboard/app/print_tasks.hpp"
 #include "onboard/app/run.hpp"
 #include "onboard/report/json/budgets.hpp"
 #include "onboard/report/json/report_json.hpp"
@@ -22,6 +23,7 @@ struct Arguments {
   std::filesystem::path budgets;
   std::string speed = "real";
   bool json = false;
+  bool print_tasks = false;
 };
 
 void show_progress(Time now, std::size_t scans) {
@@ -58,7 +60,15 @@ int judge(const std::vector<BudgetLimit>& limits, const RunReport& report) {
   return fail({Errc::kLimit, "budgets were exceeded", report.robot, {}, "see the table above"});
 }
 
+int show_tasks(const RunOptions& options) {
+  const auto text = cairn::print_tasks(options);
+  if (!text) return fail(text.error());
+  std::printf("%s", text->c_str());
+  return kDone;
+}
+
 int run_robot(Arguments a) {
+  if (a.print_tasks) return show_tasks(a.run);
   std::vector<BudgetLimit> limits;
   if (!a.budgets.empty()) {
     auto loaded = load_budgets(a.budgets);
@@ -100,30 +110,34 @@ void add_run_command(Commands& commands) {
 
 void add_run_options(CLI::App& app, Commands& commands) {
   auto a = std::make_shared<Arguments>();
-  app.add_option("--config", a->run.config, "robot profile, such as config/husky.yaml; default values if not given");
-  app.add_option("--recording", a->run.recording, "folder of a recording; live hardware if not given");
+  app.add_option("--config", a->run.config, "robot profile, such as config/husky.yaml; without it: the defaults");
+  app.add_option("--recording", a->run.recording, "folder of a recording; without it: live hardware");
   app.add_option("--out", a->run.out, "folder for the results")->default_val("cairn-out");
   app.add_option("--record", a->run.record,
-                 "live: folder to record all packets and the schedule in, for a replay to the bit");
-  app.add_option("--state", a->run.state,
-                 "live: folder that keeps map and pose; after a crash the robot goes on from there (section restart)");
+                 "live: keep every packet and the schedule in this folder; a replay of it gives the same bits");
+  app.add_option(
+      "--state", a->run.state,
+      "live: keep map and pose in this folder; after a crash, the next run goes on from there (profile: restart)");
   app.add_flag(
       "--peers", a->run.peers,
-      "take part in the team, through cairn-peers at the profile's team.socket; a recording is played in real time "
-      "as if it were the devices");
+      "take part in the team, through the peer process (cairn-peers) at team.socket of the profile; a recording is "
+      "played as if by the robot's devices");
   app.add_option("--live-view", a->run.live_view, "live: local socket for cairn top, such as /run/cairn/live.sock");
   app.add_option("--schedule", a->run.schedule,
-                 "schedule.log of a live run to repeat; default: the recording's own, if it has one");
-  app.add_option("--speed", a->speed, "speed of a recording: real, or max (as fast as possible, in virtual time)")
+                 "repeat this schedule.log of a live run, instead of the recording's own");
+  app.add_option("--speed", a->speed, "pace of a recording: as it was made, or as fast as possible")
       ->check(CLI::IsMember({"real", "max"}))
       ->default_val("real");
   app.add_option("--assert", a->budgets,
-                 "budgets to check, such as config/budgets/husky.yaml; the run fails if one is exceeded");
+                 "fail when one of these budgets is exceeded, such as config/budgets/husky.yaml");
   app.add_option("--threads", a->run.threads,
-                 "threads, instead of the profile's number; the result does not depend on it")
+                 "threads of a stage, instead of the profile's; the result does not depend on them")
       ->check(CLI::Range(1, 64));
-  app.add_option("--seconds", a->run.seconds, "length of the run in the robot's time, s")->check(CLI::PositiveNumber);
+  app.add_option("--seconds", a->run.seconds, "end after so many seconds of the robot's time")
+      ->check(CLI::PositiveNumber);
   app.add_flag("--json", a->json, "print report.json on stdout");
+  app.add_flag("--print-tasks", a->print_tasks,
+               "print the tasks of the run (rate, priority, budget) and the channels between them, and end");
   app.callback([&commands, a] { commands.job = [a] { return run_robot(*a); }; });
 }
 

@@ -7,7 +7,7 @@ namespace cairn::cli {
 
 /// `cairn run`: one robot, live or on a recording.
 void add_run_command(Commands& commands);
-/// The options of `cairn run` on `app`, whose callback leaves the run in `commands.job`: all that cairn-core does.
+/// Adds the options of `cairn run` to `app`. Its callback leaves the run in `commands.job`. cairn-core has no others.
 void add_run_options(CLI::App& app, Commands& commands);
 
 }  // namespace cairn::cli

@@ -48,14 +48,12 @@ double length_m(const std::vector<TrackPoint>& track) {
   return length;
 }
 
-/// The control thread is the one that releases first and most often.
-void add_tasks(const scheduler::Executive& executive, RunReport& report) {
-  for (const scheduler::Line& line : executive.lines()) report.tasks.push_back({line.spec, line.stats});
-  const scheduler::Line& control = executive.lines().front();
-  report.ticks = {control.stats.ticks, control.stats.misses + control.stats.slips, control.stats.wake.max()};
-  for (const scheduler::Line& line : executive.lines())
-    if (line.spec.name == "safety" || line.spec.name == "drive")
-      report.control_thread_allocations += line.stats.allocations;
+/// The control thread is that of the safety task.
+void add_tasks(const RobotTasks& tasks, RunReport& report) {
+  for (const scheduler::ScheduledTask& task : tasks.graph.tasks()) report.tasks.push_back({task.spec, task.stats});
+  const scheduler::TaskStats& control = tasks.graph.scheduled(tasks.safety).stats;
+  report.ticks = {control.ticks, control.misses + control.slips, control.wake.max()};
+  report.control_thread_allocations = control.allocations + tasks.graph.scheduled(tasks.drive).stats.allocations;
 }
 
 /// A level that leaves nothing out is reported as `nothing`, which is first.
@@ -78,7 +76,7 @@ std::string utc_of(Time t, const recording::Recording& recording) {
 }
 
 void add_input(const RunFacts& facts, RunReport& report) {
-  const ReceiveTask::Figures& figures = facts.tasks.figures();
+  const ReceiveTask::Figures& figures = facts.tasks.receive.figures();
   report.scans = figures.scans;
   report.lost_packets = figures.lost_packets;
   for (const Input& input : facts.door.inputs)
@@ -91,7 +89,7 @@ void add_input(const RunFacts& facts, RunReport& report) {
 
 /// Every stage of the odometry and the map, as far as the run got.
 RunReport make_report(const RunFacts& facts) {
-  const auto& track = facts.tasks.robot().track();
+  const auto& track = facts.tasks.robot.track();
   RunReport report;
   report.robot = facts.profile.name;
   report.profile = facts.options.config.string();
@@ -101,16 +99,16 @@ RunReport make_report(const RunFacts& facts) {
   add_input(facts, report);
   report.odometry = odometry_stats(track);
   report.peak_rss_mb = peak_rss_mb();
-  add_tasks(facts.tasks.executive(), report);
-  report.mode = to_string(facts.tasks.decision().mode);
-  if (const auto cause = facts.tasks.decision().cause) report.mode_cause = to_string(*cause);
-  add_shed(facts.tasks.mapping(), report);
+  add_tasks(facts.tasks, report);
+  report.mode = to_string(facts.tasks.safety.decision().mode);
+  if (const auto cause = facts.tasks.safety.decision().cause) report.mode_cause = to_string(*cause);
+  add_shed(facts.tasks.mapping, report);
   report.monitor = &facts.monitor;
   for (const TrackPoint& p : track) report.trajectory.push_back({p.stamp, p.T_odom_base});
-  report.map = summarise(facts.tasks.robot().map());
-  if (auto picture = look_at(facts.tasks.robot().map(), {})) report.picture = std::move(*picture);
+  report.map = summarise(facts.tasks.robot.map());
+  if (auto picture = look_at(facts.tasks.robot.map(), {})) report.picture = std::move(*picture);
   report.effective_config = to_yaml(facts.profile);
-  if (facts.tasks.team() != nullptr) add_team(*facts.tasks.team(), report);
+  if (facts.tasks.team) add_team(facts.tasks.team->team(), report);
   return report;
 }
 
@@ -124,8 +122,8 @@ void add_ground_truth(const RunFacts& facts, RunReport& report) {
 
 /// What a team run leaves besides, as a part of what is to be repeated.
 Result<void> add_team_files(const RunFacts& facts, RunReport& report, std::vector<fs::path>& hashed) {
-  if (facts.tasks.team() == nullptr || !facts.tasks.team()->team()) return {};
-  const auto files = write_team(*facts.tasks.team()->team(), facts.options.out);
+  if (!facts.tasks.team || !facts.tasks.team->team().team()) return {};
+  const auto files = write_team(*facts.tasks.team->team().team(), facts.options.out);
   if (!files) return files.error();
   const auto hash = sha256_of_files(*files);
   if (!hash) return hash.error();
@@ -150,9 +148,9 @@ Result<RunReport> write_output(const RunFacts& facts) {
   add_ground_truth(facts, report);
   std::vector<fs::path> hashed{out / "trajectory.tum", out / "map.cairn"};
   if (const auto r = write_file_atomic(out / "config.yaml", report.effective_config); !r) return r.error();
-  if (const auto r = write_trajectory(hashed[0], facts.tasks.robot().track(), shift_of(facts)); !r) return r.error();
-  if (const auto r = save_cairn(facts.tasks.robot().map(), hashed[1]); !r) return r.error();
-  if (const auto r = save_ot(facts.tasks.robot().map(), out / "map.ot"); !r) return r.error();
+  if (const auto r = write_trajectory(hashed[0], facts.tasks.robot.track(), shift_of(facts)); !r) return r.error();
+  if (const auto r = save_cairn(facts.tasks.robot.map(), hashed[1]); !r) return r.error();
+  if (const auto r = save_ot(facts.tasks.robot.map(), out / "map.ot"); !r) return r.error();
   if (const auto r = add_team_files(facts, report, hashed); !r) return r.error();
   const auto hash = sha256_of_files(hashed);
   if (!hash) return hash.error();

@@ -13,14 +13,14 @@ namespace cairn::scheduler {
 namespace {
 
 // Deeper than any task goes, and far below what a thread has (8 MiB).
-constexpr std::size_t kStack = 256 * 1024;
-constexpr std::size_t kPage = 4096;
+constexpr std::size_t kStackBytes = 256 * 1024;
+constexpr std::size_t kPageBytes = 4096;
 
 /// Touches the stack, so that its pages are there before the first tick.
 void prefault_stack() {
-  std::array<std::byte, kStack> stack;  // NOLINT(cppcoreguidelines-pro-type-member-init): only touched
+  std::array<std::byte, kStackBytes> stack;  // NOLINT(cppcoreguidelines-pro-type-member-init): only touched
   volatile std::byte* bytes = stack.data();
-  for (std::size_t i = 0; i < kStack; i += kPage) bytes[i] = std::byte{};
+  for (std::size_t i = 0; i < kStackBytes; i += kPageBytes) bytes[i] = std::byte{};
 }
 
 void apply(const ThreadPlan& plan) {
@@ -57,11 +57,16 @@ bool may_lock_memory() {
 
 }  // namespace
 
-std::thread start_thread(const ThreadPlan& plan, std::function<void()> work) {
-  return std::thread([plan, work = std::move(work)] {
+void ThreadGroup::start(const ThreadPlan& plan, std::function<void()> work) {
+  threads_.emplace_back([plan, work = std::move(work)] {
     become(plan);
     work();
   });
+}
+
+void ThreadGroup::join() {
+  for (std::thread& thread : threads_) thread.join();
+  threads_.clear();
 }
 
 void become(const ThreadPlan& plan) {

@@ -6,6 +6,7 @@
 #include <cassert>
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 
 #include "hal/budget.hpp"
 #include "hal/clock.hpp"
@@ -21,8 +22,8 @@ enum class Regime : std::uint8_t {
   kDrain,    ///< after the last tick: whatever is left is used, without bounds of time
 };
 
-/// What one tick was given and decided, in numbered places whose meaning is the task's own. Zero is what an idle tick
-/// leaves everywhere.
+/// What one tick was given and decided, in numbered slots whose meaning is the task's own. An idle tick leaves zero in
+/// every slot.
 struct TickRecord {
   static constexpr std::size_t kSlots = 12;
   std::uint64_t index = 0;    ///< of the release
@@ -107,16 +108,29 @@ class Tick {
 /// What runs at a fixed rate. One thread calls it.
 class Task {
  public:
+  Task(const Task&) = delete;
+  Task& operator=(const Task&) = delete;
   virtual ~Task() = default;
   /// One release. Whatever is not the task's own state is asked of `tick`, its inputs and outputs.
   virtual void tick(Tick& tick) = 0;
   /// After the last tick: hands on what is still held back.
   virtual void finish(Tick& /*tick*/) {}
 
+  /// The first of the next `count` free slots in the records of this task. Every member that keeps a number in the
+  /// schedule log takes its slot when it is constructed, so slots follow the order of declaration. Aborts when a task
+  /// needs more than TickRecord::kSlots.
+  [[nodiscard]] std::size_t take_slots(std::size_t count = 1) {
+    const std::size_t first = slots_;
+    slots_ += count;
+    if (slots_ > TickRecord::kSlots) std::abort();
+    return first;
+  }
+
  protected:
   Task() = default;
-  Task(const Task&) = default;
-  Task& operator=(const Task&) = default;
+
+ private:
+  std::size_t slots_ = 0;  // taken
 };
 
 }  // namespace cairn::scheduler

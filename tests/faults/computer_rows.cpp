@@ -59,26 +59,38 @@ Mode step(Failsafe& failsafe, Time now, Fault fault, bool active) {
 struct LateMapping {
   static constexpr Duration kDeadline = std::chrono::milliseconds(100);
 
+  struct Odometry final : scheduler::Task {
+    void tick(scheduler::Tick& /*tick*/) override {}
+    scheduler::OutputPort<ArrivedMotion> motions{*this, "motions"};
+  };
+
+  LateMapping() {
+    graph.add({.name = "odometry"}, odometry);
+    graph.add({.name = "mapping"}, task);
+    graph.connect(odometry.motions, task.motions, {.capacity = 4});
+  }
+
   Shed map_scan(Time arrival, Duration late) {
     clock.advance_to(arrival + late);
-    scheduler::TickRecord record;
-    record.index = scans++;
-    scheduler::Tick tick(scheduler::Regime::kLive, arrival, record, nullptr, &clock);
-    ArrivedMotion* motion = motions.back(tick);
+    scheduler::TickRecord sent, record;
+    sent.index = record.index = scans++;
+    scheduler::Tick sending(scheduler::Regime::kLive, arrival, sent);
+    ArrivedMotion* motion = odometry.motions.back(sending);
     motion->arrival = motion->scan.stamp = arrival;
     motion->scan.points_base.assign(8, {5, 0, 1});
-    motions.push(tick);
+    odometry.motions.push(sending);
+    scheduler::Tick tick(scheduler::Regime::kLive, arrival, record, nullptr, &clock);
     task.tick(tick);
-    logged = logged && record.slots[MappingTask::kShedSlot] == static_cast<std::int32_t>(task.shed());
+    logged = logged && record.slots[task.shed_slot] == static_cast<std::int32_t>(task.shed());
     return task.shed();
   }
 
   Monitor monitor;
   Workers one{1}, other{1};
   Robot robot{{}, one, other, monitor};
-  scheduler::Progress odometry, mapping;
-  MotionChannel motions{{4, 0, OdometryTask::kMotionsSlot, MappingTask::kMotionsSlot}, odometry, mapping};
-  MappingTask task{{}, kDeadline, motions, robot, monitor};
+  Odometry odometry;
+  MappingTask task{{}, kDeadline, robot, monitor};
+  scheduler::TaskGraph graph;
   VirtualClock clock;
   std::uint64_t scans = 0;
   bool logged = true;

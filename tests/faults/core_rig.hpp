@@ -9,9 +9,8 @@
 #include "drivers/drive/canopen/canopen.hpp"
 #include "drivers/drive/canopen/cia402.hpp"
 #include "onboard/app/tasks/drive_task.hpp"
-#include "onboard/app/tasks/odometry_task.hpp"
-#include "onboard/app/tasks/receive_task.hpp"
 #include "onboard/app/tasks/safety_task.hpp"
+#include "onboard/scheduler/task_graph.hpp"
 #include "tests/drivers/drive/virtual_bus.hpp"
 #include "tests/faults/campaign.hpp"
 #include "tests/support/estop_line.hpp"
@@ -34,7 +33,11 @@ class CoreRig {
   explicit CoreRig(const Guard& guard) : guard_(guard) {
     Fitted fitted;
     fitted.drive = fitted.estop = fitted.watched[static_cast<std::size_t>(Watched::kFeedback)] = true;
-    safety_.emplace(FailsafeConfig{}, fitted, SafetyTask::Parts{seen_, news_, decisions_, odometry_});
+    safety_.emplace(FailsafeConfig{}, fitted);
+    graph_.add({.name = "safety"}, *safety_);
+    graph_.add({.name = "drive"}, drive_);
+    graph_.connect(drive_.status, safety_->drive, {.capacity = 64});
+    graph_.connect(safety_->decisions, drive_.decisions, {.capacity = 64});
     safety_->watch_estop({}, line, SourceId{1}, &line, {});
     moves_ = drive_.attach(drive::test::two_nodes(), wire_, SourceId{0}, &wire_, {}).has_value();
     drive_.set_planner([](Time) { return DriveCommand{0.5, 0, 0}; });
@@ -147,13 +150,9 @@ class CoreRig {
 
   Guard guard_;
   Wire wire_{bus, guard_};
-  scheduler::Progress nobody_;
-  SeenChannel seen_{{8, 0, ReceiveTask::kSeenSlot, SafetyTask::kSensorsSlot}, nobody_, nobody_};
-  DriveChannel news_{{64, 0, DriveTask::kNewsSlot, SafetyTask::kDriveSlot}, nobody_, nobody_};
-  DecisionChannel decisions_{{64, 0, SafetyTask::kDecisionSlot, DriveTask::kDecisionSlot}, nobody_, nobody_};
-  OdometryChannel odometry_{{8, 0, OdometryTask::kNewsSlot, SafetyTask::kOdometrySlot}, nobody_, nobody_};
   std::optional<SafetyTask> safety_;
-  DriveTask drive_{decisions_, news_};
+  DriveTask drive_;
+  scheduler::TaskGraph graph_;  // joins the two
   std::uint64_t index_ = 0;
   bool moves_ = false;
   Time struck_{};

@@ -39,7 +39,7 @@ std::vector<Time> record(const fs::path& folder) {
   recording::Recording index;
   index.robot = "husky_1";
   const Vector6 mount = (Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished();
-  index.sources.push_back({"lidar", "scans", "data.csv", "lidar", "VLP-16", mount});
+  index.sources.push_back({"lidar", recording::kScans, "data.csv", "lidar", "VLP-16", mount});
   auto writer = recording::RecordingWriter::create(folder / "recording", index).value();
   support::Vlp16 lidar(SE3::from_xyz_rpy(mount), 0.02, 1);
   const support::World here = room(), there = crate();

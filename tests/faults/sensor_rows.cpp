@@ -35,7 +35,7 @@ Measured burst() {
 }
 
 /// Beside a LiDAR: pictures at `rate_hz` that stay out for a second. The scans are those of a run without the fault.
-Measured pictures_missing(std::string_view kind, double rate_hz, Fault fault) {
+Measured pictures_missing(recording::SensorKind kind, double rate_hz, Fault fault) {
   const auto camera = [rate_hz](Time start) {
     return [=, n = 0](Packet& packet) mutable {
       packet.bytes.assign(16, static_cast<std::byte>(n));

@@ -14,6 +14,7 @@
 #include "onboard/app/tasks/allocations.hpp"
 #include "onboard/app/tasks/housekeeping_task.hpp"
 #include "onboard/app/tasks/watch_task.hpp"
+#include "onboard/scheduler/execution/executive.hpp"
 #include "tests/support/local_socket.hpp"
 #include "tests/support/slow_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -23,23 +24,10 @@ namespace {
 
 using namespace std::chrono_literals;
 using scheduler::Executive;
-using scheduler::Line;
-using scheduler::TaskSpec;
+using scheduler::ScheduledTask;
+using scheduler::TaskGraph;
+using scheduler::TaskRole;
 using scheduler::Tick;
-
-TaskSpec spec(const char* name, double rate_hz) {
-  TaskSpec s;
-  s.name = name;
-  s.rate_hz = rate_hz;
-  return s;
-}
-
-Line& add(Executive& executive, const TaskSpec& spec, scheduler::Task& task, bool live_only = false) {
-  Line& line = executive.add(spec);
-  line.task = &task;
-  line.live_only = live_only;
-  return line;
-}
 
 /// Ten edges of an e-stop's line at every tick, through a real feed and into the recorder's queue.
 class EdgeReader final : public scheduler::Task {
@@ -80,7 +68,7 @@ class EdgeReader final : public scheduler::Task {
 recording::Recording gpio_recording() {
   recording::Recording index;
   index.robot = "husky_1";
-  index.sources.push_back({"gpio", "gpio", "gpio.csv", "base_link", ""});
+  index.sources.push_back({"gpio", recording::kGpio, "gpio.csv", "base_link", ""});
   return index;
 }
 
@@ -132,12 +120,12 @@ class SlowDiskTest : public testing::Test {
   const LiveClock clock_;
   Recorder recorder_{recording::RecordingWriter::create(folder_ / "recording", gpio_recording()).value(), monitor_};
   EdgeReader reader_{recorder_.tap(kQueue, gpio::kEventBytes)};
-  Executive executive_;
-  Line& reading_ = add(executive_, spec("safety", 500), reader_);
-  HousekeepingTask housekeeping_{executive_, folder_ / "schedule.log", &recorder_};
-  Line& keeping_ = add(executive_, spec("housekeeping", 100), housekeeping_, true);
+  TaskGraph graph_;
+  ScheduledTask& reading_ = graph_.add({.name = "safety", .rate_hz = 500}, reader_);
+  HousekeepingTask housekeeping_{graph_, folder_ / "schedule.log", &recorder_};
+  ScheduledTask& keeping_ = graph_.add({.name = "housekeeping", .rate_hz = 100}, housekeeping_, TaskRole::kLiveOnly);
   WatchTask watch_{{{"housekeeping", WatchTask::kDiskLimit, &keeping_.stats.ticks}}, &recorder_};
-  Line& watching_ = add(executive_, spec("watch", 100), watch_, true);
+  ScheduledTask& watching_ = graph_.add({.name = "watch", .rate_hz = 100}, watch_, TaskRole::kLiveOnly);
   Generations generations_{folder_ / "maps", monitor_, disk_};
   SemanticOcTree map_{0.1};
   RelaxedCounter saved_, failing_;
@@ -147,7 +135,7 @@ class SlowDiskTest : public testing::Test {
 
 /// Nobody but housekeeping waits, what does not fit is counted, and everything goes on when the disk does.
 TEST_F(SlowDiskTest, CostsTheRealTimeTasksNothing) {
-  executive_.run_live({clock_.now(), [this] { return look(); }}, clock_);
+  Executive(graph_).run_live({clock_.now(), [this] { return look(); }}, clock_);
   ASSERT_TRUE(housekeeping_.close(clock_.now()));
   EXPECT_EQ(reader_.allocated, 0U);
   const std::uint64_t written = edges_on_disk();
@@ -198,8 +186,10 @@ class Supervised {
  public:
   using Act = std::function<void()>;
   Supervised(const char* name, scheduler::Task& task, Act hang, Act go_on)
-      : line_(add(executive_, spec(name, 100), task)), hang_(std::move(hang)), go_on_(std::move(go_on)) {
-    executive_.run_live({clock_.now(), [this] { return look(); }}, clock_);
+      : supervised_(graph_.add({.name = name, .rate_hz = 100}, task)),
+        hang_(std::move(hang)),
+        go_on_(std::move(go_on)) {
+    Executive(graph_).run_live({clock_.now(), [this] { return look(); }}, clock_);
   }
 
   std::string named, signs;  ///< as the watchdog says, and what the manager heard while the task hung
@@ -209,7 +199,7 @@ class Supervised {
   static constexpr Duration kLook = 20ms;
 
   bool all_went_on() {
-    const std::uint64_t safety = safety_line_.stats.ticks, line = line_.stats.ticks;
+    const std::uint64_t safety = safety_.stats.ticks, line = supervised_.stats.ticks;
     if (safety == safety_seen_ || (line == line_seen_ && began_ == released_)) return false;
     safety_seen_ = safety, line_seen_ = line;
     return true;
@@ -218,11 +208,11 @@ class Supervised {
     if (!all_went_on()) return false;
     const bool well = watchdog_.step(now_ += kLook, "");
     const std::string heard = manager_.next();
-    if (!began_ && line_.stats.ticks > 5) hang_(), began_ = true;
-    if (began_ && !well && named.empty()) named = watchdog_.hung(), ticks_then_ = safety_line_.stats.ticks;
+    if (!began_ && supervised_.stats.ticks > 5) hang_(), began_ = true;
+    if (began_ && !well && named.empty()) named = watchdog_.hung(), ticks_then_ = safety_.stats.ticks;
     if (!named.empty() && !released_) {
       signs += heard;
-      if (safety_line_.stats.ticks > ticks_then_ + 50) go_on_(), released_ = true;
+      if (safety_.stats.ticks > ticks_then_ + 50) go_on_(), released_ = true;
     }
     return released_ && well;
   }
@@ -230,15 +220,16 @@ class Supervised {
   support::TemporaryFolder folder_;
   support::DatagramListener manager_{(folder_ / "notify").string()};
   const LiveClock clock_;
-  Executive executive_;
-  Hanger safety_;  // never does
-  Line& safety_line_ = add(executive_, spec("safety", 500), safety_);
-  Line& line_;
+  TaskGraph graph_;
+  Hanger safety_task_;  // never does
+  ScheduledTask& safety_ = graph_.add({.name = "safety", .rate_hz = 500}, safety_task_);
+  ScheduledTask& supervised_;
   Act hang_, go_on_;
-  Watchdog watchdog_{{{"safety", 300ms, &safety_line_.stats.ticks}, {line_.spec.name, 300ms, &line_.stats.ticks}},
-                     SdNotify::open((folder_ / "notify").string()).value(),
-                     1s,
-                     monitor};
+  Watchdog watchdog_{
+      {{"safety", 300ms, &safety_.stats.ticks}, {supervised_.spec.name, 300ms, &supervised_.stats.ticks}},
+      SdNotify::open((folder_ / "notify").string()).value(),
+      1s,
+      monitor};
   Time now_{};
   bool began_ = false, released_ = false;
   std::uint64_t ticks_then_ = 0, safety_seen_ = 0, line_seen_ = 0;

@@ -13,10 +13,8 @@
 #include "drivers/drive/canopen/cia402.hpp"
 #include "onboard/app/profile/schedule_profile.hpp"
 #include "onboard/app/tasks/drive_task.hpp"
-#include "onboard/app/tasks/odometry_task.hpp"
-#include "onboard/app/tasks/receive_task.hpp"
 #include "onboard/app/tasks/safety_task.hpp"
-#include "onboard/scheduler/executive.hpp"
+#include "onboard/scheduler/execution/executive.hpp"
 #include "tests/drivers/drive/virtual_bus.hpp"
 #include "tools/simulator/motion/drive_model.hpp"
 
@@ -33,7 +31,7 @@ class FarEnd final : public scheduler::Task {
   };
   struct TickDone {
     scheduler::TickRecord record;
-    const scheduler::Line* line = nullptr;
+    const scheduler::ScheduledTask* task = nullptr;
   };
 
   FarEnd(drive::SocketCanLink& bus, const Clock& clock) : bus_(bus), clock_(clock) {
@@ -44,7 +42,7 @@ class FarEnd final : public scheduler::Task {
   void power_on() {
     serve([&](auto& node, auto& out) { node.power_on(clock_.now(), out); });
   }
-  void keep_log_of(scheduler::Line& line) { lines_.push_back(&line); }
+  void keep_log_of(scheduler::ScheduledTask& task) { logged_.push_back(&task); }
 
   void tick(scheduler::Tick& /*tick*/) override {
     while (*bus_.next(packet_, Duration{0}) == Poll::kPacket) {
@@ -57,8 +55,8 @@ class FarEnd final : public scheduler::Task {
     }
     serve([&](auto& node, auto& out) { node.step(clock_.now(), out); });
     speed_mrad_s = static_cast<std::uint64_t>(1000 * std::abs(nodes_[0].speed()));
-    for (scheduler::Line* line : lines_)
-      for (; line->log.front() != nullptr; line->log.pop()) ticks.push_back({*line->log.front(), line});
+    for (scheduler::ScheduledTask* task : logged_)
+      for (; task->log.front() != nullptr; task->log.pop()) ticks.push_back({*task->log.front(), task});
   }
 
   RelaxedCounter speed_mrad_s;  ///< of the first wheel
@@ -75,7 +73,7 @@ class FarEnd final : public scheduler::Task {
   drive::SocketCanLink& bus_;
   const Clock& clock_;
   std::vector<simulator::DriveModel> nodes_;
-  std::vector<scheduler::Line*> lines_;
+  std::vector<scheduler::ScheduledTask*> logged_;
   simulator::DriveModel::Frames frames_;
   Packet packet_;
 };
@@ -92,24 +90,23 @@ class EStopRig {
     lines_ = gpio::open_lines(gpio_, SourceId{2}, clock).value();
     Fitted fitted;
     fitted.drive = fitted.estop = fitted.watched[static_cast<std::size_t>(Watched::kFeedback)] = true;
-    safety.emplace(FailsafeConfig{}, fitted, SafetyTask::Parts{seen_, news_, decisions_, odometry_});
+    safety.emplace(FailsafeConfig{}, fitted);
     edges.reserve(1000);
     safety->watch_estop(gpio_, *lines_, SourceId{2}, lines_.get(), [this](const Packet& p) { note(p); });
     (void)drive_.attach(drive::test::two_nodes(), *link_, SourceId{0}, link_.get(), {});
     drive_.set_planner([](Time) { return DriveCommand{0.5, 0, 0}; });
     far_end.emplace(*peer_, clock);
-    far_end->keep_log_of(safety_line);
-    far_end->keep_log_of(drive_line);
-    far_end_line_.task = &*far_end;
-    far_end_line_.live_only = true;
-    safety_line.task = &*safety;
-    drive_line.task = &drive_;
+    far_end->keep_log_of(graph_.add(schedule_.safety, *safety));
+    far_end->keep_log_of(graph_.add(schedule_.drive, drive_));
+    graph_.add({.name = "far end", .rate_hz = 500}, *far_end, scheduler::TaskRole::kLiveOnly);
+    graph_.connect(drive_.status, safety->drive, {.capacity = 64});
+    graph_.connect(safety->decisions, drive_.decisions, {.capacity = 64});
   }
 
   void pull(bool closed) const { std::ofstream(world_ + "/sim_gpio0/pull") << (closed ? "pull-up" : "pull-down"); }
   void run(const std::function<bool()>& over) {
     far_end->power_on();
-    executive_.run_live({clock.now(), over}, clock);
+    scheduler::Executive(graph_).run_live({clock.now(), over}, clock);
     scheduler::TickRecord rest;
     scheduler::Tick last(scheduler::Regime::kDrain, clock.now(), rest);
     far_end->tick(last);
@@ -120,6 +117,10 @@ class EStopRig {
     Time at{};
     bool closed = false;
   };
+  [[nodiscard]] const scheduler::ScheduledTask& safety_schedule() const { return graph_.scheduled(*safety); }
+  [[nodiscard]] const scheduler::ScheduledTask& drive_schedule() const { return graph_.scheduled(drive_); }
+  [[nodiscard]] const DriveTask& drive() const { return drive_; }
+
   LiveClock clock;
   std::vector<Edge> edges;  ///< after the run
   std::optional<SafetyTask> safety;
@@ -130,32 +131,14 @@ class EStopRig {
     const auto event = gpio::decode_event(packet);
     if (event && edges.size() < edges.capacity()) edges.push_back({packet.arrival, event->level});
   }
-  static scheduler::TaskSpec at(const char* name, double rate_hz) {
-    scheduler::TaskSpec spec;
-    spec.name = name;
-    spec.rate_hz = rate_hz;
-    return spec;
-  }
 
   std::string world_;
   gpio::Config gpio_;
   ScheduleProfile schedule_;
-  scheduler::Executive executive_;
-
- public:
-  scheduler::Line &safety_line = executive_.add(schedule_.safety), &drive_line = executive_.add(schedule_.drive);
-
- private:
-  scheduler::Line& far_end_line_ = executive_.add(at("far end", 500));
-  scheduler::Progress nobody_;
-  SeenChannel seen_{{8, 0, ReceiveTask::kSeenSlot, SafetyTask::kSensorsSlot}, nobody_, safety_line.progress};
-  DriveChannel news_{{64, 0, DriveTask::kNewsSlot, SafetyTask::kDriveSlot}, drive_line.progress, safety_line.progress};
-  DecisionChannel decisions_{
-      {64, 0, SafetyTask::kDecisionSlot, DriveTask::kDecisionSlot}, safety_line.progress, drive_line.progress};
-  OdometryChannel odometry_{{8, 0, OdometryTask::kNewsSlot, SafetyTask::kOdometrySlot}, nobody_, safety_line.progress};
+  scheduler::TaskGraph graph_;
   std::unique_ptr<drive::SocketCanLink> link_, peer_;
   std::unique_ptr<gpio::GpioLines> lines_;
-  DriveTask drive_{decisions_, news_};
+  DriveTask drive_;
 };
 
 }  // namespace cairn::vm

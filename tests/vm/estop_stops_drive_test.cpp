@@ -13,7 +13,7 @@ namespace cairn::vm {
 namespace {
 
 using namespace std::chrono_literals;
-using scheduler::Line;
+using scheduler::ScheduledTask;
 
 constexpr int kPresses = 16;
 
@@ -81,11 +81,12 @@ class Operator {
   std::uint32_t epoch_ = 0;
 };
 
-/// Which releases of a line were served, and in which any of the slots says that there was news.
+/// Which releases of a task were served, and in which any of the slots says that there was news.
 struct History {
-  History(const FarEnd& far_end, const Line& line, std::initializer_list<std::size_t> slots) : releases(line.releases) {
+  History(const FarEnd& far_end, const ScheduledTask& task, std::initializer_list<std::size_t> slots)
+      : releases(task.releases) {
     for (const auto& done : far_end.ticks) {
-      if (done.line != &line) continue;
+      if (done.task != &task) continue;
       for (std::uint64_t k = done.record.index - done.record.skipped; k < done.record.index; ++k) passed.push_back(k);
       const auto news = [&](std::size_t slot) { return done.record.slots[slot] > 0; };
       if (std::any_of(slots.begin(), slots.end(), news)) took.push_back(done.record.index);
@@ -143,8 +144,8 @@ TEST(EStopStopsDrive, ThroughTheRobotsOwnTasksWithinOneControlPeriod) {
   EXPECT_EQ(someone.causes_right, kPresses);
   EXPECT_FALSE(someone.moved_by_itself) << "the contact was closed again, and nobody had asked";
 
-  const History safety(*rig.far_end, rig.safety_line, {SafetyTask::kEdgesSlot, SafetyTask::kLevelSlot});
-  const History drive(*rig.far_end, rig.drive_line, {DriveTask::kDecisionSlot});
+  const History safety(*rig.far_end, rig.safety_schedule(), {rig.safety->edges_slot, rig.safety->level_slot});
+  const History drive(*rig.far_end, rig.drive_schedule(), {rig.drive().decisions.slot()});
   std::vector<Duration> times;
   std::map<int, int> ticks;
   for (const EStopRig::Edge& edge : rig.edges) {
@@ -164,9 +165,9 @@ TEST(EStopStopsDrive, ThroughTheRobotsOwnTasksWithinOneControlPeriod) {
       "vm: e-stop, %d presses: seen by the next safety tick; frame in the first drive tick after it %d times,"
       " in the second %d times; edge to frame p50 %s us, max %s us; period %s us; slips %llu + %llu\n",
       kPresses, ticks[1], ticks[2], microseconds(times[times.size() / 2]).c_str(), microseconds(times.back()).c_str(),
-      microseconds(rig.safety_line.releases.period).c_str(),
-      static_cast<unsigned long long>(rig.safety_line.stats.slips.get()),
-      static_cast<unsigned long long>(rig.drive_line.stats.slips.get()));
+      microseconds(rig.safety_schedule().releases.period).c_str(),
+      static_cast<unsigned long long>(rig.safety_schedule().stats.slips.get()),
+      static_cast<unsigned long long>(rig.drive_schedule().stats.slips.get()));
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ deny "nobody sleeps" "wait for data with a time-out (poll), or advance the Virtu
 deny "only hal/workers and onboard/scheduler/threads start threads" \
   "compute with Workers::for_each, whose result is the same for any number of threads; make a fixed-rate job a scheduler::Task" \
   'std::(jthread|async|packaged_task|execution::)|std::thread\b($|[^:])|pthread_create|# *pragma +omp|tbb::|include *<tbb/' \
-  '^hal/workers\.[ch]pp$|^onboard/scheduler/(threads\.[ch]pp|executive_threads\.cpp)$' "${all[@]}"
+  '^hal/workers\.[ch]pp$|^onboard/scheduler/threads\.[ch]pp$' "${all[@]}"
 # Local sockets alone (AF_UNIX): the service manager's and the live view's, which housekeeping serves and no real-time
 # thread. Whatever comes from another machine enters by a driver.
 readonly local_sockets='onboard/app/live/(sd_notify|live_server)\.cpp|tools/cli/top/live_client\.cpp|tests/support/local_socket\.hpp|drivers/peers/(domain_claim|local_link)\.cpp'

@@ -24,10 +24,10 @@ constexpr std::uint64_t kLidarStream = 22, kSensorStream = 24;
 /// The sensors in the order of the recording's sources.
 std::vector<recording::SourceEntry> sources(const SimulationConfig& config) {
   std::vector<recording::SourceEntry> list;
-  const auto add = [&](bool carried, std::string_view kind, const char* file, const char* model,
+  const auto add = [&](bool carried, recording::SensorKind kind, const char* file, const char* model,
                        const std::optional<Vector6>& base_sensor) {
     if (!carried) return;
-    const std::string id(kind == recording::kVelodyne ? "lidar" : kind);
+    const std::string id(kind == recording::kVelodyne ? "lidar" : to_string(kind));
     recording::SourceEntry& entry = list.emplace_back();
     entry.id = entry.frame = id;
     entry.kind = kind;
@@ -107,7 +107,7 @@ class RobotRecorder {
   }
 
  private:
-  Result<void> record_source(std::string_view kind, const Sink& sink) {
+  Result<void> record_source(recording::SensorKind kind, const Sink& sink) {
     if (kind == recording::kVelodyne) return lidar(sink);
     if (kind == recording::kCamera) return camera(sink);
     if (kind == recording::kThermal) return count(record_thermal(run_, config_.thermal, sink), summary_.thermal_frames);

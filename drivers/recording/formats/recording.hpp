@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <array>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
@@ -10,30 +9,17 @@
 #include <string_view>
 #include <vector>
 
+#include "drivers/recording/formats/sensor_kind.hpp"
 #include "hal/result.hpp"
 #include "hal/se3.hpp"
 #include "hal/time.hpp"
 
 namespace cairn::recording {
 
-/// Kinds of source that a recording may hold.
-inline constexpr std::string_view kVelodyne = "velodyne";  ///< `file` is a pcap of Velodyne datagrams (lidar.pcap)
-inline constexpr std::string_view kScans = "scans";  ///< `file` lists sweeps without packets (data.csv, scan_file.hpp)
-inline constexpr std::string_view kCamera = "camera";    ///< `file` lists pictures (camera/data.csv, image_folder.hpp)
-inline constexpr std::string_view kThermal = "thermal";  ///< the same, 16-bit raw counts
-inline constexpr std::string_view kDepth = "depth";      ///< the same, 16-bit depth
-inline constexpr std::string_view kDrive = "drive";      ///< `file` holds candump's lines (drive.log), stamped in UTC
-inline constexpr std::string_view kGpio = "gpio";        ///< `file` is gpio.csv
-inline constexpr std::string_view kPeers = "peers";      ///< `file` is peers.log: what other robots sent
-inline constexpr std::array kKinds{kVelodyne, kScans, kCamera, kThermal, kDepth, kDrive, kGpio, kPeers};
-[[nodiscard]] constexpr bool is_picture_kind(std::string_view kind) {
-  return kind == kCamera || kind == kThermal || kind == kDepth;
-}
-
 /// One source of a recording. Its index in Recording::sources is the SourceId of its packets.
 struct SourceEntry {
   std::string id;     ///< unique in the recording: letters, digits, `_`, `-`, `.`
-  std::string kind;   ///< one of kKinds
+  SensorKind kind{};  ///< decides how `file` is read
   std::string file;   ///< relative to the recording's folder, with `/`; never absolute, never with `..`
   std::string frame;  ///< frame of the sensor (REP-105 style, such as `lidar`)
   std::string model;  ///< the sensor (`VLP-16`, `lepton3`, …), the drive's protocol, or what recorded it; may be empty
@@ -42,7 +28,7 @@ struct SourceEntry {
   std::optional<Vector6> base_sensor_xyz_rpy{};
   std::uint16_t data_port = 2368;      ///< velodyne: UDP port of the data packets
   std::uint16_t position_port = 8308;  ///< velodyne: UDP port of the position packets
-  bool deskewed = false;               ///< scans: whoever recorded them compensated the motion already (KITTI)
+  bool deskewed = false;               ///< scans: the motion is compensated already (KITTI)
 
   /// Pose of the sensor in base_link; identity if the recording has none.
   [[nodiscard]] SE3 T_base_sensor() const {

@@ -150,9 +150,9 @@ void Checker::source(const YAML::Node& node, const std::string& prefix, SourceEn
     return integer(1, 65'535, [&target](std::int64_t v) { target = static_cast<std::uint16_t>(v); });
   };
   const Setter kind = [&](const YAML::Node& n, const std::string& key) {
-    s.kind = n.IsScalar() ? n.Scalar() : "";
-    if (std::find(kKinds.begin(), kKinds.end(), s.kind) == kKinds.end())
-      fault(n, key, "must be velodyne, scans, camera, thermal, depth, drive or gpio");
+    const auto known = parse_sensor_kind(n.IsScalar() ? n.Scalar() : "");
+    if (!known) return fault(n, key, "must be " + list_of_sensor_kinds());
+    s.kind = *known;
   };
   const Setter file = [&](const YAML::Node& n, const std::string& key) {
     text(s.file, path_fault)(n, key);
@@ -222,8 +222,9 @@ std::string pose_text(const Vector6& pose) {
 }
 
 std::string source_text(const SourceEntry& s) {
-  std::string out = "  - id: " + quoted(s.id) + "\n    kind: " + quoted(s.kind) + "\n    file: " + quoted(s.file) +
-                    "\n    frame: " + quoted(s.frame) + "\n    model: " + quoted(s.model) + "\n";
+  std::string out = "  - id: " + quoted(s.id) + "\n    kind: " + quoted(std::string(to_string(s.kind))) +
+                    "\n    file: " + quoted(s.file) + "\n    frame: " + quoted(s.frame) +
+                    "\n    model: " + quoted(s.model) + "\n";
   if (s.base_sensor_xyz_rpy)
     out += "    T_base_sensor: " + pose_text(*s.base_sensor_xyz_rpy) + "  # x y z [m] roll pitch yaw [rad]\n";
   if (s.kind == kVelodyne)

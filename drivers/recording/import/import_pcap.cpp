@@ -70,7 +70,7 @@ Result<RecordingWriter> create_writer(const ImportOptions& options, const std::s
   recording.robot = options.robot;
   recording.start_utc_ns = start;
   recording.notes = "imported from a capture file; the time line is the capture's own clock";
-  SourceEntry lidar{"lidar", std::string(kVelodyne), "lidar.pcap", "lidar", model};
+  SourceEntry lidar{"lidar", kVelodyne, "lidar.pcap", "lidar", model};
   lidar.data_port = options.data_port;
   lidar.position_port = options.position_port;
   recording.sources.push_back(std::move(lidar));

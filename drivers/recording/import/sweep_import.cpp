@@ -16,7 +16,7 @@ Result<SweepImport> SweepImport::create(const ImportOptions& options, bool deske
   recording.robot = options.robot;
   recording.start_utc_ns = start_utc_ns;
   recording.notes = std::move(notes);
-  SourceEntry lidar{"lidar", std::string(kScans), "data.csv", "base_link", options.model};
+  SourceEntry lidar{"lidar", kScans, "data.csv", "base_link", options.model};
   // The sweeps' frame is the robot's: no profile's mount may move them away from their ground truth.
   lidar.base_sensor_xyz_rpy = Vector6::Zero();
   lidar.deskewed = options.deskewed.value_or(deskewed);

@@ -2,6 +2,8 @@
 #include "onboard/app/door/devices.hpp"
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <array>
 
 #include "drivers/camera/v4l2_source.hpp"
 #include "drivers/drive/can/socketcan_link.hpp"
@@ -11,11 +13,29 @@
 namespace cairn {
 namespace {
 
+using recording::SensorKind;
 using recording::SourceEntry;
 
-SourceEntry mounted(std::string_view kind, std::string file, std::string model, const std::vector<double>& mount) {
-  SourceEntry entry{std::string(kind), std::string(kind), std::move(file), std::string(kind), std::move(model)};
+/// A device whose id and frame are the name of its kind.
+SourceEntry entry_of(SensorKind kind, std::string file, std::string model) {
+  const std::string name(to_string(kind));
+  SourceEntry entry;
+  entry.id = entry.frame = name;
+  entry.kind = kind;
+  entry.file = std::move(file);
+  entry.model = std::move(model);
+  return entry;
+}
+
+SourceEntry mounted(SensorKind kind, std::string file, std::string model, const std::vector<double>& mount) {
+  SourceEntry entry = entry_of(kind, std::move(file), std::move(model));
   entry.base_sensor_xyz_rpy = Eigen::Map<const Vector6>(mount.data());
+  return entry;
+}
+
+SourceEntry unmounted(SensorKind kind, std::string file, std::string model) {
+  SourceEntry entry = entry_of(kind, std::move(file), std::move(model));
+  entry.frame = "base_link";
   return entry;
 }
 
@@ -25,10 +45,6 @@ SourceEntry lidar_entry(const LidarProfile& lidar) {
   entry.data_port = static_cast<std::uint16_t>(lidar.driver.data_port);
   entry.position_port = static_cast<std::uint16_t>(lidar.driver.position_port);
   return entry;
-}
-
-SourceEntry unmounted(std::string_view kind, std::string file, std::string model) {
-  return {std::string(kind), std::string(kind), std::move(file), "base_link", std::move(model)};
 }
 
 template <class T, class Counters>
@@ -75,29 +91,71 @@ Result<Device> open_gpio(const GpioProfile& gpio, const SourceEntry& entry, Sour
   });
 }
 
+/// One kind of device: whether the profile has it, what a recording says of it, and how it is opened.
+struct DeviceRow {
+  SensorKind kind;
+  bool (*exists)(const RobotProfile&);
+  SourceEntry (*entry)(const RobotProfile&);
+  Result<Device> (*open)(const RobotProfile&, const SourceEntry&, SourceId, const Clock&);
+};
+using Profile = RobotProfile;
+const std::array kDevices{
+    DeviceRow{.kind = recording::kVelodyne,
+              .exists = [](const Profile& p) { return p.lidar.enabled; },
+              .entry = [](const Profile& p) { return lidar_entry(p.lidar); },
+              .open = [](const Profile& p, const SourceEntry& entry, SourceId id,
+                         const Clock& clock) { return open_lidar(p.lidar, entry, id, clock); }},
+    DeviceRow{.kind = recording::kCamera,
+              .exists = [](const Profile& p) { return p.camera.exists(); },
+              .entry =
+                  [](const Profile& p) {
+                    return mounted(recording::kCamera, "camera/data.csv", p.camera.driver.capture.format,
+                                   p.camera.base_xyz_rpy);
+                  },
+              .open = [](const Profile& p, const SourceEntry& entry, SourceId id,
+                         const Clock& clock) { return open_camera(p.camera.driver.capture, entry, id, clock); }},
+    DeviceRow{.kind = recording::kThermal,
+              .exists = [](const Profile& p) { return p.thermal.exists(); },
+              .entry =
+                  [](const Profile& p) {
+                    return mounted(recording::kThermal, "thermal/data.csv", p.thermal.driver.model,
+                                   p.thermal.base_xyz_rpy);
+                  },
+              .open = [](const Profile& p, const SourceEntry& entry, SourceId id,
+                         const Clock& clock) { return open_camera(p.thermal.driver.capture, entry, id, clock); }},
+    DeviceRow{
+        .kind = recording::kDepth,
+        .exists = [](const Profile& p) { return p.depth.exists(); },
+        .entry =
+            [](const Profile& p) { return mounted(recording::kDepth, "depth/data.csv", "", p.depth.base_xyz_rpy); },
+        .open = [](const Profile& p, const SourceEntry& entry, SourceId id,
+                   const Clock& clock) { return open_camera(p.depth.driver.capture, entry, id, clock); }},
+    DeviceRow{
+        .kind = recording::kDrive,
+        .exists = [](const Profile& p) { return p.drive.exists(); },
+        .entry = [](const Profile& p) { return unmounted(recording::kDrive, "drive.log", p.drive.driver.protocol); },
+        .open = [](const Profile& p, const SourceEntry& entry, SourceId id,
+                   const Clock& clock) { return open_can(p.drive, entry, id, clock); }},
+    DeviceRow{.kind = recording::kGpio,
+              .exists = [](const Profile& p) { return p.gpio.exists(); },
+              .entry = [](const Profile& /*p*/) { return unmounted(recording::kGpio, "gpio.csv", ""); },
+              .open = [](const Profile& p, const SourceEntry& entry, SourceId id,
+                         const Clock& clock) { return open_gpio(p.gpio, entry, id, clock); }},
+};
+
 }  // namespace
 
-std::vector<SourceEntry> devices_of(const RobotProfile& p) {
+std::vector<SourceEntry> devices_of(const RobotProfile& profile) {
   std::vector<SourceEntry> entries;
-  if (p.lidar.enabled) entries.push_back(lidar_entry(p.lidar));
-  if (p.camera.exists())
-    entries.push_back(
-        mounted(recording::kCamera, "camera/data.csv", p.camera.driver.capture.format, p.camera.base_xyz_rpy));
-  if (p.thermal.exists())
-    entries.push_back(mounted(recording::kThermal, "thermal/data.csv", p.thermal.driver.model, p.thermal.base_xyz_rpy));
-  if (p.depth.exists()) entries.push_back(mounted(recording::kDepth, "depth/data.csv", "", p.depth.base_xyz_rpy));
-  if (p.drive.exists()) entries.push_back(unmounted(recording::kDrive, "drive.log", p.drive.driver.protocol));
-  if (p.gpio.exists()) entries.push_back(unmounted(recording::kGpio, "gpio.csv", ""));
+  for (const DeviceRow& row : kDevices)
+    if (row.exists(profile)) entries.push_back(row.entry(profile));
   return entries;
 }
 
-Result<Device> open_device(const RobotProfile& p, const SourceEntry& entry, SourceId id, const Clock& clock) {
-  if (entry.kind == recording::kVelodyne) return open_lidar(p.lidar, entry, id, clock);
-  if (entry.kind == recording::kCamera) return open_camera(p.camera.driver.capture, entry, id, clock);
-  if (entry.kind == recording::kThermal) return open_camera(p.thermal.driver.capture, entry, id, clock);
-  if (entry.kind == recording::kDepth) return open_camera(p.depth.driver.capture, entry, id, clock);
-  if (entry.kind == recording::kDrive) return open_can(p.drive, entry, id, clock);
-  return open_gpio(p.gpio, entry, id, clock);
+Result<Device> open_device(const RobotProfile& profile, const SourceEntry& entry, SourceId id, const Clock& clock) {
+  const auto* const row = std::ranges::find(kDevices, entry.kind, &DeviceRow::kind);
+  if (row != kDevices.end()) return row->open(profile, entry, id, clock);
+  return Error{Errc::kInvalidConfig, "no device of the robot is of this kind", entry.id, {}, {}};
 }
 
 Result<std::vector<Device>> open_devices_of(const RobotProfile& profile, const Clock& clock) {

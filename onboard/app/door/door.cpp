@@ -22,9 +22,8 @@ Result<std::unique_ptr<ScanDecoder>> velodyne_decoder(const velodyne::Config& co
   return std::unique_ptr<ScanDecoder>(std::move(*lidar));
 }
 
-/// What the recording says of its sensor goes before what the profile says: it knows what was mounted that day.
+/// The recording goes before the profile: it knows which sensor was mounted that day.
 void take_over(const SourceEntry& entry, LidarProfile& lidar) {
-  if (!entry.model.empty() && entry.kind == recording::kVelodyne) lidar.driver.model = entry.model;
   lidar.driver.data_port = entry.data_port;
   lidar.driver.position_port = entry.position_port;
   if (!entry.base_sensor_xyz_rpy) return;
@@ -35,13 +34,17 @@ void take_over(const SourceEntry& entry, LidarProfile& lidar) {
 /// Null for a source that holds no scans.
 Result<std::unique_ptr<ScanDecoder>> decoder_for(const SourceEntry& entry, SourceId id, Duration utc_offset,
                                                  RobotProfile& profile, Monitor& monitor) {
-  if (entry.kind == recording::kVelodyne) {
-    take_over(entry, profile.lidar);
-    return velodyne_decoder(profile.lidar.driver, id, utc_offset, monitor);
+  switch (entry.kind) {
+    case recording::kVelodyne:
+      take_over(entry, profile.lidar);
+      if (!entry.model.empty()) profile.lidar.driver.model = entry.model;
+      return velodyne_decoder(profile.lidar.driver, id, utc_offset, monitor);
+    case recording::kScans:
+      take_over(entry, profile.lidar);
+      return std::unique_ptr<ScanDecoder>(std::make_unique<recording::ScanFileDecoder>(entry.deskewed));
+    default:
+      return std::unique_ptr<ScanDecoder>();
   }
-  if (entry.kind != recording::kScans) return std::unique_ptr<ScanDecoder>();
-  take_over(entry, profile.lidar);
-  return std::unique_ptr<ScanDecoder>(std::make_unique<recording::ScanFileDecoder>(entry.deskewed));
 }
 
 /// A recorded source whose file cannot be opened: the others go on without it.

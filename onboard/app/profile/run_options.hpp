@@ -25,7 +25,7 @@ struct RunOptions {
   std::filesystem::path record;     ///< live: where to keep the packets and the schedule; empty: nowhere
   std::filesystem::path schedule;   ///< of another live run, instead of the recording's own schedule.log
   std::filesystem::path state;      ///< live: where the map is kept for a restart; empty: nowhere
-  bool peers = false;               ///< takes part in the team; a recording is played then as if it were the devices
+  bool peers = false;               ///< takes part in the team; a recording is then played as if by devices
   std::filesystem::path live_view;  ///< live: the local socket for `cairn top`; empty: none
   Pace pace = Pace::kRecorded;
   bool reference = false;  ///< at real speed: run an empty task beside the control task, to know what the machine costs
@@ -34,7 +34,8 @@ struct RunOptions {
   std::function<bool()> stop;     ///< live: asked about every 20 ms whether the run is to end; empty: never
   std::function<void(Time, std::size_t scans)> progress;  ///< after every scan, on odometry's thread; may be empty
 
-  /// On the machine's clock, and never the same twice.
+  /// True for live runs, and for recordings played among peers. They cannot be repeated by themselves; their recordings
+  /// can.
   [[nodiscard]] bool live() const { return recording.empty() || peers; }
 };
 

@@ -7,10 +7,10 @@ void declare(config::Section& s, ScheduleProfile& p) {
   s.group("safety", p.safety, "e-stop, time-outs and mode");
   s.group("drive", p.drive, "CAN frames in and out, after safety");
   s.group("receive", p.receive, "packets of all other sensors, and their decoders");
-  s.group("odometry", p.odometry, "one scan at a time; it looks for one at rate_hz, and finds one at busy_hz");
-  s.group("mapping", p.mapping, "likewise");
-  s.group("team", p.team, "what peers say, and a slice of the team's map; where a robot takes part in a team");
-  s.group("matching", p.matching, "comparing maps, one pair at a time, for seconds if need be; likewise");
+  s.group("odometry", p.odometry, "locates one scan at a time; looks for one at rate_hz, and finds one at busy_hz");
+  s.group("mapping", p.mapping, "puts one located scan at a time into the map; rates as odometry");
+  s.group("team", p.team, "in a team: datagrams of peers, and a slice of the team's map");
+  s.group("matching", p.matching, "in a team: compares maps, one pair at a time, for seconds if need be");
   s.group("watch", p.watch, "events, signs of life, live view: waits for no disk");
   s.group("housekeeping", p.housekeeping, "recording: everything that may wait for a disk");
   s.group("saving", p.saving, "map, pose and scans for a restart, where --state says so");

@@ -7,22 +7,38 @@
 
 namespace cairn {
 
-/// The tasks of a robot, in the order in which they run when they are released together. Defaults are for a Husky's NUC
-/// with a VLP-16 at 10 Hz. Odometry and mapping look for work a hundred times a second, so that a scan does not wait,
-/// and find it ten times.
+/// The tasks of a robot, in the order in which they run when they are released together. The defaults are for the NUC
+/// of a Husky with a VLP-16 at 10 Hz. Odometry and mapping look for work a hundred times a second, so that a scan does
+/// not wait, and find work ten times a second.
 struct ScheduleProfile {
-  scheduler::TaskSpec safety{"safety", 500, 0, 0, 0.2, 1, 0, 80, -1};
-  scheduler::TaskSpec drive{"drive", 500, 0.2, 0, 0.2, 1, 0, 75, -1};
-  scheduler::TaskSpec receive{"receive", 100, 0, 20, 1, 10, 0, 60, -1};
-  scheduler::TaskSpec odometry{"odometry", 100, 1, 100, 40, 80, 10, 50, -1};
-  scheduler::TaskSpec mapping{"mapping", 100, 2, 100, 30, 90, 10, 0, -1};
-  scheduler::TaskSpec team{"team", 25, 3, 200, 4, 0, 0, 0, -1};
-  scheduler::TaskSpec matching{"matching", 10, 6, 5000, 0, 0, 0, 0, -1};
-  scheduler::TaskSpec watch{"watch", 20, 4, 1000, 0.5, 0, 0, 0, -1};
-  scheduler::TaskSpec housekeeping{"housekeeping", 20, 5, 1000, 1, 0, 0, 0, -1};
-  scheduler::TaskSpec saving{"saving", 10, 7, 1000, 5, 0, 0, 0, -1};
+  scheduler::TaskSpec safety{.name = "safety", .rate_hz = 500, .soft_ms = 0.2, .hard_ms = 1, .priority = 80};
+  scheduler::TaskSpec drive{
+      .name = "drive", .rate_hz = 500, .phase_ms = 0.2, .soft_ms = 0.2, .hard_ms = 1, .priority = 75};
+  scheduler::TaskSpec receive{
+      .name = "receive", .rate_hz = 100, .deadline_ms = 20, .soft_ms = 1, .hard_ms = 10, .priority = 60};
+  scheduler::TaskSpec odometry{.name = "odometry",
+                               .rate_hz = 100,
+                               .phase_ms = 1,
+                               .deadline_ms = 100,
+                               .soft_ms = 40,
+                               .hard_ms = 80,
+                               .busy_hz = 10,
+                               .priority = 50};
+  scheduler::TaskSpec mapping{.name = "mapping",
+                              .rate_hz = 100,
+                              .phase_ms = 2,
+                              .deadline_ms = 100,
+                              .soft_ms = 30,
+                              .hard_ms = 90,
+                              .busy_hz = 10};
+  scheduler::TaskSpec team{.name = "team", .rate_hz = 25, .phase_ms = 3, .deadline_ms = 200, .soft_ms = 4};
+  scheduler::TaskSpec matching{.name = "matching", .rate_hz = 10, .phase_ms = 6, .deadline_ms = 5000};
+  scheduler::TaskSpec watch{.name = "watch", .rate_hz = 20, .phase_ms = 4, .deadline_ms = 1000, .soft_ms = 0.5};
+  scheduler::TaskSpec housekeeping{
+      .name = "housekeeping", .rate_hz = 20, .phase_ms = 5, .deadline_ms = 1000, .soft_ms = 1};
+  scheduler::TaskSpec saving{.name = "saving", .rate_hz = 10, .phase_ms = 7, .deadline_ms = 1000, .soft_ms = 5};
 
-  /// Those that declare a budget. `in_a_team`: with the team's.
+  /// The tasks that declare a budget. `in_a_team`: with the task of the team.
   [[nodiscard]] std::vector<scheduler::TaskSpec> tasks(bool in_a_team) const {
     std::vector<scheduler::TaskSpec> all{safety, drive, receive, odometry, mapping, watch, housekeeping, saving};
     if (in_a_team) all.push_back(team);

@@ -43,19 +43,19 @@ std::string boot_id() {
   return id;
 }
 
-Before look_back(Generations& generations, const RestartProfile& profile, double resolution_m, Time now,
-                 Monitor& monitor) {
-  Before before;
+PreviousRun find_previous_run(Generations& generations, const RestartProfile& profile, double resolution_m, Time now,
+                              Monitor& monitor) {
+  PreviousRun previous;
   auto saved = generations.load(now);
-  before.state_lost = !saved && generations.damaged();
-  if (!saved) return before;
-  before.epoch = saved->newest_epoch;
+  previous.state_lost = !saved && generations.damaged();
+  if (!saved) return previous;
+  previous.epoch = saved->newest_epoch;
   const std::string_view why_not = objection(*saved, profile, resolution_m, now);
   if (why_not.empty())
-    before.resumed = std::move(*saved);
+    previous.resumed = std::move(*saved);
   else
     monitor.event(now, "restart", "begins anew, not in the saved map: " + std::string(why_not));
-  return before;
+  return previous;
 }
 
 Resume resume(const Generation& saved) {

@@ -20,21 +20,21 @@ struct RestartProfile {
 
 void declare(config::Section& section, RestartProfile& profile);
 
-/// What a core finds of the one before it.
-struct Before {
-  std::optional<Generation> resumed;  ///< goes on from here; none: begins anew
-  std::uint32_t epoch = 0;            ///< of the map on disk; a new one gets the next number
-  bool crash_loop = false;            ///< one start too many
+/// What a run finds of the previous one.
+struct PreviousRun {
+  std::optional<Generation> resumed;  ///< this run goes on from here; none: it begins anew
+  std::uint32_t epoch = 0;            ///< of the map on disk; a new map gets the next number
+  bool crash_loop = false;            ///< too many starts in a short time; see StartLog
   bool state_lost = false;            ///< maps were saved, and none of them can be read
 };
 
 /// The machine's boot id: stamps of two boots cannot be compared. Empty where the kernel does not tell.
 [[nodiscard]] std::string boot_id();
 
-/// Whether the map on disk is one to go on in: of this boot, this resolution, not too old, with scans. If not, an event
-/// says why not.
-[[nodiscard]] Before look_back(Generations& generations, const RestartProfile& profile, double resolution_m, Time now,
-                               Monitor& monitor);
+/// The previous run, from its map on disk. This run goes on in that map if it is of this boot and this resolution, not
+/// too old, and has scans. If it does not, an event says why not.
+[[nodiscard]] PreviousRun find_previous_run(Generations& generations, const RestartProfile& profile,
+                                            double resolution_m, Time now, Monitor& monitor);
 
 /// `saved` must outlive the result.
 [[nodiscard]] Resume resume(const Generation& saved);

@@ -7,51 +7,53 @@ using drive::SendResult;
 using scheduler::Regime;
 using scheduler::Tick;
 
-FedLink::FedLink(Source& source, SourceId id, drive::CanLink* bus, scheduler::Feed::Tap tap)
+ReplayableCanLink::ReplayableCanLink(Source& source, SourceId id, const Slots& slots, drive::CanLink* bus,
+                                     scheduler::Feed::Tap tap)
     : feed(
-          source, id, kFramesSlot, [this](Time, const Error&) { ++errors_; }, std::move(tap)),
+          source, id, slots.frames, [this](Time, const Error&) { ++errors_; }, std::move(tap)),
+      slots_(slots),
       bus_(bus) {}
 
-void FedLink::begin(Tick& tick) {
+void ReplayableCanLink::begin(Tick& tick) {
   tick_ = &tick;
   sends_ = 0;
-  errors_ = errors_told_ = 0;
+  errors_ = errors_returned_ = 0;
 }
 
-Result<Poll> FedLink::next(Packet& packet, Duration /*timeout*/) {
+Result<Poll> ReplayableCanLink::next(Packet& packet, Duration /*timeout*/) {
   if (const Packet* fed = feed.take(*tick_)) {
     packet = *fed;
     return Poll::kPacket;
   }
-  // What a recorded file complains of is no fault of the bus.
+  // An error of a recorded file is no fault of the bus.
   const std::int32_t errors = tick_->decide(
-      kErrorSlot, [this] { return errors_; }, 0);
-  if (errors_told_ >= errors) return Poll::kTimeout;
-  ++errors_told_;
+      slots_.errors, [this] { return errors_; }, 0);
+  if (errors_returned_ >= errors) return Poll::kTimeout;
+  ++errors_returned_;
   return Error{Errc::kIo, "the CAN interface does not answer"};
 }
 
-SendResult FedLink::send(const drive::CanFrame& frame) {
+SendResult ReplayableCanLink::send(const drive::CanFrame& frame) {
   const std::int32_t bit = sends_ < 31 ? std::int32_t{1} << sends_ : 0;
   ++sends_;
   if (tick_->regime() == Regime::kLive && bus_ != nullptr) {
     const SendResult result = bus_->send(frame);
-    if (result == SendResult::kQueueFull) tick_->slot(kFullSlot) |= bit;
-    if (result == SendResult::kDown) tick_->slot(kDownSlot) |= bit;
+    if (result == SendResult::kQueueFull) tick_->slot(slots_.full) |= bit;
+    if (result == SendResult::kDown) tick_->slot(slots_.down) |= bit;
     return result;
   }
-  if ((tick_->slot(kFullSlot) & bit) != 0) return SendResult::kQueueFull;
-  return (tick_->slot(kDownSlot) & bit) != 0 ? SendResult::kDown : SendResult::kSent;
+  if ((tick_->slot(slots_.full) & bit) != 0) return SendResult::kQueueFull;
+  return (tick_->slot(slots_.down) & bit) != 0 ? SendResult::kDown : SendResult::kSent;
 }
 
-Result<void> FedLink::restart() {
+Result<void> ReplayableCanLink::restart() {
   if (tick_->regime() == Regime::kLive && bus_ != nullptr) return bus_->restart();
   return {};
 }
 
 Result<void> DriveTask::attach(const drive::Config& config, Source& source, SourceId id, drive::CanLink* bus,
                                scheduler::Feed::Tap tap) {
-  link_ = std::make_unique<FedLink>(source, id, bus, std::move(tap));
+  link_ = std::make_unique<ReplayableCanLink>(source, id, can_slots, bus, std::move(tap));
   auto drive = drive::CanDrive::create(config, *link_);
   if (!drive) return drive.error();
   drive_ = std::move(*drive);
@@ -60,7 +62,7 @@ Result<void> DriveTask::attach(const drive::Config& config, Source& source, Sour
 
 void DriveTask::tick(Tick& tick) {
   if (drive_ == nullptr || tick.regime() == Regime::kDrain) {
-    while (decisions_.take(tick) != nullptr) {
+    while (decisions.take(tick) != nullptr) {
     }
     tick.end_of_input();
     return;
@@ -69,13 +71,13 @@ void DriveTask::tick(Tick& tick) {
   obey(tick);
   command(tick.release());
   if (const auto state = drive_->tick(tick.release()); state && *state != nullptr) state_ = **state;
-  tell(tick);
+  publish(tick);
   if (link_->feed.ended()) tick.end_of_input();
 }
 
 void DriveTask::obey(Tick& tick) {
   bool arm = false;
-  while (const FailsafeDecision* decision = decisions_.take(tick)) {
+  while (const FailsafeDecision* decision = decisions.take(tick)) {
     decision_ = *decision;
     arm = arm || decision_.arm;
   }
@@ -96,16 +98,17 @@ void DriveTask::command(Time now) {
   (void)drive_->command(limited(*wanted, decision_), now);  // the drive's status says what became of it
 }
 
-void DriveTask::tell(Tick& tick) {
-  DriveNews news{drive_->status(), told_.feedback};
-  if (state_ && state_->stamp != told_.feedback.last) news.feedback = {state_->stamp, told_.feedback.count + 1};
-  const bool same = news.status.level == told_.status.level && news.status.cause == told_.status.cause &&
-                    news.status.epoch == told_.status.epoch && news.feedback.count == told_.feedback.count;
+void DriveTask::publish(Tick& tick) {
+  DriveNews news{drive_->status(), published_.feedback};
+  if (state_ && state_->stamp != published_.feedback.last)
+    news.feedback = {state_->stamp, published_.feedback.count + 1};
+  const bool same = news.status.level == published_.status.level && news.status.cause == published_.status.cause &&
+                    news.status.epoch == published_.status.epoch && news.feedback.count == published_.feedback.count;
   if (same) return;
-  DriveNews* out = news_.back(tick);
-  if (out == nullptr) return;  // told with the next tick
-  *out = told_ = news;
-  news_.push(tick);
+  DriveNews* out = status.back(tick);
+  if (out == nullptr) return;  // with the next tick
+  *out = published_ = news;
+  status.push(tick);
 }
 
 }  // namespace cairn

@@ -11,16 +11,16 @@ void HousekeepingTask::tick(scheduler::Tick& tick) {
 
 void HousekeepingTask::write_log() {
   std::size_t number = 0;
-  for (scheduler::Line& line : executive_.lines()) {
-    if (line.live_only) continue;
-    if (!begun_) log_.task(number, line.spec.name, line.releases);
+  for (scheduler::ScheduledTask& task : graph_.tasks()) {
+    if (task.live_only()) continue;
+    if (!begun_) log_.task(number, task.spec.name, task.releases);
     ++number;
   }
   begun_ = true;
   number = 0;
-  for (scheduler::Line& line : executive_.lines()) {
-    if (line.live_only) continue;
-    for (; line.log.front() != nullptr; line.log.pop()) log_.tick(number, *line.log.front());
+  for (scheduler::ScheduledTask& task : graph_.tasks()) {
+    if (task.live_only()) continue;
+    for (; task.log.front() != nullptr; task.log.pop()) log_.tick(number, *task.log.front());
     ++number;
   }
   log_.flush();
@@ -29,9 +29,9 @@ void HousekeepingTask::write_log() {
 Result<void> HousekeepingTask::close(Time now) {
   write_log();
   std::size_t number = 0;
-  for (const scheduler::Line& line : executive_.lines()) {
-    if (line.live_only) continue;
-    log_.end(number++, line.next);
+  for (const scheduler::ScheduledTask& task : graph_.tasks()) {
+    if (task.live_only()) continue;
+    log_.end(number++, task.next);
   }
   if (recorder_ != nullptr) recorder_->close(now);
   return log_.close();

@@ -8,44 +8,38 @@
 #include "hal/time.hpp"
 #include "onboard/robot.hpp"
 #include "onboard/safety/failsafe.hpp"
-#include "onboard/scheduler/channel.hpp"
 
 namespace cairn {
 
-/// A whole scan, and when its last byte was there.
+// What the ports of the tasks carry.
+
+/// A whole scan. From receive to odometry.
 struct ArrivedScan {
   Scan scan;
-  Time arrival{};
+  Time arrival{};  ///< of its last byte
 };
 
-/// A located scan, and when the last byte of the scan was there.
+/// A scan with its pose. From odometry to mapping.
 struct ArrivedMotion {
   LocatedScan scan;
-  Time arrival{};
+  Time arrival{};  ///< of the last byte of the scan
 };
 
-/// When each kind of sensor last gave something good, and what is wrong with what they give.
+/// When each kind of sensor last gave good data, and the faults in its data. From receive to safety.
 struct SensorsSeen {
   std::array<Seen, kWatched> seen{};
   FaultSet faults;
 };
 
-/// What odometry says of itself.
+/// The state of odometry. To safety, with every change.
 struct OdometryNews {
   bool lost = false;  ///< the last scan did not fit: the pose is only a prediction
 };
 
-/// What the drive says of itself.
+/// The state of the drive. To safety, with every change.
 struct DriveNews {
   DriveStatus status;
-  Seen feedback;
+  Seen feedback;  ///< the last set of wheel readings
 };
-
-using ScanChannel = scheduler::Channel<ArrivedScan>;
-using MotionChannel = scheduler::Channel<ArrivedMotion>;
-using SeenChannel = scheduler::Channel<SensorsSeen>;
-using OdometryChannel = scheduler::Channel<OdometryNews>;
-using DecisionChannel = scheduler::Channel<FailsafeDecision>;
-using DriveChannel = scheduler::Channel<DriveNews>;
 
 }  // namespace cairn

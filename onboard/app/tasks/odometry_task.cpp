@@ -11,36 +11,35 @@ using scheduler::Tick;
 
 namespace {
 
-constexpr Duration kBatchPeriod = std::chrono::milliseconds(500);  // of changed tiles
+// Between two batches of changed tiles, in time of scans.
+constexpr Duration kBatchPeriod = std::chrono::milliseconds(500);
 
 }  // namespace
 
-OdometryTask::OdometryTask(const RobotProfile& profile, const Parts& parts, Robot& robot, Monitor& monitor,
-                           Progress progress)
+OdometryTask::OdometryTask(const RobotProfile& profile, Robot& robot, Monitor& monitor, Progress progress)
     : deadline_(from_seconds(profile.odometry_deadline_s)),
       max_iterations_(profile.odometry.max_iterations),
-      parts_(parts),
       robot_(robot),
       monitor_(monitor),
       latency_(monitor.stage("packet_to_pose")),
       progress_(std::move(progress)) {}
 
 void OdometryTask::tick(Tick& tick) {
-  while (const ArrivedScan* arrived = parts_.scans.take(tick)) {
+  while (const ArrivedScan* arrived = scans.take(tick)) {
     locate(*arrived, tick);
     if (tick.regime() != Regime::kDrain) break;
   }
-  parts_.scans.give_back(tick);
-  tell_safety(tick);
+  scans.give_back(tick);
+  publish_status(tick);
 }
 
 void OdometryTask::locate(const ArrivedScan& arrived, Tick& tick) {
-  ArrivedMotion* out = parts_.motions.back(tick);
+  ArrivedMotion* out = motions.back(tick);
   const Time deadline = robot_.resuming() ? Time::max() : arrived.scan.valid.end + deadline_;
-  Budget budget = tick.budget(kStepsSlot, deadline, max_iterations_);
+  Budget budget = tick.budget(steps_slot, deadline, max_iterations_);
   const auto located = robot_.locate(arrived.scan, budget, out != nullptr ? out->scan : dropped_);
-  tick.settle(kStepsSlot, budget);
-  if (located && told_ != nullptr) told_->publish(*located);
+  tick.settle(steps_slot, budget);
+  if (located && published_ != nullptr) published_->publish(*located);
   lost_ = !located || located->lost;
   if (!located) {
     monitor_.event(arrived.scan.valid.end, "odometry", to_string(located.error()));
@@ -48,37 +47,35 @@ void OdometryTask::locate(const ArrivedScan& arrived, Tick& tick) {
     monitor_.event(arrived.scan.valid.end, "odometry", "a scan did not get into the map: mapping is behind");
   } else {
     out->arrival = arrived.arrival;
-    parts_.motions.push(tick);
+    motions.push(tick);
   }
   if (tick.takes_time()) latency_.record(tick.figure_now() - arrived.arrival);
   if (progress_) progress_(arrived.scan.valid.end, ++count_);
 }
 
-/// The safety task hears of changes alone.
-void OdometryTask::tell_safety(Tick& tick) {
-  if (lost_ == told_lost_ || tick.regime() == Regime::kDrain) return;
-  OdometryNews* out = parts_.news.back(tick);
+/// The safety task hears of changes only.
+void OdometryTask::publish_status(Tick& tick) {
+  if (lost_ == published_lost_ || tick.regime() == Regime::kDrain) return;
+  OdometryNews* out = status.back(tick);
   if (out == nullptr) return;  // with the next tick
-  out->lost = told_lost_ = lost_;
-  parts_.news.push(tick);
+  out->lost = published_lost_ = lost_;
+  status.push(tick);
 }
 
-MappingTask::MappingTask(const OverloadConfig& overload, Duration deadline, MotionChannel& motions, Robot& robot,
-                         Monitor& monitor)
+MappingTask::MappingTask(const OverloadConfig& overload, Duration deadline, Robot& robot, Monitor& monitor)
     : deadline_(deadline),
       overload_(overload),
-      motions_(motions),
       robot_(robot),
       monitor_(monitor),
       latency_(monitor.stage("packet_to_map")) {}
 
 void MappingTask::tick(Tick& tick) {
-  if (copier_ && motions_.size() == 0) copier_->idle(tick.release(), robot_.map());
-  while (const ArrivedMotion* motion = motions_.take(tick)) {
+  if (copier_ && motions.size() == 0) copier_->idle(tick.release(), robot_.map());
+  while (const ArrivedMotion* motion = motions.take(tick)) {
     extend(*motion, tick);
     if (tick.regime() != Regime::kDrain) break;
   }
-  motions_.give_back(tick);
+  motions.give_back(tick);
   if (tick.regime() == Regime::kDrain) hand_on_tiles(tick);
 }
 
@@ -99,12 +96,11 @@ void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
   if (tick.takes_time()) latency_.record(tick.figure_now() - motion.arrival);
 }
 
-void MappingTask::share_tiles(TileChannel& tiles) {
-  tiles_ = &tiles;
+void MappingTask::share_resumed_tiles() {
   resumed_tiles_ = known_tiles(robot_.map(), std::numeric_limits<std::size_t>::max());
 }
 
-/// Scans change the same tiles again and again: reading them with each would be a quarter of the work in a forest.
+/// Scans change the same tiles again and again. Reading them with each scan would be a quarter of the work in a forest.
 void MappingTask::note_changes(const LocatedScan& scan, Tick& tick) {
   changes_ = {scan.epoch, scan.T_odom_base};
   if (scan.stamp < next_batch_ && scan.stamp >= next_batch_ - kBatchPeriod) return;
@@ -114,7 +110,7 @@ void MappingTask::note_changes(const LocatedScan& scan, Tick& tick) {
 
 /// Where the channel is full, tiles stay changed and go with the next batch.
 void MappingTask::hand_on_tiles(Tick& tick) {
-  TileBatch* out = tiles_ != nullptr && changes_ ? tiles_->back(tick) : nullptr;
+  TileBatch* out = changes_ ? tiles.back(tick) : nullptr;
   if (out == nullptr) return;
   out->epoch = changes_->epoch;
   out->T_odom_base = changes_->T_odom_base;
@@ -123,7 +119,7 @@ void MappingTask::hand_on_tiles(Tick& tick) {
   if (changes_->epoch == 0) std::ranges::for_each(resumed_tiles_, add);
   resumed_tiles_.clear();
   std::ranges::for_each(robot_.take_changed_tiles(), add);
-  tiles_->push(tick);
+  tiles.push(tick);
   changes_.reset();
 }
 
@@ -133,10 +129,10 @@ Shed MappingTask::decide(const ArrivedMotion& motion, Tick& tick) {
   const auto measure = [&] {
     Load load;
     load.utilisation = to_seconds(tick.figure_now() - motion.arrival) / to_seconds(deadline_);
-    load.queue_fill = static_cast<double>(motions_.size() - 1) / static_cast<double>(motions_.capacity());
+    load.queue_fill = static_cast<double>(motions.size() - 1) / static_cast<double>(motions.capacity());
     return static_cast<std::int32_t>(overload_.step(tick.release(), load));
   };
-  return static_cast<Shed>(std::clamp(tick.decide(kShedSlot, measure, 0), 0, kShedLevels - 1));
+  return static_cast<Shed>(std::clamp(tick.decide(shed_slot, measure, 0), 0, kShedLevels - 1));
 }
 
 }  // namespace cairn

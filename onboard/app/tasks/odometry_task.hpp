@@ -12,63 +12,62 @@
 #include "onboard/app/tasks/messages.hpp"
 #include "onboard/app/team/team_messages.hpp"
 #include "onboard/safety/overload.hpp"
-#include "onboard/scheduler/tick.hpp"
+#include "onboard/scheduler/ports.hpp"
 
 namespace cairn {
 
-/// Scan in, pose out, one in a tick. Slots: 0 scans taken, 1 iterations granted, 2 located scans and 3 news accepted.
+/// Scan in, pose out, one in a tick.
 class OdometryTask final : public scheduler::Task {
  public:
-  static constexpr std::size_t kScansSlot = 0, kStepsSlot = 1, kMotionsSlot = 2, kNewsSlot = 3;
+  // Slots in schedule.log, in this order.
+  scheduler::InputPort<ArrivedScan> scans{*this, "scans"};
+  const std::size_t steps_slot = take_slots();  ///< iterations granted
+  scheduler::OutputPort<ArrivedMotion> motions{*this, "motions"};
+  scheduler::OutputPort<OdometryNews> status{*this, "status"};
+
   using Progress = std::function<void(Time, std::size_t scans)>;
 
-  struct Parts {
-    ScanChannel& scans;
-    MotionChannel& motions;
-    OdometryChannel& news;
-  };
-
   /// All must outlive the task. `progress` is called after every scan, on the task's thread; may be empty.
-  OdometryTask(const RobotProfile& profile, const Parts& parts, Robot& robot, Monitor& monitor, Progress progress);
+  OdometryTask(const RobotProfile& profile, Robot& robot, Monitor& monitor, Progress progress);
 
-  /// Live: where every pose goes, besides. To be called before the run; `pose` must outlive the task.
-  void tell(LatestValue<TrackPoint>& pose) { told_ = &pose; }
+  /// Live: every pose is written to `pose`, too. To be called before the run; `pose` must outlive the task.
+  void publish_to(LatestValue<TrackPoint>& pose) { published_ = &pose; }
 
   void tick(scheduler::Tick& tick) override;
 
  private:
   void locate(const ArrivedScan& arrived, scheduler::Tick& tick);
-  void tell_safety(scheduler::Tick& tick);
+  void publish_status(scheduler::Tick& tick);
 
   Duration deadline_;
   int max_iterations_;
-  Parts parts_;
   Robot& robot_;
   Monitor& monitor_;
   StageStats& latency_;
   Progress progress_;
-  LatestValue<TrackPoint>* told_ = nullptr;
+  LatestValue<TrackPoint>* published_ = nullptr;
   LocatedScan dropped_;  // filled when the channel is full
   std::size_t count_ = 0;
-  bool lost_ = false, told_lost_ = false;
+  bool lost_ = false, published_lost_ = false;
 };
 
-/// Located scans in, map out, one in a tick. When its scans come too late it sheds work, in the order of Shed. Slots:
-/// 0 located scans taken, 1 the level of shedding, 2 batches of tiles accepted.
+/// Located scans in, map out, one in a tick. When its scans come too late it sheds work, in the order of Shed. It hands
+/// on changed tiles where its port `tiles` is connected.
 class MappingTask final : public scheduler::Task {
  public:
-  static constexpr std::size_t kMotionsSlot = 0, kShedSlot = 1, kTilesSlot = 2;
+  // Slots in schedule.log, in this order.
+  scheduler::InputPort<ArrivedMotion> motions{*this, "motions"};
+  const std::size_t shed_slot = take_slots();  ///< the level of shedding
+  scheduler::OutputPort<TileBatch> tiles{*this, "tiles"};
 
-  /// All must outlive the task. `deadline`: from a scan's last byte to its being in the map.
-  MappingTask(const OverloadConfig& overload, Duration deadline, MotionChannel& motions, Robot& robot,
-              Monitor& monitor);
+  /// All must outlive the task. `deadline`: from the last byte of a scan until the scan is in the map.
+  MappingTask(const OverloadConfig& overload, Duration deadline, Robot& robot, Monitor& monitor);
 
   /// Live: hands on copies of the map and scans. To be called before the run.
   void keep_copies(MapCopier copier) { copier_.emplace(std::move(copier)); }
 
-  /// Hands on what scans change, and first what a resumed map holds. To be called before the run; `tiles` must outlive
-  /// the task.
-  void share_tiles(TileChannel& tiles);
+  /// The first batch holds the tiles of a resumed map. To be called before the run.
+  void share_resumed_tiles();
 
   void tick(scheduler::Tick& tick) override;
 
@@ -91,12 +90,10 @@ class MappingTask final : public scheduler::Task {
   std::atomic<bool> memory_short_{false};
   std::array<RelaxedCounter, kShedLevels> scans_at_{};
   std::uint64_t count_ = 0;
-  MotionChannel& motions_;
   Robot& robot_;
   Monitor& monitor_;
   StageStats& latency_;
   std::optional<MapCopier> copier_;
-  TileChannel* tiles_ = nullptr;
   std::vector<TileKey> resumed_tiles_;  // not handed on yet; of epoch 0
   struct Changes {
     std::uint32_t epoch;

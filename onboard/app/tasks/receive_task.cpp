@@ -3,71 +3,62 @@
 
 #include <algorithm>
 
+#include "onboard/app/door/fitted.hpp"
+
 namespace cairn {
 
 using scheduler::Tick;
 
-namespace {
-
-std::optional<Watched> watched_as(std::string_view kind) {
-  if (kind == recording::kCamera) return Watched::kCamera;
-  if (kind == recording::kThermal) return Watched::kThermal;
-  if (kind == recording::kDepth) return Watched::kDepth;
-  return std::nullopt;
-}
-
-}  // namespace
-
-ReceiveTask::ReceiveTask(ScanChannel& scans, SeenChannel& seen, Monitor& monitor)
-    : scans_(scans), seen_channel_(seen), monitor_(monitor), decode_stage_(monitor.stage("decode")) {}
+ReceiveTask::ReceiveTask(Monitor& monitor) : monitor_(monitor), decode_stage_(monitor.stage("decode")) {}
 
 bool ReceiveTask::add(Input& input, SourceId id, scheduler::Feed::Tap tap) {
-  if (ways_.size() == kMaxInputs) return false;
+  if (sensors_.size() == kMaxInputs) return false;
   const auto complain = [this](Time now, const Error& error) { monitor_.event(now, "input", to_string(error)); };
-  ways_.push_back(
-      {{*input.source, id, ways_.size(), complain, std::move(tap)}, input.scans.get(), watched_as(input.entry.kind)});
+  const std::size_t slot = packets_slot + sensors_.size();
+  sensors_.push_back(
+      {{*input.source, id, slot, complain, std::move(tap)}, input.scans.get(), watched_as(input.entry.kind)});
   return true;
 }
 
 void ReceiveTask::tick(Tick& tick) {
   bool ended = true;
-  for (Way& way : ways_) {
-    while (const Packet* packet = way.feed.take(tick)) receive(*packet, way, tick);
-    if (way.decoder != nullptr && tick.regime() != scheduler::Regime::kDrain)
-      hand_on(way.decoder->expire(tick.release()), tick, false);
-    ended = ended && way.feed.ended();
+  for (Sensor& sensor : sensors_) {
+    while (const Packet* packet = sensor.feed.take(tick)) receive(*packet, sensor, tick);
+    if (sensor.decoder != nullptr && tick.regime() != scheduler::Regime::kDrain)
+      hand_on(sensor.decoder->expire(tick.release()), tick, false);
+    ended = ended && sensor.feed.ended();
   }
   judge(tick.release());
-  tell(tick);
+  publish(tick);
   if (ended) tick.end_of_input();
 }
 
 void ReceiveTask::finish(Tick& tick) {
-  for (Way& way : ways_)
-    if (way.decoder != nullptr) hand_on(way.decoder->flush(), tick, true);
+  for (Sensor& sensor : sensors_)
+    if (sensor.decoder != nullptr) hand_on(sensor.decoder->flush(), tick, true);
 }
 
-void ReceiveTask::receive(const Packet& packet, Way& way, Tick& tick) {
+void ReceiveTask::receive(const Packet& packet, Sensor& sensor, Tick& tick) {
   if (!figures_.start) figures_.start = packet.arrival;
   figures_.end = std::max(figures_.end, packet.arrival);
-  if (way.decoder == nullptr) {
-    if (way.watched) note(*way.watched, packet.arrival);
+  if (sensor.decoder == nullptr) {
+    if (sensor.watched) note(*sensor.watched, packet.arrival);
     return;
   }
-  if (way.stuck.step(packet.channel, packet.payload())) {
-    ++way.refused;
+  if (sensor.stuck.step(packet.channel, packet.payload())) {
+    ++sensor.refused;
     monitor_.event(packet.arrival, "lidar", "stuck: the same packet again and again");
     return;
   }
-  decode(packet, way, tick);
+  decode(packet, sensor, tick);
 }
 
-void ReceiveTask::decode(const Packet& packet, Way& way, Tick& tick) {
+void ReceiveTask::decode(const Packet& packet, Sensor& sensor, Tick& tick) {
   const auto scan = [&] {
     const StageTimer timing(decode_stage_);
-    return way.decoder->decode(packet);
+    return sensor.decoder->decode(packet);
   }();
-  ++(scan ? way.accepted : way.refused);
+  ++(scan ? sensor.accepted : sensor.refused);
   if (!scan)
     monitor_.event(packet.arrival, "decode", scan.error().cause);
   else
@@ -76,12 +67,12 @@ void ReceiveTask::decode(const Packet& packet, Way& way, Tick& tick) {
 
 void ReceiveTask::judge(Time now) {
   FaultSet faults;
-  for (Way& way : ways_) {
-    if (way.decoder == nullptr) continue;
-    if (way.stuck.stuck()) faults.set(Fault::kLidarStuck);
-    if (way.rejection.step(now, way.accepted, way.refused)) faults.set(Fault::kLidarRejected);
+  for (Sensor& sensor : sensors_) {
+    if (sensor.decoder == nullptr) continue;
+    if (sensor.stuck.stuck()) faults.set(Fault::kLidarStuck);
+    if (sensor.rejection.step(now, sensor.accepted, sensor.refused)) faults.set(Fault::kLidarRejected);
   }
-  news_ = news_ || faults != seen_.faults;
+  unpublished_ = unpublished_ || faults != seen_.faults;
   seen_.faults = faults;
 }
 
@@ -90,45 +81,45 @@ void ReceiveTask::hand_on(const Scan* scan, Tick& tick, bool at_the_end) {
   ++figures_.scans;
   figures_.lost_packets += scan->lost_packets;
   if (!scan->partial) note(Watched::kLidar, figures_.end);
-  // The first and the last revolution are cut by where the data begins and ends: nothing is wrong with the sensor.
+  // Where the data begins and ends, the first and the last revolution are cut. The sensor is not at fault.
   if (scan->incomplete && figures_.scans > 1 && !at_the_end)
     monitor_.event(scan->valid.end, "lidar", "incomplete scan: packets were lost or late, or the motor stood");
   // A map that begins with a part of a turn leaves directions open, and every later pose would refer to it.
   if (scan->incomplete && figures_.scans == 1 && !at_the_end) return;
-  ArrivedScan* out = scans_.back(tick);
+  ArrivedScan* out = scans.back(tick);
   if (out == nullptr) {
     monitor_.event(scan->valid.end, "receive", "a scan was dropped: odometry is behind");
     return;
   }
   out->scan = *scan;
   out->arrival = figures_.end;
-  scans_.push(tick);
+  scans.push(tick);
 }
 
 void ReceiveTask::note(Watched what, Time when) {
-  Seen& seen = seen_.seen[static_cast<std::size_t>(what)];
-  seen = {when, seen.count + 1};
-  news_ = true;
+  Seen& last = seen_.seen[static_cast<std::size_t>(what)];
+  last = {when, last.count + 1};
+  unpublished_ = true;
 }
 
-void ReceiveTask::tell(Tick& tick) {
-  if (!news_ || tick.regime() == scheduler::Regime::kDrain) return;
-  SensorsSeen* out = seen_channel_.back(tick);
+void ReceiveTask::publish(Tick& tick) {
+  if (!unpublished_ || tick.regime() == scheduler::Regime::kDrain) return;
+  SensorsSeen* out = seen.back(tick);
   if (out == nullptr) return;  // with the next tick
   *out = seen_;
-  seen_channel_.push(tick);
-  news_ = false;
+  seen.push(tick);
+  unpublished_ = false;
 }
 
 Time ReceiveTask::first_arrival() {
   Time first = Time::max();
-  for (Way& way : ways_) first = std::min(first, way.feed.first_arrival());
+  for (Sensor& sensor : sensors_) first = std::min(first, sensor.feed.first_arrival());
   return first;
 }
 
 std::uint64_t ReceiveTask::missing_packets() const {
   std::uint64_t missing = 0;
-  for (const Way& way : ways_) missing += way.feed.missing();
+  for (const Sensor& sensor : sensors_) missing += sensor.feed.missing();
   return missing;
 }
 

@@ -12,25 +12,30 @@
 #include "onboard/safety/rejection.hpp"
 #include "onboard/safety/stuck.hpp"
 #include "onboard/scheduler/feed.hpp"
+#include "onboard/scheduler/ports.hpp"
 #include "onboard/scheduler/tick.hpp"
 
 namespace cairn {
 
-/// Reads what the sensors sent, hands on every scan that became whole, and says what is wrong with a LiDAR. Slots: 0 …
-/// kMaxInputs − 1 packets of its inputs in their order, then scans and news accepted.
+/// Reads what the sensors sent, hands on every whole scan, and finds the faults of a LiDAR.
 class ReceiveTask final : public scheduler::Task {
  public:
-  static constexpr std::size_t kMaxInputs = 8, kScansSlot = 8, kSeenSlot = 9;
+  static constexpr std::size_t kMaxInputs = 8;  ///< sensors; the slots in schedule.log are reserved for them
 
-  /// What came in; of the task's thread, or of a run that has ended. Any thread may read the counters.
+  // Slots in schedule.log, in this order.
+  const std::size_t packets_slot = take_slots(kMaxInputs);  ///< packets taken, one slot for each input
+  scheduler::OutputPort<ArrivedScan> scans{*this, "scans"};
+  scheduler::OutputPort<SensorsSeen> seen{*this, "seen"};
+
+  /// What came in. Of the task's thread, or after the run. Any thread may read the counters.
   struct Figures {
     std::optional<Time> start;  ///< arrival of the first packet
     Time end{};                 ///< arrival of the last
     RelaxedCounter scans, lost_packets;
   };
 
-  /// All must outlive the task.
-  ReceiveTask(ScanChannel& scans, SeenChannel& seen, Monitor& monitor);
+  /// `monitor` must outlive the task.
+  explicit ReceiveTask(Monitor& monitor);
   /// `input` must outlive the task. False: there are kMaxInputs already.
   bool add(Input& input, SourceId id, scheduler::Feed::Tap tap);
 
@@ -42,29 +47,27 @@ class ReceiveTask final : public scheduler::Task {
   [[nodiscard]] std::uint64_t missing_packets() const;
 
  private:
-  struct Way {
+  struct Sensor {
     scheduler::Feed feed;
-    ScanDecoder* decoder;  // null: only counted and recorded
-    std::optional<Watched> watched;
+    ScanDecoder* decoder;            // null: its packets are only counted and recorded
+    std::optional<Watched> watched;  // without a decoder: every packet is good data of this kind
     StuckWatch stuck{};
     RejectionWatch rejection{};
     std::uint64_t accepted = 0, refused = 0;  // packets of a decoder
   };
-  void receive(const Packet& packet, Way& way, scheduler::Tick& tick);
-  void decode(const Packet& packet, Way& way, scheduler::Tick& tick);
+  void receive(const Packet& packet, Sensor& sensor, scheduler::Tick& tick);
+  void decode(const Packet& packet, Sensor& sensor, scheduler::Tick& tick);
   void judge(Time now);
   void hand_on(const Scan* scan, scheduler::Tick& tick, bool at_the_end);
   void note(Watched what, Time when);
-  void tell(scheduler::Tick& tick);
+  void publish(scheduler::Tick& tick);
 
-  ScanChannel& scans_;
-  SeenChannel& seen_channel_;
   Monitor& monitor_;
   StageStats& decode_stage_;
-  std::deque<Way> ways_;
+  std::deque<Sensor> sensors_;
   Figures figures_;
   SensorsSeen seen_;
-  bool news_ = false;
+  bool unpublished_ = false;  // seen_ has changed
 };
 
 }  // namespace cairn

@@ -8,7 +8,7 @@
 namespace cairn {
 namespace {
 
-/// What peers said when a recording was made is not what they say now.
+/// Peers say other things now than when the recording was made.
 void forget_recorded_peers(Door& door) {
   for (std::size_t i = door.inputs.size(); i-- > 0;) {
     if (door.inputs[i].entry.kind != recording::kPeers) continue;
@@ -19,17 +19,27 @@ void forget_recorded_peers(Door& door) {
 
 }  // namespace
 
-Result<void> join_team(const RobotProfile& profile, const Clock& clock, Door& door) {
-  if (profile.team.id == 0)
-    return Error{Errc::kInvalidConfig,
-                 "this robot has no place in a team",
-                 profile.name,
-                 {},
-                 "give it a number of its own in its profile: team: {id: 1}"};
-  forget_recorded_peers(door);
+Result<void> check_team_place(const RobotProfile& profile) {
+  if (profile.team.id != 0) return {};
+  return Error{Errc::kInvalidConfig,
+               "this robot has no place in a team",
+               profile.name,
+               {},
+               "give it a number of its own in its profile: team: {id: 1}"};
+}
+
+recording::SourceEntry peers_entry() {
   recording::SourceEntry entry;
-  entry.id = entry.kind = recording::kPeers;
+  entry.id = to_string(recording::kPeers);
+  entry.kind = recording::kPeers;
   entry.file = "peers.log";
+  return entry;
+}
+
+Result<void> join_team(const RobotProfile& profile, const Clock& clock, Door& door) {
+  if (auto place = check_team_place(profile); !place) return place;
+  forget_recorded_peers(door);
+  const recording::SourceEntry entry = peers_entry();
   const auto id = static_cast<SourceId>(door.inputs.size());
   const Time utc = clock.now() + Duration{LiveClock::realtime_offset()};
   const peers::Beginning beginning{static_cast<peers::RobotId>(profile.team.id), new_epoch(utc)};

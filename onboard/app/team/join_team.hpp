@@ -8,8 +8,14 @@
 
 namespace cairn {
 
-/// Opens the door to the robot's peer process, as one more input. `clock` must outlive the door. Errors: kInvalidConfig
-/// (the profile names no place in a team), those of the socket.
+/// Error kInvalidConfig: the profile gives the robot no place in a team.
+[[nodiscard]] Result<void> check_team_place(const RobotProfile& profile);
+
+/// What peers send, as a source of a recording.
+[[nodiscard]] recording::SourceEntry peers_entry();
+
+/// Adds the robot's peer process to the inputs of the door, in place of recorded peers. `clock` must outlive the door.
+/// Errors: those of check_team_place() and of the socket.
 Result<void> join_team(const RobotProfile& profile, const Clock& clock, Door& door);
 
 }  // namespace cairn

@@ -14,7 +14,7 @@ using scheduler::Tick;
 
 namespace {
 
-constexpr Duration kStep = std::chrono::milliseconds(100), kTell = std::chrono::seconds(1);
+constexpr Duration kStepPeriod = std::chrono::milliseconds(100), kPublishPeriod = std::chrono::seconds(1);
 // A tile takes some tens of microseconds, memory for more nodes a few more: 2 ms, less what the last step takes too
 // long.
 constexpr Duration kFusionSlice = std::chrono::microseconds(1500);
@@ -22,18 +22,16 @@ constexpr int kSliceTiles = 100;
 
 }  // namespace
 
-TeamTask::TeamTask(const TeamProfile& profile, std::string name, double resolution_m, const Parts& parts,
-                   Monitor& monitor)
+TeamTask::TeamTask(const TeamProfile& profile, std::string name, double resolution_m, Monitor& monitor)
     : profile_(profile),
       name_(std::move(name)),
       resolution_m_(resolution_m),
-      parts_(parts),
       monitor_(monitor),
       fusion_(monitor.stage("fusion")) {}
 
 void TeamTask::attach(Source& source, SourceId id, peers::PeerPort* port, scheduler::Feed::Tap tap) {
   const auto complain = [this](Time now, const Error& error) { monitor_.event(now, "team", to_string(error)); };
-  feed_.emplace(source, id, kFeedSlot, complain, std::move(tap));
+  feed_.emplace(source, id, datagrams_slot, complain, std::move(tap));
   port_ = port;
 }
 
@@ -67,7 +65,7 @@ void TeamTask::begin(const Packet& packet, Time now) {
 }
 
 void TeamTask::observe(Tick& tick) {
-  while (const TileBatch* batch = parts_.tiles.take(tick)) {
+  while (const TileBatch* batch = tiles.take(tick)) {
     if (!team_) continue;
     if (std::exchange(epoch_, batch->epoch) != batch->epoch) team_->begin(after(team_->exchange().epoch()));
     team_->be_at(batch->T_odom_base);
@@ -76,12 +74,12 @@ void TeamTask::observe(Tick& tick) {
 }
 
 void TeamTask::learn(Tick& tick) {
-  while (MatchJob* job = parts_.results.take(tick)) team_->matched(std::move(*job), tick.release());
+  while (MatchJob* job = results.take(tick)) team_->matched(std::move(*job), tick.release());
 }
 
 void TeamTask::speak(Tick& tick) {
   const Time now = tick.release();
-  if (!team_ || (last_step_ != Time::min() && now < last_step_ + kStep)) return;
+  if (!team_ || (last_step_ != Time::min() && now < last_step_ + kStepPeriod)) return;
   last_step_ = now;
   out_.clear();
   team_->step(now, out_);
@@ -89,15 +87,15 @@ void TeamTask::speak(Tick& tick) {
     for (const peers::Outgoing& datagram : out_) port_->send(datagram.to, datagram.bytes);
   hand_out_a_job(tick);
   note_lags(now);
-  if (last_told_ == Time::min() || now >= last_told_ + kTell) tell(now);
+  if (last_published_ == Time::min() || now >= last_published_ + kPublishPeriod) publish_peers(now);
 }
 
 void TeamTask::hand_out_a_job(Tick& tick) {
   auto job = team_->next_match(tick.release());
   if (!job) return;
-  if (MatchJob* place = parts_.jobs.back(tick)) {
+  if (MatchJob* place = jobs.back(tick)) {
     *place = std::move(*job);
-    parts_.jobs.push(tick);
+    jobs.push(tick);
   } else {
     team_->matched(std::move(*job), tick.release());  // later
   }
@@ -113,9 +111,9 @@ void TeamTask::fuse(Tick& tick) {
   }
   if (team_->map().up_to_date()) return;
   const StageTimer timing(fusion_);
-  Budget budget = tick.budget(kFuseSlot, tick.figure_now() + kFusionSlice, kSliceTiles);
+  Budget budget = tick.budget(fuse_slot, tick.figure_now() + kFusionSlice, kSliceTiles);
   (void)team_->fuse(budget);
-  tick.settle(kFuseSlot, budget);
+  tick.settle(fuse_slot, budget);
 }
 
 void TeamTask::note_lags(Time now) {
@@ -136,8 +134,8 @@ void TeamTask::note_lags(Time now) {
   }
 }
 
-void TeamTask::tell(Time now) {
-  last_told_ = now;
+void TeamTask::publish_peers(Time now) {
+  last_published_ = now;
   auto& peers = view_.back();
   peers.clear();
   for (const auto& [robot, link] : team_->exchange().links()) {
@@ -165,17 +163,17 @@ void TeamTask::tell(Time now) {
 
 void MatchTask::tick(Tick& tick) {
   if (tick.regime() == Regime::kDrain) return;
-  if (MatchJob* job = jobs_.take(tick)) {
+  if (MatchJob* job = jobs.take(tick)) {
     const StageTimer timing(stage_);
-    Budget budget = tick.budget(kStepsSlot, tick.figure_now() + limit_, matching::kAmpleSteps);
+    Budget budget = tick.budget(steps_slot, tick.figure_now() + limit_, matching::kAmpleSteps);
     run(*job, budget);
-    tick.settle(kStepsSlot, budget);
-    if (MatchJob* place = results_.back(tick)) {
+    tick.settle(steps_slot, budget);
+    if (MatchJob* place = results.back(tick)) {
       *place = std::move(*job);
-      results_.push(tick);
+      results.push(tick);
     }
   }
-  jobs_.give_back(tick);
+  jobs.give_back(tick);
 }
 
 }  // namespace cairn

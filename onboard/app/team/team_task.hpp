@@ -14,39 +14,38 @@
 #include "onboard/app/profile/team_profile.hpp"
 #include "onboard/app/team/team_messages.hpp"
 #include "onboard/scheduler/feed.hpp"
-#include "onboard/scheduler/tick.hpp"
+#include "onboard/scheduler/ports.hpp"
 
 namespace cairn {
 
-/// The robot's part in its team, several times a second: tiles and peers' datagrams in, datagrams out, and a slice of
-/// work on the team's map. Slots: 0 batches of tiles and 1 datagrams taken, 2 tiles fused, 3 jobs accepted, 4 results
-/// taken.
+/// The robot's part in its team, several times a second: tiles and datagrams of peers in, datagrams out, and a slice of
+/// work on the map of the team.
 class TeamTask final : public scheduler::Task {
  public:
-  static constexpr std::size_t kTilesSlot = 0, kFeedSlot = 1, kFuseSlot = 2, kJobsSlot = 3, kResultsSlot = 4;
+  // Slots in schedule.log, in this order.
+  scheduler::InputPort<TileBatch> tiles{*this, "tiles"};
+  const std::size_t datagrams_slot = take_slots();  ///< datagrams taken
+  const std::size_t fuse_slot = take_slots();       ///< tiles fused
+  scheduler::OutputPort<MatchJob> jobs{*this, "jobs"};
+  scheduler::InputPort<MatchJob> results{*this, "results"};
 
-  struct Parts {
-    TileChannel& tiles;
-    MatchChannel& jobs;
-    MatchChannel& results;
-  };
-  /// All must outlive the task. `name` and `resolution_m` are the robot's.
-  TeamTask(const TeamProfile& profile, std::string name, double resolution_m, const Parts& parts, Monitor& monitor);
-  /// Before the run: it goes on in the map of the one before it.
+  /// `monitor` must outlive the task. `name` and `resolution_m` are those of the robot.
+  TeamTask(const TeamProfile& profile, std::string name, double resolution_m, Monitor& monitor);
+  /// Before the run: the run goes on in the map of the previous run.
   void go_on() { epoch_ = 0; }
-  /// Before the run. `port`: live, the same source, to be spoken to; or null.
+  /// Before the run. `source` must outlive the task. `port` is the same source, to send through; null in a replay.
   void attach(Source& source, SourceId id, peers::PeerPort* port, scheduler::Feed::Tap tap);
 
   void tick(scheduler::Tick& tick) override;
 
-  /// None before the beginning has come. Of the task's thread, or of a run that has ended.
+  /// None before the robot's beginning has come. Of the task's thread, or after the run.
   [[nodiscard]] const std::optional<Team>& team() const { return team_; }
-  /// From hearing that a peer has said more to knowing all of it.
+  /// How long it took from hearing that a peer has new versions until all of them were here.
   [[nodiscard]] const std::map<peers::RobotId, Histogram>& lags() const { return lags_; }
   [[nodiscard]] std::uint64_t missing_packets() const { return feed_ ? feed_->missing() : 0; }
   [[nodiscard]] Time first_arrival() { return feed_ ? feed_->first_arrival() : Time::max(); }
   [[nodiscard]] Time last_step() const { return last_step_; }
-  /// Another thread, one of them: news about once a second.
+  /// For one other thread: a new value about once a second.
   [[nodiscard]] LatestValue<std::vector<LiveView::Peer>>& view() { return view_; }
 
  private:
@@ -61,12 +60,11 @@ class TeamTask final : public scheduler::Task {
   void hand_out_a_job(scheduler::Tick& tick);
   void fuse(scheduler::Tick& tick);
   void note_lags(Time now);
-  void tell(Time now);
+  void publish_peers(Time now);
 
   TeamProfile profile_;
   std::string name_;
   double resolution_m_;
-  Parts parts_;
   Monitor& monitor_;
   StageStats& fusion_;
   std::optional<scheduler::Feed> feed_;
@@ -74,7 +72,7 @@ class TeamTask final : public scheduler::Task {
   std::optional<Team> team_;
   std::uint32_t epoch_ = kFirstEpoch;  // of the tiles
   std::vector<peers::Outgoing> out_;
-  Time last_step_ = Time::min(), last_told_ = Time::min();
+  Time last_step_ = Time::min(), last_published_ = Time::min();
   struct Awaited {
     peers::Epoch epoch = 0;
     peers::Version newest = 0;
@@ -86,20 +84,20 @@ class TeamTask final : public scheduler::Task {
   LatestValue<std::vector<LiveView::Peer>> view_;
 };
 
-/// Compares maps, one pair at a time, for as long as that takes: at the lowest priority and in nobody's way. Slots: 0
-/// jobs taken, 1 steps granted, 2 results accepted.
+/// Compares maps, one pair at a time, at the lowest priority.
 class MatchTask final : public scheduler::Task {
  public:
-  static constexpr std::size_t kJobsSlot = 0, kStepsSlot = 1, kResultsSlot = 2;
-  /// All must outlive the task.
-  MatchTask(Duration limit, MatchChannel& jobs, MatchChannel& results, Monitor& monitor)
-      : limit_(limit), jobs_(jobs), results_(results), stage_(monitor.stage("matching")) {}
+  // Slots in schedule.log, in this order.
+  scheduler::InputPort<MatchJob> jobs{*this, "jobs"};
+  const std::size_t steps_slot = take_slots();  ///< steps granted
+  scheduler::OutputPort<MatchJob> results{*this, "results"};
+
+  /// `limit`: how long one comparison may take. `monitor` must outlive the task.
+  MatchTask(Duration limit, Monitor& monitor) : limit_(limit), stage_(monitor.stage("matching")) {}
   void tick(scheduler::Tick& tick) override;
 
  private:
   Duration limit_;
-  MatchChannel& jobs_;
-  MatchChannel& results_;
   StageStats& stage_;
 };
 

@@ -6,31 +6,23 @@
 namespace cairn {
 namespace {
 
-// What finds no place stays with the mapping and goes with the next batch.
+// Tiles that find no place stay with mapping and go with the next batch.
 constexpr std::size_t kWaitingBatches = 4;
 // One is out at a time; its place may be given back a little after its result is there.
 constexpr std::size_t kWaitingJobs = 2;
 
 }  // namespace
 
-TeamTasks::TeamTasks(scheduler::Executive& executive, const RobotProfile& profile, const scheduler::Line& mapping,
-                     std::size_t tiles_slot, Monitor& monitor)
-    : team_line_(executive.add(profile.schedule.team)),
-      match_line_(executive.add(profile.schedule.matching)),
-      tiles_({kWaitingBatches, 3 * kWaitingBatches, tiles_slot, TeamTask::kTilesSlot}, mapping.progress,
-             team_line_.progress),
-      jobs_({kWaitingJobs, kWaitingJobs, TeamTask::kJobsSlot, MatchTask::kJobsSlot}, team_line_.progress,
-            match_line_.progress),
-      results_({kWaitingJobs, kWaitingJobs, MatchTask::kResultsSlot, TeamTask::kResultsSlot,
-                from_seconds(profile.team.match_s)},
-               match_line_.progress, team_line_.progress),
-      team_(profile.team, profile.name, profile.mapping.resolution_m, {tiles_, jobs_, results_}, monitor),
-      match_(from_seconds(profile.team.match_s), jobs_, results_, monitor) {
-  team_line_.task = &team_;
-  match_line_.task = &match_;
-  team_line_.input = true;
-  team_line_.from = {&tiles_, &results_};
-  match_line_.from = {&jobs_};
+TeamTasks::TeamTasks(scheduler::TaskGraph& graph, const RobotProfile& profile, scheduler::OutputPort<TileBatch>& tiles,
+                     Monitor& monitor)
+    : team_(profile.team, profile.name, profile.mapping.resolution_m, monitor),
+      matching_(from_seconds(profile.team.match_s), monitor) {
+  graph.add(profile.schedule.team, team_, scheduler::TaskRole::kInput);
+  graph.add(profile.schedule.matching, matching_);
+  graph.connect(tiles, team_.tiles, {.capacity = kWaitingBatches, .reserve = 3 * kWaitingBatches});
+  graph.connect(team_.jobs, matching_.jobs, {.capacity = kWaitingJobs, .reserve = kWaitingJobs});
+  graph.connect(matching_.results, team_.results,
+                {.capacity = kWaitingJobs, .reserve = kWaitingJobs, .lag = from_seconds(profile.team.match_s)});
 }
 
 }  // namespace cairn

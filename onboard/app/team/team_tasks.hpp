@@ -1,33 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <string>
-
 #include "onboard/app/team/team_task.hpp"
-#include "onboard/scheduler/executive.hpp"
+#include "onboard/scheduler/task_graph.hpp"
 
 namespace cairn {
 
 struct RobotProfile;
 
-/// The two tasks of a robot's part in its team, their lines and what joins them.
+/// The two tasks of a robot's part in its team.
 class TeamTasks {
  public:
-  /// Adds the lines. `mapping` is that of the task that hands over tiles, through its slot `tiles_slot`. All must
-  /// outlive the tasks.
-  TeamTasks(scheduler::Executive& executive, const RobotProfile& profile, const scheduler::Line& mapping,
-            std::size_t tiles_slot, Monitor& monitor);
+  /// Adds the tasks to the graph, after the task that hands over tiles, and connects all three. All must outlive the
+  /// tasks.
+  TeamTasks(scheduler::TaskGraph& graph, const RobotProfile& profile, scheduler::OutputPort<TileBatch>& tiles,
+            Monitor& monitor);
 
-  [[nodiscard]] TileChannel& tiles() { return tiles_; }
   [[nodiscard]] TeamTask& team() { return team_; }
   [[nodiscard]] const TeamTask& team() const { return team_; }
+  [[nodiscard]] const MatchTask& matching() const { return matching_; }
 
  private:
-  scheduler::Line &team_line_, &match_line_;
-  TileChannel tiles_;
-  MatchChannel jobs_, results_;
   TeamTask team_;
-  MatchTask match_;
+  MatchTask matching_;
 };
 
 }  // namespace cairn

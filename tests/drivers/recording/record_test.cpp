@@ -49,7 +49,7 @@ struct Fixture {
     Recording r;
     r.robot = "robot_1";
     r.realtime_offset_ns = 1'700'000'000'000'000'000;
-    r.sources.push_back({"lidar", "velodyne", "lidar.pcap", "lidar", "VLP-16"});
+    r.sources.push_back({"lidar", kVelodyne, "lidar.pcap", "lidar", "VLP-16"});
     auto writer = RecordingWriter::create(folder / "r", r);
     return record(sensor, clock, *writer, options);
   }

@@ -24,9 +24,9 @@ Recording two_lidars_and_sweeps() {
   r.robot = "robot_1";
   r.start_utc_ns = kOffset;
   r.realtime_offset_ns = kOffset;
-  r.sources.push_back({"front", "velodyne", "lidar.pcap", "front", "VLP-16"});
-  r.sources.push_back({"sweeps", "scans", "data.csv", "base_link", ""});
-  r.sources.push_back({"rear", "velodyne", "rear/lidar.pcap", "rear", "VLP-16"});
+  r.sources.push_back({"front", kVelodyne, "lidar.pcap", "front", "VLP-16"});
+  r.sources.push_back({"sweeps", kScans, "data.csv", "base_link", ""});
+  r.sources.push_back({"rear", kVelodyne, "rear/lidar.pcap", "rear", "VLP-16"});
   return r;
 }
 

@@ -47,8 +47,8 @@ support::World room() {
 void record(const fs::path& folder, bool with_gpio = false) {
   recording::Recording index;
   index.robot = "husky_1";
-  index.sources.push_back({"lidar", "scans", "data.csv", "lidar", "VLP-16", kMount});
-  if (with_gpio) index.sources.push_back({"gpio", "gpio", "gpio.csv", "base_link", ""});
+  index.sources.push_back({"lidar", recording::kScans, "data.csv", "lidar", "VLP-16", kMount});
+  if (with_gpio) index.sources.push_back({"gpio", recording::kGpio, "gpio.csv", "base_link", ""});
   auto writer = recording::RecordingWriter::create(folder, index);
   ASSERT_TRUE(writer) << to_string(writer.error());
   support::Vlp16 lidar(SE3::from_xyz_rpy(kMount), 0.02, 1);
@@ -224,7 +224,7 @@ TEST_F(RunTest, WhatCannotWorkIsSaidBeforeAnythingRuns) {
 TEST_F(RunTest, BeginsWithTheFirstWholeRevolution) {
   recording::Recording index;
   index.robot = "husky_1";
-  index.sources.push_back({"lidar", "velodyne", "lidar.pcap", "lidar", "VLP-16", kMount});
+  index.sources.push_back({"lidar", recording::kVelodyne, "lidar.pcap", "lidar", "VLP-16", kMount});
   auto writer = recording::RecordingWriter::create(*folder_ / "part", index);
   ASSERT_TRUE(writer) << to_string(writer.error());
   const support::Vlp16Drive drive(support::lobby(), SE3::from_xyz_rpy(kMount), 0.55, 1);

@@ -20,7 +20,7 @@ Finding problem(const std::string& who, const Error& error) {
   return {Level::kProblem, who + ": " + to_string(cause), remedy};
 }
 
-const char* remedy_for_silence(std::string_view kind) {
+const char* remedy_for_silence(recording::SensorKind kind) {
   if (kind == recording::kVelodyne)
     return "check cable and power; the sensor's web page says to which address and ports it sends";
   if (kind == recording::kDrive) return "check the bus' power, termination and bit rate: candump shows what is on it";
@@ -56,7 +56,7 @@ Finding examine_device(const RobotProfile& profile, const recording::SourceEntry
 Finding examine_source(const Json& source) {
   const std::string id = source["id"].get<std::string>();
   const auto packets = source["packets"]["packets"].get<std::uint64_t>();
-  if (packets == 0 && source["kind"] == recording::kGpio) return {Level::kOk, id + ": no edge", {}};
+  if (packets == 0 && source["kind"] == to_string(recording::kGpio)) return {Level::kOk, id + ": no edge", {}};
   if (packets == 0)
     return {Level::kProblem, id + ": the recording holds nothing of it", "record again, after cairn doctor --config"};
   const auto missing = source["packets"].value("missing_sequence_numbers", std::uint64_t{0});

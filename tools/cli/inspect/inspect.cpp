@@ -110,7 +110,7 @@ Result<Json> inspect_recording(const InspectOptions& options) {
 /// Ports and model, from the first datagrams of the sensors' sizes.
 SourceEntry recognise(velodyne::PcapSource& capture) {
   constexpr int kEnough = 10'000;
-  SourceEntry entry{"lidar", std::string(recording::kVelodyne), "", "", ""};
+  SourceEntry entry{"lidar", recording::kVelodyne, "", "", ""};
   bool data = false, position = false;
   Packet packet;
   for (int i = 0; i < kEnough && !(data && position); ++i) {
@@ -193,7 +193,8 @@ Result<Json> inspect_native_file(const InspectOptions& options, NativeFile file)
   if (!options.model.empty()) entry.model = options.model;
   auto source = recording::open_recorded_source(file.dir, file.recording, 0);
   if (!source) return source.error();
-  return inspect_stream(options, file.recording, **source, {{"kind", entry.kind}, {"path", options.path.string()}});
+  return inspect_stream(options, file.recording, **source,
+                        {{"kind", to_string(entry.kind)}, {"path", options.path.string()}});
 }
 
 /// By the size of its pictures, with or without telemetry rows.

@@ -137,7 +137,7 @@ Json StreamInspection::sources() const {
   Json list = Json::array();
   for (const Stream& s : streams_) {
     Json json{{"id", s.entry.id},
-              {"kind", s.entry.kind},
+              {"kind", to_string(s.entry.kind)},
               {"file", s.entry.file},
               {"frame", s.entry.frame},
               {"model", s.entry.model}};
@@ -147,7 +147,7 @@ Json StreamInspection::sources() const {
           std::vector<double>(s.entry.base_sensor_xyz_rpy->begin(), s.entry.base_sensor_xyz_rpy->end());
     json["packets"] = s.packets.to_json();
     if (s.sensor == nullptr || s.entry.kind == recording::kDepth) json["scans"] = s.scans.to_json();
-    if (s.sensor != nullptr) json[s.entry.kind] = s.sensor->to_json();
+    if (s.sensor != nullptr) json[std::string(to_string(s.entry.kind))] = s.sensor->to_json();
     if (s.lidar != nullptr) json["velodyne"] = to_json(s.lidar->counters());
     if (s.sweeps != nullptr)
       json["sweeps"] = {{"rejected_points", s.sweeps->rejected_points()}, {"rejected", s.sweeps->rejected_packets()}};

@@ -43,7 +43,7 @@ bool lists_pictures(const std::string& line) {
          (recording::parse_image_index(line, "", entries) && !entries.empty());
 }
 
-std::string_view kind_of_pictures(const fs::path& folder) {
+recording::SensorKind kind_of_pictures(const fs::path& folder) {
   const std::string name = folder.filename().string();
   if (name.find("thermal") != std::string::npos) return recording::kThermal;
   return name.find("depth") != std::string::npos ? recording::kDepth : recording::kCamera;

@@ -98,7 +98,7 @@ int verdict(const RecordArguments& options, const Json& sensors) {
   std::string silent;
   for (const auto& [id, s] : sensors.items())
     // Edges and frames come when something happens.
-    if (s["packets"] == 0 && id != recording::kGpio && id != recording::kDrive)
+    if (s["packets"] == 0 && id != to_string(recording::kGpio) && id != to_string(recording::kDrive))
       silent += (silent.empty() ? "" : ", ") + id;
   if (silent.empty()) return kDone;
   return fail({Errc::kLinkDown,

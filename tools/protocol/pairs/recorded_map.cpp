@@ -130,7 +130,8 @@ Result<std::shared_ptr<SemanticOcTree>> map_of_recording(const fs::path& dir, co
   const auto entry = std::find_if(recording->sources.begin(), recording->sources.end(),
                                   [&](const recording::SourceEntry& e) { return e.kind == portion.kind; });
   if (entry == recording->sources.end())
-    return Error{Errc::kNotFound, "no such sensor in the recording", dir.string(), {}, std::string(portion.kind)};
+    return Error{
+        Errc::kNotFound, "no such sensor in the recording", dir.string(), {}, std::string(to_string(portion.kind))};
   const auto index = static_cast<std::size_t>(entry - recording->sources.begin());
   const auto source = recording::open_recorded_source(dir, *recording, index);
   if (!source) return source.error();

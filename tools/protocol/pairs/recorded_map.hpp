@@ -5,6 +5,7 @@
 #include <memory>
 #include <string_view>
 
+#include "drivers/recording/formats/sensor_kind.hpp"
 #include "hal/result.hpp"
 #include "hal/se3.hpp"
 #include "onboard/mapping/mapping_config.hpp"
@@ -14,7 +15,7 @@ namespace cairn::protocol {
 
 /// The part of a simulated recording that becomes a map.
 struct Portion {
-  std::string_view kind;           ///< of source: recording::kVelodyne or recording::kDepth
+  recording::SensorKind kind{};    ///< of source: recording::kVelodyne or recording::kDepth
   double from_s = 0, to_s = 3600;  ///< since the recording's first true pose
   int every = 1;                   ///< every so many scans
 };

@@ -21,11 +21,11 @@ Recording example() {
   r.realtime_offset_ns = 1'763'000'000'000'000'001;
   r.time_shift_ns = -5;
   r.notes = "two lines:\n\"quoted\" # not a comment, ümlaut\tand a tab";
-  SourceEntry lidar{"lidar", "velodyne", "lidar.pcap", "lidar", "VLP-16"};
+  SourceEntry lidar{"lidar", kVelodyne, "lidar.pcap", "lidar", "VLP-16"};
   lidar.base_sensor_xyz_rpy = (Vector6() << 0.1, -0.2, 1.0 / 3.0, 0.01, -0.02, 3.0).finished();
   lidar.data_port = 2369;
   r.sources.push_back(lidar);
-  SourceEntry scans{"sweeps", "scans", "data.csv", "base_link", ""};
+  SourceEntry scans{"sweeps", kScans, "data.csv", "base_link", ""};
   scans.deskewed = true;
   r.sources.push_back(scans);
   return r;
@@ -84,7 +84,7 @@ TEST(Recording, AllFaultsAreReportedWithFileAndLine) {
   for (const char* fault :
        {"f:1: robot: only letters", "f:2: start_utc: must be a time", "f:3: realtime_offset_ns: must be a whole",
         "f:4: colour: unknown key", "f:5: robot: this key appears twice",
-        "f:8: sources[0].kind: must be velodyne, scans, camera, thermal, depth, drive or gpio",
+        "f:8: sources[0].kind: must be velodyne, scans, camera, thermal, depth, drive, gpio or peers",
         "f:9: sources[0].file: a file name must not hold `.` or `..`",
         "f:13: sources[1].file: a file must be named relative", "f:14: sources[1].T_base_sensor: must be [x,",
         "f:15: sources[1].data_port: must be a whole number 1 … 65535", "f:11: sources[1].frame: is missing",

@@ -14,7 +14,7 @@ using ::testing::HasSubstr;
 
 std::vector<std::string> kinds_of(const RobotProfile& profile) {
   std::vector<std::string> kinds;
-  for (const auto& entry : devices_of(profile)) kinds.push_back(entry.kind);
+  for (const auto& entry : devices_of(profile)) kinds.emplace_back(to_string(entry.kind));
   return kinds;
 }
 

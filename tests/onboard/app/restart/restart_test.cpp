@@ -29,9 +29,9 @@ class RestartTest : public testing::Test {
     ASSERT_TRUE(generations.save_state(state));
     ASSERT_TRUE(generations.save_scans({state.epoch, {PlacedScan{state.stamp, {}, {{1, 2, 3}}}}}));
   }
-  Before look(double now_s, double resolution_m = 0.1) {
+  PreviousRun look(double now_s, double resolution_m = 0.1) {
     Generations generations(folder.path(), *monitor);
-    return look_back(generations, RestartProfile{}, resolution_m, at(now_s), *monitor);
+    return find_previous_run(generations, RestartProfile{}, resolution_m, at(now_s), *monitor);
   }
   [[nodiscard]] std::string said() const {
     return monitor->events().empty() ? std::string() : monitor->events().back().what;
@@ -44,18 +44,18 @@ class RestartTest : public testing::Test {
 
 TEST_F(RestartTest, GoesOnInTheMapOfAMomentAgo) {
   save();
-  const Before before = look(11);
-  ASSERT_TRUE(before.resumed);
-  EXPECT_EQ(before.epoch, 3U);
-  EXPECT_EQ(before.resumed->scans.size(), 1U);
+  const PreviousRun previous = look(11);
+  ASSERT_TRUE(previous.resumed);
+  EXPECT_EQ(previous.epoch, 3U);
+  EXPECT_EQ(previous.resumed->scans.size(), 1U);
   EXPECT_EQ(said(), "");
 }
 
 TEST_F(RestartTest, AnEmptyFolderIsNoEvent) {
-  const Before before = look(11);
-  EXPECT_FALSE(before.resumed);
-  EXPECT_EQ(before.epoch, 0U);
-  EXPECT_FALSE(before.state_lost);
+  const PreviousRun previous = look(11);
+  EXPECT_FALSE(previous.resumed);
+  EXPECT_EQ(previous.epoch, 0U);
+  EXPECT_FALSE(previous.state_lost);
   EXPECT_EQ(said(), "");
 }
 
@@ -67,9 +67,9 @@ TEST_F(RestartTest, TheStateIsLostOnlyWhenNoSavedMapCanBeRead) {
   std::filesystem::resize_file(folder / Generations::kMapFiles[0], 20);
   EXPECT_FALSE(look(11).state_lost) << "the other generation is whole";
   std::filesystem::resize_file(folder / Generations::kMapFiles[1], 20);
-  const Before before = look(11);
-  EXPECT_FALSE(before.resumed);
-  EXPECT_TRUE(before.state_lost);
+  const PreviousRun previous = look(11);
+  EXPECT_FALSE(previous.resumed);
+  EXPECT_TRUE(previous.state_lost);
   EXPECT_NE(said().find("map.b.cairn"), std::string::npos) << said();
 }
 
@@ -82,9 +82,9 @@ TEST_F(RestartTest, BeginsAnewAndSaysWhy) {
   EXPECT_NE(said().find("resolution"), std::string::npos);
   state.boot = "another";
   save();
-  const Before before = look(11);
-  EXPECT_FALSE(before.resumed);
-  EXPECT_EQ(before.epoch, 3U) << "the next map must not take its number";
+  const PreviousRun previous = look(11);
+  EXPECT_FALSE(previous.resumed);
+  EXPECT_EQ(previous.epoch, 3U) << "the next map must not take its number";
   EXPECT_NE(said().find("machine was started"), std::string::npos);
 }
 
@@ -94,24 +94,24 @@ TEST_F(RestartTest, AMapWhosePoseIsOfANewerEpochIsNotGoneOnIn) {
   Generations generations(folder.path(), *monitor);
   ASSERT_TRUE(generations.load({}));
   ASSERT_TRUE(generations.save_state(state));
-  const Before before = look(11);
-  EXPECT_FALSE(before.resumed);
-  EXPECT_EQ(before.epoch, 4U);
+  const PreviousRun previous = look(11);
+  EXPECT_FALSE(previous.resumed);
+  EXPECT_EQ(previous.epoch, 4U);
 }
 
 TEST_F(RestartTest, WhatIsKeptWithARecordingIsFoundThere) {
   save();
-  const Before before = look(11);
-  ASSERT_TRUE(before.resumed);
+  const PreviousRun previous = look(11);
+  ASSERT_TRUE(previous.resumed);
   const support::TemporaryFolder recording;
   EXPECT_FALSE(resumed_in_recording(recording.path(), *monitor));
-  ASSERT_TRUE(keep_with_recording(recording.path(), *before.resumed, *monitor));
+  ASSERT_TRUE(keep_with_recording(recording.path(), *previous.resumed, *monitor));
   const auto found = resumed_in_recording(recording.path(), *monitor);
   ASSERT_TRUE(found);
-  EXPECT_EQ(differing_nodes(*found->map, *before.resumed->map), 0U);
-  EXPECT_EQ(found->map_stamp, before.resumed->map_stamp);
-  EXPECT_EQ(found->state.stamp, before.resumed->state.stamp);
-  EXPECT_EQ(found->scans.front().points_base, before.resumed->scans.front().points_base);
+  EXPECT_EQ(differing_nodes(*found->map, *previous.resumed->map), 0U);
+  EXPECT_EQ(found->map_stamp, previous.resumed->map_stamp);
+  EXPECT_EQ(found->state.stamp, previous.resumed->state.stamp);
+  EXPECT_EQ(found->scans.front().points_base, previous.resumed->scans.front().points_base);
 }
 
 LocatedScan located(int number, std::uint32_t epoch) {
@@ -144,15 +144,15 @@ TEST_F(SavingTest, AfterADriveMapPoseAndScansAreThere) {
   const auto map = random_map<SemanticOcTree>(2, 500);
   drive(0, 35, 1, *map);
   EXPECT_EQ(task.maps_saved(), 4U);
-  const Before before = look(3.5);
-  ASSERT_TRUE(before.resumed) << said();
-  EXPECT_EQ(before.epoch, 6U);
-  EXPECT_EQ(differing_nodes(*before.resumed->map, *map), 0U);
-  EXPECT_EQ(before.resumed->state.stamp, at(3.4));
-  EXPECT_GE(before.resumed->map_stamp, at(3.0));
+  const PreviousRun previous = look(3.5);
+  ASSERT_TRUE(previous.resumed) << said();
+  EXPECT_EQ(previous.epoch, 6U);
+  EXPECT_EQ(differing_nodes(*previous.resumed->map, *map), 0U);
+  EXPECT_EQ(previous.resumed->state.stamp, at(3.4));
+  EXPECT_GE(previous.resumed->map_stamp, at(3.0));
   // The first eight, and then one every 0.4 m; each thinned.
-  EXPECT_EQ(before.resumed->scans.size(), 8U + 5U);
-  EXPECT_EQ(before.resumed->scans.front().points_base.size(), 2U);
+  EXPECT_EQ(previous.resumed->scans.size(), 8U + 5U);
+  EXPECT_EQ(previous.resumed->scans.front().points_base.size(), 2U);
 }
 
 TEST_F(SavingTest, ANewEpochForgetsTheScansAndTheHalfCopyOfTheOld) {
@@ -160,20 +160,20 @@ TEST_F(SavingTest, ANewEpochForgetsTheScansAndTheHalfCopyOfTheOld) {
   copier.mapped(located(0, 1));
   copier.idle(at(0), *large);
   drive(1, 40, 2, *small);
-  const Before before = look(4);
-  ASSERT_TRUE(before.resumed) << said();
-  EXPECT_EQ(before.epoch, 7U);
-  EXPECT_EQ(differing_nodes(*before.resumed->map, *small), 0U);
-  EXPECT_EQ(before.resumed->scans.front().stamp, at(0.1));
+  const PreviousRun previous = look(4);
+  ASSERT_TRUE(previous.resumed) << said();
+  EXPECT_EQ(previous.epoch, 7U);
+  EXPECT_EQ(differing_nodes(*previous.resumed->map, *small), 0U);
+  EXPECT_EQ(previous.resumed->scans.front().stamp, at(0.1));
 }
 
 TEST_F(SavingTest, AMapWithoutItsPoseFileHasAPoseOfItsOwn) {
   const auto map = random_map<SemanticOcTree>(2, 50);
   drive(2, 5, 1, *map);
   std::filesystem::remove(folder / Generations::kStateFile);
-  const Before before = look(1);
-  ASSERT_TRUE(before.resumed) << said();
-  const SavedState& found = before.resumed->state;
+  const PreviousRun previous = look(1);
+  ASSERT_TRUE(previous.resumed) << said();
+  const SavedState& found = previous.resumed->state;
   EXPECT_GT(found.T_odom_base.mean.translation().x(), 0.1);
   EXPECT_NEAR(found.T_odom_base.mean.translation().x(), to_seconds(found.stamp), 1e-9);
 }

@@ -7,6 +7,7 @@
 #include <deque>
 
 #include "onboard/app/tasks/allocations.hpp"
+#include "tests/onboard/app/tasks/safety_neighbours.hpp"
 #include "tests/support/estop_line.hpp"
 
 namespace cairn {
@@ -29,7 +30,8 @@ class SafetyTaskTest : public testing::Test {
     make(&line_);
   }
   void make(EStopLine* line) {
-    task_.emplace(FailsafeConfig{}, fitted_, SafetyTask::Parts{sensors_, drive_, decisions_, odometry_});
+    task_.emplace(FailsafeConfig{}, fitted_);
+    neighbours_.connect(*task_);
     task_->watch_estop({}, line_, SourceId{0}, line, {});
   }
 
@@ -56,24 +58,24 @@ class SafetyTaskTest : public testing::Test {
     record.index = index;
     Tick drive_tick(Regime::kLive, now_, record);
     bool armed = false, stopped = false;
-    while (const FailsafeDecision* decision = decisions_.take(drive_tick)) {
+    while (const FailsafeDecision* decision = neighbours_.decisions.take(drive_tick)) {
       armed = armed || decision->arm;
       stopped = decision->mode == Mode::kStop && !decision->arm;
     }
     if (!armed && !stopped) return;
-    DriveNews* news = drive_.back(drive_tick);
+    DriveNews* news = neighbours_.drive.back(drive_tick);
     news->status.level = armed ? DriveLevel::kNormal : DriveLevel::kStop;
     news->status.cause = armed ? DriveCause::kNone : DriveCause::kRequested;
-    drive_.push(drive_tick);
+    neighbours_.drive.push(drive_tick);
   }
   template <class News, class Fill>
-  void send(scheduler::Channel<News>& channel, Fill fill) {
+  void send(scheduler::OutputPort<News>& port, Fill fill) {
     TickRecord record;
     record.index = log_.size();
     Tick tick(Regime::kLive, now_, record);
-    News* news = channel.back(tick);
+    News* news = port.back(tick);
     fill(*news);
-    channel.push(tick);
+    port.push(tick);
   }
   void arm() {
     run(600ms);  // closed for long enough
@@ -82,11 +84,7 @@ class SafetyTaskTest : public testing::Test {
   }
   [[nodiscard]] Mode mode() const { return task_->decision().mode; }
 
-  scheduler::Progress anyone_;
-  SeenChannel sensors_{{8, 0, 0, SafetyTask::kSensorsSlot}, anyone_, anyone_};
-  DriveChannel drive_{{8, 0, 0, SafetyTask::kDriveSlot}, anyone_, anyone_};
-  DecisionChannel decisions_{{8, 0, SafetyTask::kDecisionSlot, 0}, anyone_, anyone_};
-  OdometryChannel odometry_{{8, 0, 0, SafetyTask::kOdometrySlot}, anyone_, anyone_};
+  test::SafetyNeighbours neighbours_;
   EStopLine line_;
   Fitted fitted_;
   std::optional<SafetyTask> task_;
@@ -153,26 +151,26 @@ TEST_F(SafetyTaskTest, AnOldRequestEndsNoLaterStop) {
 
 TEST_F(SafetyTaskTest, ALostTrackDegradesUntilAScanFitsAgain) {
   arm();
-  send(odometry_, [](OdometryNews& news) { news.lost = true; });
+  send(neighbours_.odometry, [](OdometryNews& news) { news.lost = true; });
   run(kPeriod);
   EXPECT_EQ(mode(), Mode::kDegraded);
   EXPECT_EQ(task_->decision().cause, Fault::kOdometryLost);
   run(1s);
   EXPECT_EQ(mode(), Mode::kDegraded) << "until there is other news";
-  send(odometry_, [](OdometryNews& news) { news.lost = false; });
+  send(neighbours_.odometry, [](OdometryNews& news) { news.lost = false; });
   run(kPeriod);
   EXPECT_EQ(mode(), Mode::kNormal);
 }
 
 TEST_F(SafetyTaskTest, FaultsFromAllSidesAreActiveTogether) {
   arm();
-  send(sensors_, [](SensorsSeen& news) { news.faults = {Fault::kLidarStuck}; });
-  send(odometry_, [](OdometryNews& news) { news.lost = true; });
+  send(neighbours_.sensors, [](SensorsSeen& news) { news.faults = {Fault::kLidarStuck}; });
+  send(neighbours_.odometry, [](OdometryNews& news) { news.lost = true; });
   task_->report({Fault::kStageDemoted});
   run(kPeriod);
   EXPECT_EQ(task_->decision().active, (FaultSet{Fault::kLidarStuck, Fault::kOdometryLost, Fault::kStageDemoted}));
   EXPECT_EQ(mode(), Mode::kHold);
-  send(sensors_, [](SensorsSeen& news) { news.faults = {}; });
+  send(neighbours_.sensors, [](SensorsSeen& news) { news.faults = {}; });
   run(kPeriod);
   EXPECT_EQ(task_->decision().active, (FaultSet{Fault::kOdometryLost, Fault::kStageDemoted}));
   EXPECT_EQ(allocated_, 0U);
@@ -200,7 +198,7 @@ class ReplayedSafetyTask : public SafetyTaskTest {
   }
   void lose(bool lost) {
     news_.push_back({log_.size(), lost});
-    send(odometry_, [lost](OdometryNews& n) { n.lost = lost; });
+    send(neighbours_.odometry, [lost](OdometryNews& n) { n.lost = lost; });
   }
   void move(bool closed) {
     line_.move(closed, now_);
@@ -208,7 +206,7 @@ class ReplayedSafetyTask : public SafetyTaskTest {
   }
   void send_news_before(std::size_t tick) {
     for (; !news_.empty() && news_.front().before == tick; news_.pop_front())
-      send(odometry_, [this](OdometryNews& n) { n.lost = news_.front().lost; });
+      send(neighbours_.odometry, [this](OdometryNews& n) { n.lost = news_.front().lost; });
   }
 
   struct Sent {
@@ -225,7 +223,8 @@ TEST_F(ReplayedSafetyTask, DecidesInEveryTickAsItDidLive) {
   ASSERT_EQ(mode(), Mode::kNormal);
   EStopLine recorded;
   recorded.edges = edges_;
-  SafetyTask again({}, fitted_, {sensors_, drive_, decisions_, odometry_});
+  SafetyTask again({}, fitted_);
+  neighbours_.connect(again);
   again.watch_estop({}, recorded, SourceId{0}, nullptr, {});
   now_ = Time{10s};
   std::uint64_t arms = 0;

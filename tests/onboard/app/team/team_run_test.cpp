@@ -39,7 +39,7 @@ void record_drive(const fs::path& folder) {
   recording::Recording index;
   index.robot = "first";
   index.realtime_offset_ns = 1'700'000'000'000'000'000;
-  index.sources.push_back({"lidar", "velodyne", "lidar.pcap", "lidar", "VLP-16", kPlayedMount});
+  index.sources.push_back({"lidar", recording::kVelodyne, "lidar.pcap", "lidar", "VLP-16", kPlayedMount});
   auto writer = recording::RecordingWriter::create(folder, index).value();
   const support::Vlp16Drive drive(support::lobby(), SE3::from_xyz_rpy(kPlayedMount), kSeconds, 1);
   for (const Packet& packet : drive.packets()) ASSERT_TRUE(writer.write(packet));

@@ -36,7 +36,7 @@ PointCloud three_points() {
 void write_sweeps(const std::string& dir) {
   recording::Recording r;
   r.robot = "robot_1";
-  r.sources.push_back({"sweeps", "scans", "data.csv", "base_link", ""});
+  r.sources.push_back({"sweeps", recording::kScans, "data.csv", "base_link", ""});
   auto writer = recording::RecordingWriter::create(dir, r);
   ASSERT_TRUE(writer);
   for (int i = 0; i < 11; ++i) {

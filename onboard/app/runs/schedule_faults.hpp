@@ -2,16 +2,16 @@
 #pragma once
 
 #include "onboard/safety/fault.hpp"
-#include "onboard/scheduler/executive.hpp"
+#include "onboard/scheduler/task_graph.hpp"
 
 namespace cairn {
 
-/// What the figures of a live executive say is wrong. Looked at by the watch task.
+/// The faults that the figures of a live schedule show. Part of the watch task.
 class ScheduleFaults {
  public:
-  /// Both must outlive it; `safety` is one of the executive's lines.
-  ScheduleFaults(const scheduler::Executive& executive, const scheduler::Line& safety)
-      : executive_(executive), safety_(safety) {}
+  /// Both must outlive it; `safety` is one of the graph's tasks.
+  ScheduleFaults(const scheduler::TaskGraph& graph, const scheduler::ScheduledTask& safety)
+      : graph_(graph), safety_(safety) {}
 
   /// kSafetyMissed: the safety task missed a deadline since the last look. kStageDemoted: a task runs at half its rate
   /// because it kept overrunning its hard budget.
@@ -20,14 +20,14 @@ class ScheduleFaults {
     const std::uint64_t misses = safety_.stats.misses;
     faults.set(Fault::kSafetyMissed, misses != misses_);
     misses_ = misses;
-    for (const scheduler::Line& line : executive_.lines())
-      if (!line.live_only && line.stats.demoted != 0) faults.set(Fault::kStageDemoted);
+    for (const scheduler::ScheduledTask& task : graph_.tasks())
+      if (!task.live_only() && task.stats.demoted != 0) faults.set(Fault::kStageDemoted);
     return faults;
   }
 
  private:
-  const scheduler::Executive& executive_;
-  const scheduler::Line& safety_;
+  const scheduler::TaskGraph& graph_;
+  const scheduler::ScheduledTask& safety_;
   std::uint64_t misses_ = 0;
 };
 

@@ -2,12 +2,12 @@
 #pragma once
 
 #include <atomic>
-#include <memory>
+#include <utility>
 #include <vector>
 
 #include "hal/spsc_queue.hpp"
-#include "onboard/scheduler/channel.hpp"
 #include "onboard/scheduler/overrun.hpp"
+#include "onboard/scheduler/ports.hpp"
 #include "onboard/scheduler/progress.hpp"
 #include "onboard/scheduler/releases.hpp"
 #include "onboard/scheduler/schedule_log.hpp"
@@ -17,15 +17,23 @@
 
 namespace cairn::scheduler {
 
+/// What the executive must know of a task besides its spec.
+enum class TaskRole : std::uint8_t {
+  kStage,     ///< computes from what its input ports give it
+  kInput,     ///< reads packets, and says when there are no more
+  kLiveOnly,  ///< recording, saving, publishing: a replay leaves it out
+};
+
 /// One task and all that the executive keeps about it.
-struct Line {
-  explicit Line(TaskSpec s) : spec(std::move(s)), overrun(spec.soft(), spec.hard()) {}
+struct ScheduledTask {
+  /// `t` must outlive it.
+  ScheduledTask(TaskSpec s, Task& t, TaskRole r)
+      : spec(std::move(s)), task(t), role(r), overrun(spec.soft(), spec.hard()) {}
 
   TaskSpec spec;
-  Task* task = nullptr;            ///< set before the run; not owned
-  bool input = false;              ///< it reads packets, and says when there are no more
-  bool live_only = false;          ///< recording, saving, telling: nothing that a replay would repeat
-  std::vector<ChannelBase*> from;  ///< channels that it takes from; not owned
+  Task& task;
+  TaskRole role;
+  std::vector<const InputPortBase*> inputs;  ///< that are connected; the task's own
 
   Progress progress;
   TaskStats stats;
@@ -33,10 +41,13 @@ struct Line {
   Releases releases;
   std::atomic<std::uint64_t> next{0};  ///< the release after the last tick that was served
 
-  /// Live: ticks on their way to the log, from the task's thread to whoever writes it.
+  /// Live: ticks on their way to the log, from the task's thread to the housekeeping task.
   SpscQueue<TickRecord> log{kLogged};
-  RelaxedCounter unlogged;  ///< ticks that found `log` full: the run cannot be repeated
-  static constexpr std::size_t kLogged = 8192;
+  RelaxedCounter unlogged;                      ///< ticks that found `log` full: the run cannot be repeated
+  static constexpr std::size_t kLogged = 8192;  ///< ticks: 16 s of the fastest task
+
+  [[nodiscard]] bool is_input() const { return role == TaskRole::kInput; }
+  [[nodiscard]] bool live_only() const { return role == TaskRole::kLiveOnly; }
 
   /// The release at which its input had ended; Time::max() before.
   [[nodiscard]] Time ended_at() const { return Time{Duration{ended_.load(std::memory_order_acquire)}}; }
@@ -48,7 +59,7 @@ struct Line {
   /// Logged: its ticks, and how far they have been repeated.
   const TaskLog* history = nullptr;
   std::size_t repeated = 0;
-  /// Replay: the record of the tick that comes next: what the log says of it, or an idle one.
+  /// Replay: the record of the next tick, from the log or idle.
   [[nodiscard]] TickRecord due() const {
     const std::uint64_t k = next.load(std::memory_order_relaxed);
     if (history != nullptr && repeated < history->ticks.size()) {

@@ -11,13 +11,13 @@
 #include "onboard/app/live/watchdog.hpp"
 #include "onboard/safety/failsafe.hpp"
 #include "onboard/safety/overload.hpp"
-#include "onboard/scheduler/executive.hpp"
+#include "onboard/scheduler/task_graph.hpp"
 
 namespace cairn {
 
-/// Tells the outside how a live run goes: signs of life to the service manager, the live view to whoever watches. A
-/// chore of the watch task; reads figures that their tasks write without a lock.
-class Telling {
+/// Publishes how a live run goes: signs of life to the service manager, and the live view to its clients. Part of the
+/// watch task. It reads figures that other tasks write without a lock.
+class StatusPublisher {
  public:
   struct Options {
     std::string robot;
@@ -25,24 +25,24 @@ class Telling {
     std::string notify_socket;                 ///< $NOTIFY_SOCKET
     std::optional<Duration> watchdog_timeout;  ///< watchdog_timeout() of $WATCHDOG_USEC and $WATCHDOG_PID
   };
-  /// As the environment of this process says.
+  /// The sockets of the service manager are those that the environment of this process names.
   [[nodiscard]] static Options from_environment(std::string robot, std::filesystem::path live_socket);
 
-  /// After all lines are added; both must outlive it. What cannot be opened is an event, and left out.
-  Telling(const scheduler::Executive& executive, Monitor& monitor, const Options& options, Time now);
+  /// After all tasks are added; both must outlive it. A socket that cannot be opened is an event, and left out.
+  StatusPublisher(const scheduler::TaskGraph& graph, Monitor& monitor, const Options& options, Time now);
 
-  /// What there was to hear last: on the thread of tick().
+  /// The newest values, on the thread of tick().
   void set_decision(const FailsafeDecision& decision) { decision_ = decision; }
   void set_shed(Shed level) { shed_ = in_force(level); }
   void set_scans(std::uint64_t scans) { scans_ = scans; }
   void set_peers(const std::vector<LiveView::Peer>& peers) { peers_ = peers; }
-  /// A chore. False while a task hangs: Fault::kTaskHung.
+  /// Publishes what is due. False while a task hangs: Fault::kTaskHung.
   bool tick(Time now);
 
   [[nodiscard]] LiveView view(Time now) const;
 
  private:
-  const scheduler::Executive& executive_;
+  const scheduler::TaskGraph& graph_;
   Monitor& monitor_;
   std::string robot_;
   FailsafeDecision decision_;

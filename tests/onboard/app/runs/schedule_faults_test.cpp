@@ -1,30 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/app/tasks/schedule_faults.hpp"
+#include "onboard/app/runs/schedule_faults.hpp"
 
 #include <gtest/gtest.h>
+
+#include "onboard/scheduler/execution/executive.hpp"
+#include "onboard/scheduler/idle_task.hpp"
 
 namespace cairn {
 namespace {
 
 using namespace std::chrono_literals;
 using scheduler::Executive;
-using scheduler::Line;
+using scheduler::ScheduledTask;
+using scheduler::TaskGraph;
 using scheduler::TaskSpec;
 using scheduler::Tick;
 
-TaskSpec spec(const char* name, double hard_ms) {
-  TaskSpec s;
-  s.name = name;
-  s.rate_hz = 500;
-  s.hard_ms = hard_ms;
-  return s;
-}
+TaskSpec spec(const char* name, double hard_ms) { return {.name = name, .rate_hz = 500, .hard_ms = hard_ms}; }
 
 TEST(ScheduleFaults, AMissOfTheSafetyTaskIsAFaultUntilTheNextLook) {
-  Executive executive;
-  Line& safety = executive.add(spec("safety", 0));
-  Line& other = executive.add(spec("other", 0));
-  ScheduleFaults faults(executive, safety);
+  scheduler::IdleTask idle;
+  TaskGraph graph;
+  ScheduledTask& safety = graph.add(spec("safety", 0), idle);
+  ScheduledTask& other = graph.add(spec("other", 0), idle);
+  ScheduleFaults faults(graph, safety);
   EXPECT_EQ(faults.look(), FaultSet{});
   ++other.stats.misses;
   EXPECT_EQ(faults.look(), FaultSet{}) << "of another task";
@@ -34,12 +33,12 @@ TEST(ScheduleFaults, AMissOfTheSafetyTaskIsAFaultUntilTheNextLook) {
 }
 
 TEST(ScheduleFaults, WhatIsNoPartOfTheRobotIsLeftOut) {
-  Executive executive;
-  Line& safety = executive.add(spec("safety", 0));
-  Line& housekeeping = executive.add(spec("housekeeping", 0));
-  housekeeping.live_only = true;
+  scheduler::IdleTask idle;
+  TaskGraph graph;
+  ScheduledTask& safety = graph.add(spec("safety", 0), idle);
+  ScheduledTask& housekeeping = graph.add(spec("housekeeping", 0), idle, scheduler::TaskRole::kLiveOnly);
   housekeeping.stats.demoted = 1;
-  EXPECT_EQ(ScheduleFaults(executive, safety).look(), FaultSet{});
+  EXPECT_EQ(ScheduleFaults(graph, safety).look(), FaultSet{});
 }
 
 /// Time that passes only where a task takes it: what else the machine does costs none.
@@ -68,14 +67,12 @@ class Glutton final : public scheduler::Task {
 };
 
 TEST(ScheduleFaults, AStageThatKeepsOverrunningIsDemotedWhileItDoes) {
-  Executive executive;
-  Line& safety = executive.add(spec("safety", 0));
-  Line& line = executive.add(spec("glutton", 20));
   WorkClock clock;
   Glutton nothing(0ms, clock), glutton(21ms, clock);
-  safety.task = &nothing;
-  line.task = &glutton;
-  ScheduleFaults faults(executive, safety);
+  TaskGraph graph;
+  const ScheduledTask& safety = graph.add(spec("safety", 0), nothing);
+  const ScheduledTask& greedy = graph.add(spec("glutton", 20), glutton);
+  ScheduleFaults faults(graph, safety);
   bool demoted = false;
   const auto over = [&] {
     const bool now = faults.look().has(Fault::kStageDemoted);
@@ -83,10 +80,10 @@ TEST(ScheduleFaults, AStageThatKeepsOverrunningIsDemotedWhileItDoes) {
     if (demoted) glutton.full = false;
     return demoted && !now;
   };
-  executive.run_live({clock.now(), over}, clock);
+  Executive(graph).run_live({clock.now(), over}, clock);
   EXPECT_TRUE(demoted);
-  EXPECT_GE(line.stats.hard_overruns, 3U);
-  EXPECT_EQ(line.stats.demotions, 1U);
+  EXPECT_GE(greedy.stats.hard_overruns, 3U);
+  EXPECT_EQ(greedy.stats.demotions, 1U);
 }
 
 }  // namespace

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/door/fitted.hpp"
+
+#include <algorithm>
+#include <array>
+
+namespace cairn {
+
+namespace {
+
+struct WatchedRow {
+  recording::SensorKind kind;
+  std::optional<Watched> watched;
+};
+constexpr std::array kWatchedAs{
+    WatchedRow{recording::kVelodyne, Watched::kLidar}, WatchedRow{recording::kScans, Watched::kLidar},
+    WatchedRow{recording::kCamera, Watched::kCamera},  WatchedRow{recording::kThermal, Watched::kThermal},
+    WatchedRow{recording::kDepth, Watched::kDepth},    WatchedRow{recording::kDrive, Watched::kFeedback},
+    WatchedRow{recording::kGpio, std::nullopt},  // the e-stop has rules of its own
+    WatchedRow{recording::kPeers, std::nullopt},
+};
+static_assert(recording::one_row_per_kind(kWatchedAs));
+
+}  // namespace
+
+bool has_kind(std::span<const recording::SourceEntry> sources, recording::SensorKind kind) {
+  return std::ranges::find(sources, kind, &recording::SourceEntry::kind) != sources.end();
+}
+
+std::optional<Watched> watched_as(recording::SensorKind kind) { return recording::row_of(kind, kWatchedAs).watched; }
+
+Fitted fitted_with(std::span<const recording::SourceEntry> sources, const RobotProfile& profile) {
+  Fitted fitted;
+  for (const recording::SourceEntry& entry : sources)
+    if (const auto watched = watched_as(entry.kind)) fitted.watched[static_cast<std::size_t>(*watched)] = true;
+  fitted.drive = has_kind(sources, recording::kDrive);
+  fitted.estop = has_kind(sources, recording::kGpio) && !profile.gpio.driver.estop_line.empty();
+  return fitted;
+}
+
+}  // namespace cairn

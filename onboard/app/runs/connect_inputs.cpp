@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/runs/connect_inputs.hpp"
+
+#include <algorithm>
+
+namespace cairn {
+namespace {
+
+// Packets that may wait for the disk: two seconds of a LiDAR, and edges of an e-stop.
+constexpr std::size_t kWaitingPackets = 2048, kWaitingEdges = 256;
+
+scheduler::Feed::Tap tap(Recorder* recorder, std::size_t packets, std::size_t bytes) {
+  return recorder != nullptr ? recorder->tap(packets, bytes) : scheduler::Feed::Tap{};
+}
+
+Result<void> connect(RobotTasks& tasks, const RunContext& context, Input& input, SourceId id, Recorder* recorder,
+                     const scheduler::Feed::Tap& received) {
+  const RobotProfile& profile = context.profile;
+  if (input.entry.kind == recording::kGpio && tasks.fitted.estop) {
+    tasks.safety.watch_estop(profile.gpio.driver, *input.source, id, input.lines,
+                             tap(recorder, kWaitingEdges, scheduler::Feed::kSmall));
+    return {};
+  }
+  if (input.entry.kind == recording::kDrive)
+    return tasks.drive.attach(profile.drive.driver, *input.source, id, input.can,
+                              tap(recorder, kWaitingPackets, scheduler::Feed::kSmall));
+  if (input.entry.kind == recording::kPeers)
+    tasks.team->team().attach(*input.source, id, input.peers, tap(recorder, kWaitingPackets, peers::kMaxPacket));
+  else if (!tasks.receive.add(input, id, received))
+    context.monitor.event({}, "input", "more sources than are read: " + input.entry.id + " is left out");
+  return {};
+}
+
+}  // namespace
+
+Result<void> connect_inputs(RobotTasks& tasks, const RunContext& context, Recorder* recorder) {
+  const auto received = tap(recorder, kWaitingPackets, 0);  // one queue for all that one thread receives
+  std::size_t id = 0;
+  for (Input& input : context.door.inputs)
+    if (auto done = connect(tasks, context, input, static_cast<SourceId>(id++), recorder, received); !done) return done;
+  return {};
+}
+
+Time first_arrival(RobotTasks& tasks) {
+  const Time team = tasks.team ? tasks.team->team().first_arrival() : Time::max();
+  return std::min({tasks.safety.first_arrival(), tasks.drive.first_arrival(), tasks.receive.first_arrival(), team});
+}
+
+std::uint64_t missing_packets(const RobotTasks& tasks) {
+  return tasks.receive.missing_packets() + tasks.drive.missing_packets() +
+         (tasks.team ? tasks.team->team().missing_packets() : 0);
+}
+
+}  // namespace cairn

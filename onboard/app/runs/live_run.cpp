@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/runs/live_run.hpp"
+
+#include <algorithm>
+
+#include "onboard/app/runs/connect_inputs.hpp"
+#include "onboard/app/runs/real_time.hpp"
+#include "onboard/app/tasks/allocations.hpp"
+#include "onboard/scheduler/execution/executive.hpp"
+
+namespace cairn {
+namespace {
+
+// A large map takes half a second to encode, and the disk its time.
+constexpr Duration kSavingLimit = std::chrono::seconds(5);
+// From here to the first release: every thread is waiting by then.
+constexpr Duration kStartDelay = std::chrono::milliseconds(50);
+// A recording that is played among peers has ended, and they get the time to hear of it.
+constexpr Duration kLinger = std::chrono::seconds(30);
+
+}  // namespace
+
+LiveRun::LiveRun(RobotTasks& tasks, const RunContext& context, const Clock& clock)
+    : tasks_(tasks),
+      context_(context),
+      clock_(clock),
+      safety_events_(tasks.safety, context.monitor),
+      schedule_faults_(tasks.graph, tasks.graph.scheduled(tasks.safety)) {}
+
+Result<void> LiveRun::run(Generations* generations) {
+  if (const auto opened = open_recorder(); !opened) return opened.error();
+  if (const auto connected = connect_inputs(tasks_, context_, recorder_ ? &*recorder_ : nullptr); !connected)
+    return connected.error();
+  add_live_only_tasks(generations);
+  best_effort_ = !become_real_time(tasks_.graph, context_.monitor);
+  execute();
+  safety_events_.read();
+  if (saving_) saving_->close(clock_.now(), tasks_.robot);
+  report_unlogged_ticks();
+  return housekeeping_->close(clock_.now());
+}
+
+Result<void> LiveRun::open_recorder() {
+  const auto& folder = context_.options.record;
+  if (folder.empty()) return {};
+  auto writer = recording::RecordingWriter::create(folder, context_.door.recording);
+  if (!writer) return writer.error();
+  recorder_.emplace(std::move(*writer), context_.monitor);
+  if (!context_.previous.resumed) return {};
+  return keep_with_recording(folder, *context_.previous.resumed, context_.monitor);
+}
+
+void LiveRun::add_live_only_tasks(Generations* generations) {
+  const RunOptions& options = context_.options;
+  const ScheduleProfile& schedule = context_.profile.schedule;
+  Recorder* recorder = recorder_ ? &*recorder_ : nullptr;
+  housekeeping_.emplace(tasks_.graph, (recorder != nullptr ? options.record : options.out) / "schedule.log", recorder);
+  const auto& keeping = add_live_only(schedule.housekeeping, *housekeeping_);
+  std::vector<Pulse> writers{
+      {.task = keeping.spec.name, .limit = WatchTask::kDiskLimit, .beats = &keeping.stats.ticks}};
+  if (generations != nullptr) writers.push_back(add_saving(*generations));
+  watch_.emplace(std::move(writers), recorder);
+  add_live_only(schedule.watch, *watch_);
+  publisher_.emplace(tasks_.graph, context_.monitor,
+                     StatusPublisher::from_environment(context_.profile.name, options.live_view), clock_.now());
+  watch_->add([this](Time) { safety_events_.read(); });
+  watch_->add([this](Time now) { publish_status(now); });
+}
+
+Pulse LiveRun::add_saving(Generations& generations) {
+  const RobotProfile& profile = context_.profile;
+  const PreviousRun& previous = context_.previous;
+  saving_.emplace(generations, to_save_, previous.epoch, boot_id(), context_.monitor);
+  const auto& scheduled = add_live_only(profile.schedule.saving, *saving_);
+  tasks_.odometry.publish_to(to_save_.pose);
+  ScanSelection selection;
+  if (previous.resumed) {
+    saving_->go_on_with(previous.resumed->scans);
+    selection = ScanSelection(previous.resumed->scans.back().T_odom_base);
+  }
+  tasks_.mapping.keep_copies({profile.odometry, from_seconds(profile.restart.save_map_every_s), selection, to_save_});
+  return {.task = scheduled.spec.name, .limit = kSavingLimit, .beats = &scheduled.stats.ticks};
+}
+
+scheduler::ScheduledTask& LiveRun::add_live_only(const scheduler::TaskSpec& spec, scheduler::Task& task) {
+  return tasks_.graph.add(spec, task, scheduler::TaskRole::kLiveOnly);
+}
+
+void LiveRun::execute() {
+  const RunOptions& options = context_.options;
+  const Time start = clock_.now() + kStartDelay;
+  const Duration length = options.seconds ? from_seconds(*options.seconds) : Duration::max();
+  const auto ended = [&] {
+    return (options.stop && options.stop()) || clock_.now() - start > length || played_out(clock_.now());
+  };
+  scheduler::Executive(tasks_.graph, allocations_of_this_thread).run_live({start, ended}, clock_);
+}
+
+bool LiveRun::played_out(Time now) const {
+  if (context_.options.recording.empty() || context_.options.seconds) return false;
+  const auto ended_at = [&](const scheduler::Task& task) { return tasks_.graph.scheduled(task).ended_at(); };
+  const Time end = std::max({ended_at(tasks_.safety), ended_at(tasks_.drive), ended_at(tasks_.receive)});
+  return end != Time::max() && now > end + kLinger;
+}
+
+void LiveRun::publish_status(Time now) {
+  publisher_->set_decision(safety_events_.decision());
+  publisher_->set_shed(tasks_.mapping.shed());
+  publisher_->set_scans(tasks_.receive.figures().scans);
+  if (tasks_.team && tasks_.team->team().view().refresh()) publisher_->set_peers(tasks_.team->team().view().value());
+  FaultSet faults = faults_of_machine() | schedule_faults_.look();
+  faults.set(Fault::kTaskHung, !publisher_->tick(now));
+  tasks_.safety.report(faults);
+}
+
+FaultSet LiveRun::faults_of_machine() const {
+  FaultSet faults = watch_->faults();
+  if (saving_ && saving_->failing()) faults.set(Fault::kDiskFailing);
+  faults.set(Fault::kBestEffort, best_effort_);
+  faults.set(Fault::kCrashLoop, context_.previous.crash_loop);
+  faults.set(Fault::kStateLost, context_.previous.state_lost);
+  faults.set(Fault::kOverload, tasks_.mapping.shed() != Shed::kNothing);
+  faults.set(Fault::kMemoryShort, tasks_.mapping.memory_short());
+  return faults;
+}
+
+void LiveRun::report_unlogged_ticks() {
+  for (const scheduler::ScheduledTask& task : tasks_.graph.tasks())
+    if (task.unlogged > 0)
+      context_.monitor.event(clock_.now(), "schedule",
+                             task.spec.name + ": ticks are missing in the log: not to be replayed to the bit");
+}
+
+}  // namespace cairn

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "hal/clock.hpp"
+#include "onboard/app/runs/run_context.hpp"
+#include "onboard/app/runs/safety_events.hpp"
+#include "onboard/app/runs/schedule_faults.hpp"
+#include "onboard/app/runs/status_publisher.hpp"
+#include "onboard/app/tasks/housekeeping_task.hpp"
+#include "onboard/app/tasks/recorder.hpp"
+#include "onboard/app/tasks/robot_tasks.hpp"
+#include "onboard/app/tasks/saving_task.hpp"
+#include "onboard/app/tasks/watch_task.hpp"
+
+namespace cairn {
+
+/// Runs the tasks of a robot on the machine's clock, beside those that only a live run has: housekeeping, saving and
+/// watching.
+class LiveRun {
+ public:
+  /// All must outlive the run; the run must outlive the use of `tasks`.
+  LiveRun(RobotTasks& tasks, const RunContext& context, const Clock& clock);
+
+  /// Until the options' `stop`, their seconds are over, or a played recording has ended. Leaves schedule.log and, where
+  /// it is asked for, a recording. `generations`: where the map is saved; null: nowhere. Errors: an input cannot be
+  /// connected; the recording or the log cannot be written.
+  Result<void> run(Generations* generations);
+
+ private:
+  Result<void> open_recorder();
+  void add_live_only_tasks(Generations* generations);
+  [[nodiscard]] Pulse add_saving(Generations& generations);
+  scheduler::ScheduledTask& add_live_only(const scheduler::TaskSpec& spec, scheduler::Task& task);
+  void execute();
+  [[nodiscard]] bool played_out(Time now) const;
+  void publish_status(Time now);
+  [[nodiscard]] FaultSet faults_of_machine() const;
+  void report_unlogged_ticks();
+
+  RobotTasks& tasks_;
+  RunContext context_;
+  const Clock& clock_;
+  SafetyEvents safety_events_;
+  ScheduleFaults schedule_faults_;
+  ToSave to_save_;
+  std::optional<Recorder> recorder_;
+  std::optional<HousekeepingTask> housekeeping_;
+  std::optional<SavingTask> saving_;
+  std::optional<WatchTask> watch_;
+  std::optional<StatusPublisher> publisher_;
+  bool best_effort_ = false;
+};
+
+}  // namespace cairn

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/runs/real_time.hpp"
+
+#include <algorithm>
+#include <string>
+
+#include "onboard/scheduler/threads.hpp"
+
+namespace cairn {
+
+bool become_real_time(const scheduler::TaskGraph& graph, Monitor& monitor) {
+  int highest = 0;
+  for (const scheduler::ScheduledTask& task : graph.tasks()) highest = std::max(highest, task.spec.priority);
+  const auto missing = scheduler::probe_privileges(highest);
+  for (const std::string& what : missing) monitor.event({}, "best effort", "missing: " + what);
+  if (!scheduler::lock_memory() && missing.empty()) monitor.event({}, "best effort", "memory cannot be locked");
+  return missing.empty();
+}
+
+}  // namespace cairn

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/runs/replay_run.hpp"
+
+#include "onboard/app/runs/connect_inputs.hpp"
+#include "onboard/app/runs/real_time.hpp"
+#include "onboard/app/runs/safety_events.hpp"
+#include "onboard/app/tasks/allocations.hpp"
+#include "onboard/scheduler/execution/executive.hpp"
+
+namespace cairn {
+
+Result<void> replay_recording(RobotTasks& tasks, const RunContext& context) {
+  if (const auto connected = connect_inputs(tasks, context, nullptr); !connected) return connected.error();
+  const LiveClock clock;
+  const Time first = first_arrival(tasks);
+  scheduler::ReplayOptions replay;
+  replay.start = first == Time::max() ? Time{} : first;
+  replay.log = context.door.schedule ? &*context.door.schedule : nullptr;
+  replay.pace = context.options.pace == Pace::kRecorded ? &clock : nullptr;
+  if (context.options.seconds) replay.length = from_seconds(*context.options.seconds);
+  if (replay.pace != nullptr) (void)become_real_time(tasks.graph, context.monitor);
+  scheduler::Executive executive(tasks.graph, allocations_of_this_thread);
+  if (const auto done = executive.run_replay(replay); !done) return done.error();
+  SafetyEvents(tasks.safety, context.monitor).read();
+  if (executive.diverged() || missing_packets(tasks) > 0)
+    context.monitor.event(tasks.receive.figures().end, "schedule",
+                          "the recording lacks packets that the live run had: not the same result");
+  return {};
+}
+
+}  // namespace cairn

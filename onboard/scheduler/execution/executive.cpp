@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/scheduler/execution/executive.hpp"
+
+#include "onboard/scheduler/execution/run_end.hpp"
+#include "onboard/scheduler/execution/serial_replay.hpp"
+#include "onboard/scheduler/execution/threaded_replay.hpp"
+
+namespace cairn::scheduler {
+
+void Executive::run_live(const LiveOptions& options, const Clock& clock) {
+  scheduler::run_live(graph_, options, clock, allocations_);
+  drain(graph_, &clock);
+}
+
+Result<void> Executive::run_replay(const ReplayOptions& options) {
+  const auto schedule = ReplaySchedule::prepare(graph_, options);
+  if (!schedule) return schedule.error();
+  if (options.pace != nullptr)
+    replay_on_threads(*schedule, options.start, *options.pace, allocations_);
+  else
+    diverged_ = replay_serially(*schedule);
+  drain(graph_, nullptr);
+  return {};
+}
+
+}  // namespace cairn::scheduler

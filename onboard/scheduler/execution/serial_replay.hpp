@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "onboard/scheduler/execution/replay_schedule.hpp"
+
+namespace cairn::scheduler {
+
+/// Replays on the calling thread, as fast as possible: tick after tick in the order of their releases. Returns true
+/// when the replay diverged: a tick of the log took more than there was, so the recording is not that of the log.
+[[nodiscard]] bool replay_serially(const ReplaySchedule& schedule);
+
+}  // namespace cairn::scheduler

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/door/fitted.hpp"
+
+#include <gtest/gtest.h>
+
+namespace cairn {
+namespace {
+
+Fitted with(recording::SensorKind kind, const RobotProfile& profile = {}) {
+  std::vector<recording::SourceEntry> sources(1);
+  sources[0].kind = kind;
+  return fitted_with(sources, profile);
+}
+
+bool watches(const Fitted& fitted, Watched what) { return fitted.watched[static_cast<std::size_t>(what)]; }
+
+TEST(Fitted, EverySensorIsWatchedForSilence) {
+  EXPECT_TRUE(watches(with(recording::kVelodyne), Watched::kLidar));
+  EXPECT_TRUE(watches(with(recording::kScans), Watched::kLidar));
+  EXPECT_TRUE(watches(with(recording::kCamera), Watched::kCamera));
+  EXPECT_TRUE(watches(with(recording::kThermal), Watched::kThermal));
+  EXPECT_TRUE(watches(with(recording::kDepth), Watched::kDepth));
+  EXPECT_TRUE(watches(with(recording::kDrive), Watched::kFeedback));
+  EXPECT_FALSE(watches(with(recording::kCamera), Watched::kLidar));
+}
+
+TEST(Fitted, ADriveIsOneThatCanBeStopped) {
+  EXPECT_TRUE(with(recording::kDrive).drive);
+  EXPECT_FALSE(with(recording::kVelodyne).drive);
+}
+
+TEST(Fitted, AnEStopCountsWhenTheProfileNamesItsLine) {
+  EXPECT_FALSE(with(recording::kGpio).estop) << "the chip may serve the camera trigger alone";
+  RobotProfile profile;
+  profile.gpio.driver.estop_line = "estop";
+  EXPECT_TRUE(with(recording::kGpio, profile).estop);
+  EXPECT_FALSE(with(recording::kVelodyne, profile).estop);
+}
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/runs/real_time.hpp"
+
+#include <gtest/gtest.h>
+
+#include "onboard/scheduler/idle_task.hpp"
+#include "onboard/scheduler/threads.hpp"
+
+namespace cairn {
+namespace {
+
+TEST(RealTime, EverythingThatTheMachineRefusesIsAnEvent) {
+  scheduler::IdleTask idle;
+  scheduler::TaskGraph graph;
+  graph.add({.name = "slow"}, idle);
+  graph.add({.name = "fast", .priority = 80}, idle);
+  Monitor monitor;
+  const std::size_t missing = scheduler::probe_privileges(80).size();
+  EXPECT_EQ(become_real_time(graph, monitor), missing == 0);
+  EXPECT_GE(monitor.events().size(), missing);
+  for (const Event& event : monitor.events()) EXPECT_EQ(event.stage, "best effort");
+}
+
+}  // namespace
+}  // namespace cairn

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "onboard/app/tasks/safety_task.hpp"
+
+namespace cairn::test {
+
+/// The far ends of the safety task's ports, for a test that stands for all other tasks.
+class SafetyNeighbours final : public scheduler::Task {
+ public:
+  void tick(scheduler::Tick& /*tick*/) override {}
+  /// Another task may follow; what waits in the channels goes to it.
+  void connect(SafetyTask& task) {
+    join(sensors, task.sensors, sensors_channel_);
+    join(drive, task.drive, drive_channel_);
+    join(task.decisions, decisions, decisions_channel_);
+    join(odometry, task.odometry, odometry_channel_);
+  }
+
+  scheduler::OutputPort<SensorsSeen> sensors{*this, "sensors"};
+  scheduler::OutputPort<DriveNews> drive{*this, "drive"};
+  scheduler::InputPort<FailsafeDecision> decisions{*this, "decisions"};
+  scheduler::OutputPort<OdometryNews> odometry{*this, "odometry"};
+
+ private:
+  template <class T>
+  static void join(scheduler::OutputPort<T>& from, scheduler::InputPort<T>& to, scheduler::Channel<T>& channel) {
+    from.connect(channel);
+    to.connect(channel);
+  }
+
+  scheduler::Progress nobody_;
+  scheduler::Channel<SensorsSeen> sensors_channel_{{.capacity = 8}, nobody_, nobody_};
+  scheduler::Channel<DriveNews> drive_channel_{{.capacity = 8}, nobody_, nobody_};
+  scheduler::Channel<FailsafeDecision> decisions_channel_{{.capacity = 8}, nobody_, nobody_};
+  scheduler::Channel<OdometryNews> odometry_channel_{{.capacity = 8}, nobody_, nobody_};
+};
+
+}  // namespace cairn::test
