@@ -23,7 +23,7 @@ Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapp
       mapping_stage_(monitor.stage("mapping")) {
   odometry_.resume(saved.T_odom_base, saved.twist, saved.stamp, saved.scans);
   LocatedScan located;
-  for (const PlacedScan& scan : saved.scans) {
+  for (const odometry::PlacedScan& scan : saved.scans) {
     if (scan.stamp <= saved.map_stamp) continue;
     located.stamp = scan.stamp;
     located.T_odom_base.mean = scan.T_odom_base;

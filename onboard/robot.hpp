@@ -18,8 +18,8 @@ namespace cairn {
 
 struct RobotConfig {
   SE3 T_base_lidar;  ///< how the LiDAR is mounted
-  OdometryConfig odometry;
-  MappingConfig mapping;
+  odometry::OdometryConfig odometry;
+  mapping::MappingConfig mapping;
 };
 
 /// Where the robot was when a scan ended, and how certain that is.
@@ -51,9 +51,9 @@ struct MapShare {
 /// Where a restarted robot goes on. Its epoch stays 0; the first epoch of a robot that begins anew
 /// is 1.
 struct Resume {
-  const SemanticOcTree& map;  ///< of the config's resolution; copied
-  Time map_stamp{};           ///< scans that are later go into the map again
-  std::span<const PlacedScan> scans;
+  const mapping::SemanticOcTree& map;  ///< of the config's resolution; copied
+  Time map_stamp{};                    ///< scans that are later go into the map again
+  std::span<const odometry::PlacedScan> scans;
   UncertainPose T_odom_base;
   Vector6 twist = Vector6::Zero();
   Time stamp{};  ///< of the pose
@@ -84,14 +84,14 @@ class Robot {
   [[nodiscard]] bool resuming() const { return odometry_.resuming(); }
 
   [[nodiscard]] const std::vector<TrackPoint>& track() const { return track_; }
-  [[nodiscard]] const SemanticOcTree& map() const { return mapper_.tree(); }
+  [[nodiscard]] const mapping::SemanticOcTree& map() const { return mapper_.tree(); }
   /// See Mapper::take_changed_tiles(). After a new epoch began, all of the map's.
-  [[nodiscard]] std::vector<TileKey> take_changed_tiles() { return mapper_.take_changed_tiles(); }
+  [[nodiscard]] std::vector<mapping::TileKey> take_changed_tiles() { return mapper_.take_changed_tiles(); }
 
  private:
   SE3 T_base_lidar_;
-  LidarOdometry odometry_;
-  Mapper mapper_;
+  odometry::LidarOdometry odometry_;
+  mapping::Mapper mapper_;
   Monitor& monitor_;
   StageStats& odometry_stage_;
   StageStats& mapping_stage_;

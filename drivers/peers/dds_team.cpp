@@ -14,7 +14,7 @@
 
 #include "drivers/peers/link_frame.hpp"
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 namespace {
 
 constexpr int kHistory = 768;  // datagrams that wait to be read
@@ -171,4 +171,4 @@ Result<std::unique_ptr<DdsTeam>> DdsTeam::open(const DdsConfig& config) {
   return team;
 }
 
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

@@ -10,7 +10,7 @@
 #include "hal/result.hpp"
 #include "hal/time.hpp"
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 
 /// How the peer process takes part in the team's network.
 struct DdsConfig {
@@ -52,4 +52,4 @@ class DdsTeam {
   DdsTeam& operator=(const DdsTeam&) = default;
 };
 
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

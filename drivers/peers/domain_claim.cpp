@@ -11,7 +11,7 @@
 #include <string>
 #include <system_error>
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 namespace {
 
 // Clear of the default (see DdsConfig), and the ports of all are below those that Linux hands out, which begin at
@@ -45,4 +45,4 @@ DomainClaim::~DomainClaim() {
   if (socket_ >= 0) ::close(socket_);
 }
 
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

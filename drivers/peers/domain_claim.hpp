@@ -5,7 +5,7 @@
 
 #include "hal/result.hpp"
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 
 /// A DDS domain that no other program of this machine has claimed: teams that run on one machine at the same time do
 /// not hear each other. Given back at its end, and when the program dies.
@@ -25,4 +25,4 @@ class DomainClaim {
   int socket_;
 };
 
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

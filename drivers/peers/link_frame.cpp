@@ -5,7 +5,7 @@
 
 #include "hal/bytes.hpp"
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 namespace {
 
 constexpr std::uint32_t kMagic = 0x314C5043;  // "CPL1"
@@ -50,4 +50,4 @@ Result<LinkFrame> decode_link_frame(std::span<const std::byte> message) {
                    message.subspan(LinkFrame::kHeaderBytes)};
 }
 
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

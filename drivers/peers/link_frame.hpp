@@ -9,7 +9,7 @@
 #include "hal/result.hpp"
 
 // What the core and the peer process send each other over their local socket: one frame in each message.
-namespace cairn::peers {
+namespace cairn::peer_link {
 
 /// One message on the local socket.
 struct LinkFrame {
@@ -32,4 +32,4 @@ void encode(const LinkFrame& frame, std::vector<std::byte>& out);
 /// kUnsupported (another version).
 [[nodiscard]] Result<LinkFrame> decode_link_frame(std::span<const std::byte> message);
 
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 namespace {
 
 constexpr int kType = SOCK_SEQPACKET | SOCK_CLOEXEC | SOCK_NONBLOCK;
@@ -130,4 +130,4 @@ bool LocalLink::receive(std::vector<std::byte>& memory, LinkFrame& frame) {
   return false;
 }
 
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

@@ -9,7 +9,7 @@
 #include "drivers/peers/link_frame.hpp"
 #include "hal/result.hpp"
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 
 /// One end of the local socket (SOCK_SEQPACKET) between a core and its peer process. It never waits: frames that the
 /// other end does not take in time are lost and counted. Either end may die and come back.
@@ -53,4 +53,4 @@ class LocalLink {
   Counters counters_;
 };
 
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

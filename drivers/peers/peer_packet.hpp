@@ -11,7 +11,7 @@
 #include "hal/packet.hpp"
 
 // What comes from the team, as packets. The first packet tells who this robot is in the team: a replay needs it.
-namespace cairn::peers {
+namespace cairn::peer_link {
 
 enum class PacketKind : std::uint16_t {  ///< Packet::channel
   kDatagram = 0,                         ///< what a peer sent
@@ -37,4 +37,4 @@ inline void encode(const Beginning& beginning, Packet& packet) {
   return Beginning{load_le<std::uint64_t>(bytes, 0), load_le<std::uint64_t>(bytes, 8)};
 }
 
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/peers/peer_port.hpp"
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 
 Result<std::unique_ptr<PeerPort>> PeerPort::open(const std::filesystem::path& socket, const Beginning& beginning,
                                                  SourceId source, const Clock& clock) {
@@ -32,4 +32,4 @@ bool PeerPort::send(std::uint64_t robot, std::span<const std::byte> datagram) {
   return link_.join() && link_.send({LinkFrame::Kind::kSend, robot, datagram});
 }
 
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

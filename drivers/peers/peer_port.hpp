@@ -11,7 +11,7 @@
 #include "hal/clock.hpp"
 #include "hal/ports.hpp"
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 
 /// The live core's connection to its peer process. The first packet is the Beginning. The others are what peers sent.
 /// It never waits.
@@ -38,4 +38,4 @@ class PeerPort final : public Source {
   std::uint64_t delivered_ = 0;
 };
 
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

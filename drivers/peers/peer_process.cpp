@@ -15,7 +15,7 @@
 #include "drivers/peers/local_link.hpp"
 #include "drivers/peers/udp_limiter.hpp"
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 namespace {
 
 volatile std::sig_atomic_t g_stop = 0;
@@ -75,10 +75,10 @@ int run(const Options& options) {
 }
 
 }  // namespace
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link
 
 int main(int argc, char** argv) {
-  using namespace cairn::peers;
+  using namespace cairn::peer_link;
   Options options;
   CLI::App app("the peer process of a robot: joins its core to the team over Cyclone DDS");
   app.add_option("--robot", options.dds.robot, "this robot's id, its own in the team, not 0")

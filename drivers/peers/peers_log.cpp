@@ -8,7 +8,7 @@
 #include "drivers/peers/peer_packet.hpp"
 #include "hal/bytes.hpp"
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 namespace {
 
 constexpr std::uint32_t kLogMagic = 0x4C525043, kLogVersion = 1;  // "CPRL"
@@ -80,4 +80,4 @@ Result<Poll> PeersLogSource::next(Packet& packet, Duration /*timeout*/) {
   return Poll::kPacket;
 }
 
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

@@ -15,7 +15,7 @@
 // peers.log holds what a robot received from its team, in the order of arrival. All numbers are little endian. It has a
 // header of 8 bytes ("CPRL", version 1 in 4 bytes). Then comes for each packet: its length (2 bytes), its PacketKind
 // (2), its arrival in nanoseconds on the robot's time line (8), and its bytes.
-namespace cairn::peers {
+namespace cairn::peer_link {
 
 inline constexpr std::size_t kLogHeaderBytes = 8;
 
@@ -48,4 +48,4 @@ class PeersLogSource final : public Source {
   bool ended_ = false;
 };
 
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

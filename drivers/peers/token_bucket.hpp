@@ -6,7 +6,7 @@
 
 #include "hal/time.hpp"
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 
 /// Traffic stays below `bytes_per_second` in every one-second window. The rate is shared: a burst may gather in a pause
 /// (an eighth of the rate, and two datagrams at least), and the rest is refilled within a second.
@@ -39,4 +39,4 @@ class TokenBucket {
   Time last_{};
 };
 
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

@@ -10,7 +10,7 @@
 #include "drivers/peers/token_bucket.hpp"
 #include "hal/clock.hpp"
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 namespace {
 
 constexpr std::size_t kHeaders = 14 + 20 + 8;  // Ethernet, IPv4, UDP
@@ -69,7 +69,7 @@ void limit_udp(const UdpLimits& limits) { limiter().limit(limits); }
 bool udp_room(std::size_t bytes) { return limiter().room(bytes); }
 UdpCounters udp_counters() { return limiter().counters(); }
 
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link
 
 /// Stands before the C library's.
 extern "C" ssize_t sendmsg(int socket, const msghdr* message, int flags) {
@@ -77,8 +77,9 @@ extern "C" ssize_t sendmsg(int socket, const msghdr* message, int flags) {
   static const auto real = reinterpret_cast<Function>(dlsym(RTLD_NEXT, "sendmsg"));
   const auto* to = static_cast<const sockaddr*>(message->msg_name);
   const bool internet = to != nullptr && (to->sa_family == AF_INET || to->sa_family == AF_INET6);
-  const std::size_t bytes = cairn::peers::length_of(*message);
-  if (internet && !cairn::peers::limiter().pass(bytes + cairn::peers::kHeaders, cairn::peers::is_discovery(*to)))
+  const std::size_t bytes = cairn::peer_link::length_of(*message);
+  if (internet &&
+      !cairn::peer_link::limiter().pass(bytes + cairn::peer_link::kHeaders, cairn::peer_link::is_discovery(*to)))
     return static_cast<ssize_t>(bytes);
   return real(socket, message, flags);
 }

@@ -4,7 +4,7 @@
 #include <cstddef>
 #include <cstdint>
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 
 /// A cap on all that this process sends over the network: also the DDS library's discovery, heartbeats and answers. The
 /// program's own sendmsg() stands before the C library's. Datagrams to an internet address beyond the cap are dropped,
@@ -23,4 +23,4 @@ struct UdpCounters {
 };
 [[nodiscard]] UdpCounters udp_counters();
 
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

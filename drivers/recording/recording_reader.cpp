@@ -140,7 +140,7 @@ Opened open_gpio(const Recorded& r) {
 Opened open_peers(const Recorded& r) {
   const auto file = r.file();
   if (!file) return file.error();
-  return as_source(peers::PeersLogSource::open(*file, r.id));
+  return as_source(peer_link::PeersLogSource::open(*file, r.id));
 }
 
 struct ReaderRow {

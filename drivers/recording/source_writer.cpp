@@ -142,7 +142,7 @@ class PeerRecords final : public SourceWriter {
  public:
   explicit PeerRecords(AppendFile file) : file_(std::move(file)) {}
   Result<void> write(const Packet& packet) override {
-    if (auto made = peers::append_log_record(packet, file_.buffer()); !made)
+    if (auto made = peer_link::append_log_record(packet, file_.buffer()); !made)
       return at(file_.path().string(), made.error());
     return file_.end_record();
   }
@@ -204,7 +204,7 @@ Opened open_gpio(const Target& t) {
 Opened open_peers(const Target& t) {
   auto file = AppendFile::create(t.file);
   if (!file) return file.error();
-  peers::append_log_header(file->buffer());
+  peer_link::append_log_header(file->buffer());
   if (auto header = file->end_record(); !header) return header.error();
   return std::unique_ptr<SourceWriter>(std::make_unique<PeerRecords>(std::move(*file)));
 }

@@ -60,8 +60,8 @@ class DefaultMatcher : public Matcher {
   [[nodiscard]] bool leans(const SE3& T) const;
 
   MatcherConfig config_;
-  const SemanticOcTree& map_a_;
-  const SemanticOcTree& map_b_;
+  const mapping::SemanticOcTree& map_a_;
+  const mapping::SemanticOcTree& map_b_;
   Judge judge_;
   PriorModes modes_;
   std::span<const Surfel> coarse_a_;

@@ -18,13 +18,13 @@ constexpr double kSure = 0.8;
 
 /// A map in a frame whose z may be upwards, with its features.
 struct Levelled {
-  std::unique_ptr<SemanticOcTree> map;
+  std::unique_ptr<mapping::SemanticOcTree> map;
   std::unique_ptr<MapFeatures> features;
 };
 
-Result<Levelled> level_map(const SemanticOcTree& map, const SE3& T_level_map) {
+Result<Levelled> level_map(const mapping::SemanticOcTree& map, const SE3& T_level_map) {
   // Not owned: the caller's map outlives this.
-  const std::shared_ptr<const SemanticOcTree> view(std::shared_ptr<const SemanticOcTree>{}, &map);
+  const std::shared_ptr<const mapping::SemanticOcTree> view(std::shared_ptr<const mapping::SemanticOcTree>{}, &map);
   merging::Contributions alone;
   merging::offer(alone, 0, {.version = 1, .map = view, .T_fused_map = T_level_map});
   auto turned = merging::merge(alone);

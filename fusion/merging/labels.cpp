@@ -13,7 +13,7 @@ constexpr double kLogitSteps = 4294967296.0, kLeast = 1e-6;
 
 // Logits of kProbability, of what it leaves to each other class, and of 1/19, in 2⁻¹⁶: written down, as machines round
 // logarithms differently. A test computes them.
-constexpr std::array<std::int64_t, VoxelLabel::kGrades> kOwn{192967, 90852, 26573, -40569},
+constexpr std::array<std::int64_t, mapping::VoxelLabel::kGrades> kOwn{192967, 90852, 26573, -40569},
     kOthers{-385569, -294167, -248001, -215245};
 constexpr std::int64_t kPrior = -189423;
 
@@ -38,15 +38,15 @@ ClassProbabilities fuse_labels(std::span<const ClassProbabilities> opinions) {
   return fused;
 }
 
-VoxelLabel fuse_labels(std::span<const VoxelLabel> opinions) {
+mapping::VoxelLabel fuse_labels(std::span<const mapping::VoxelLabel> opinions) {
   std::array<std::int64_t, kClasses> logits{};
   logits.fill(-kPrior * (static_cast<std::int64_t>(opinions.size()) - 1));
-  for (const VoxelLabel label : opinions)
+  for (const mapping::VoxelLabel label : opinions)
     for (unsigned k = 0; k < kClasses; ++k) logits[k] += (k == label.class_id() ? kOwn : kOthers)[label.grade()];
   const auto likeliest = std::ranges::max_element(logits);
   unsigned grade = 0;
-  while (grade + 1 < VoxelLabel::kGrades && 2 * *likeliest < kOwn[grade] + kOwn[grade + 1]) ++grade;
-  return VoxelLabel::of(static_cast<unsigned>(likeliest - logits.begin()), grade);
+  while (grade + 1 < mapping::VoxelLabel::kGrades && 2 * *likeliest < kOwn[grade] + kOwn[grade + 1]) ++grade;
+  return mapping::VoxelLabel::of(static_cast<unsigned>(likeliest - logits.begin()), grade);
 }
 
 double label_entropy(const ClassProbabilities& p) {

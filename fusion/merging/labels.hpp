@@ -9,7 +9,7 @@
 
 namespace cairn::merging {
 
-inline constexpr std::size_t kClasses = VoxelLabel::kClasses;  ///< Cityscapes
+inline constexpr std::size_t kClasses = mapping::VoxelLabel::kClasses;  ///< Cityscapes
 /// A probability for each class, 0…1.
 using ClassProbabilities = std::array<double, kClasses>;
 
@@ -22,7 +22,7 @@ using ClassProbabilities = std::array<double, kClasses>;
 /// The same for labels as robots exchange them: the likeliest class, the lowest of equal ones, by its own probability
 /// before the normalisation, in the nearest grade. Whole numbers: the same in any order, on any machine; one opinion
 /// stays what it is. At least one, none of which is no label.
-[[nodiscard]] VoxelLabel fuse_labels(std::span<const VoxelLabel> opinions);
+[[nodiscard]] mapping::VoxelLabel fuse_labels(std::span<const mapping::VoxelLabel> opinions);
 
 /// Entropy of normalised class probabilities over log(19): 0 for one certain class, 1 for none preferred.
 [[nodiscard]] double label_entropy(const ClassProbabilities& p);

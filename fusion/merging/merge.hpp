@@ -15,7 +15,7 @@ namespace cairn::merging {
 /// The newest own observations of one robot, and where they lie.
 struct Contribution {
   std::uint64_t version = 0;
-  std::shared_ptr<const SemanticOcTree> map;
+  std::shared_ptr<const mapping::SemanticOcTree> map;
   SE3 T_fused_map;
 };
 
@@ -43,6 +43,7 @@ inline constexpr std::int64_t kNodesPerNode = 64, kSpareNodes = 100'000;
 ///
 /// Errors: kInvalidConfig without contributions, for a missing map or a pose that is not finite; kLimit beyond
 /// max_nodes or what the maps' own sizes justify.
-Result<std::unique_ptr<SemanticOcTree>> merge(const Contributions& contributions, const MergeOptions& options = {});
+Result<std::unique_ptr<mapping::SemanticOcTree>> merge(const Contributions& contributions,
+                                                       const MergeOptions& options = {});
 
 }  // namespace cairn::merging

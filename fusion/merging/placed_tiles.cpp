@@ -19,7 +19,7 @@ int tile_coordinate(std::int64_t fixed) {
 /// Along one axis, of a voxel with this index in its tile, divided by tile_index() of the axis.
 constexpr int coordinate(int index) { return (index & 1) | (index >> 2 & 2) | (index >> 4 & 4); }
 
-std::array<int, 3> first_voxel(TileKey tile) {
+std::array<int, 3> first_voxel(mapping::TileKey tile) {
   return {tile.first_voxel(0) - kHalfTree, tile.first_voxel(1) - kHalfTree, tile.first_voxel(2) - kHalfTree};
 }
 
@@ -29,11 +29,11 @@ class Window {
   static constexpr int kEdge = 4;
 
   Window(const TileLayer& layer, const TileBox& box) {
-    const auto coordinate = [](int tile) { return static_cast<std::uint16_t>(tile * kTileEdge); };
+    const auto coordinate = [](int tile) { return static_cast<std::uint16_t>(tile * mapping::kTileEdge); };
     for (int z = std::max(box.low.z(), 0); z <= std::min(box.high.z(), kTiles - 1); ++z)
       for (int y = std::max(box.low.y(), 0); y <= std::min(box.high.y(), kTiles - 1); ++y)
         for (int x = std::max(box.low.x(), 0); x <= std::min(box.high.x(), kTiles - 1); ++x) {
-          const auto found = layer.find(TileKey::of_voxel(coordinate(x), coordinate(y), coordinate(z)));
+          const auto found = layer.find(mapping::TileKey::of_voxel(coordinate(x), coordinate(y), coordinate(z)));
           if (found == layer.end()) continue;
           tiles_[place(x - box.low.x(), y - box.low.y(), z - box.low.z())] = &found->second.state;
           any_ = true;
@@ -43,19 +43,20 @@ class Window {
   [[nodiscard]] bool any() const { return any_; }
   [[nodiscard]] bool labelled() const { return labelled_; }
   /// Of a voxel of the box, counted from the first of box.low.
-  [[nodiscard]] VoxelLabel label(int x, int y, int z) const {
-    const TileState* tile = tiles_[place(x >> 3, y >> 3, z >> 3)];
-    return tile == nullptr ? VoxelLabel{} : tile->label(unsigned(x & 7), unsigned(y & 7), unsigned(z & 7));
+  [[nodiscard]] mapping::VoxelLabel label(int x, int y, int z) const {
+    const mapping::TileState* tile = tiles_[place(x >> 3, y >> 3, z >> 3)];
+    return tile == nullptr ? mapping::VoxelLabel{} : tile->label(unsigned(x & 7), unsigned(y & 7), unsigned(z & 7));
   }
   [[nodiscard]] float log_odds(int x, int y, int z) const {
-    const TileState* tile = tiles_[place(x >> 3, y >> 3, z >> 3)];
-    return tile == nullptr ? SemanticNode::kAbsent : tile->log_odds(unsigned(x & 7), unsigned(y & 7), unsigned(z & 7));
+    const mapping::TileState* tile = tiles_[place(x >> 3, y >> 3, z >> 3)];
+    return tile == nullptr ? mapping::SemanticNode::kAbsent
+                           : tile->log_odds(unsigned(x & 7), unsigned(y & 7), unsigned(z & 7));
   }
 
  private:
   static std::size_t place(int x, int y, int z) { return static_cast<std::size_t>(x + kEdge * (y + kEdge * z)); }
 
-  std::array<const TileState*, kEdge * kEdge * kEdge> tiles_{};
+  std::array<const mapping::TileState*, kEdge * kEdge * kEdge> tiles_{};
   bool any_ = false, labelled_ = false;
 };
 
@@ -66,9 +67,9 @@ class Steps {
   Steps(const std::array<Fixed, 3>& rotation, const Fixed& first_centre, const Eigen::Vector3i& low_tile) {
     for (std::size_t i = 0; i < 3; ++i) {
       const std::int64_t low =
-          (low_tile[static_cast<Eigen::Index>(i)] * kTileEdge - kHalfTree) * (std::int64_t{1} << kBits);
+          (low_tile[static_cast<Eigen::Index>(i)] * mapping::kTileEdge - kHalfTree) * (std::int64_t{1} << kBits);
       for (std::size_t k = 0; k < 3; ++k)
-        for (int n = 0; n < kTileEdge; ++n)
+        for (int n = 0; n < mapping::kTileEdge; ++n)
           steps_[i][k][static_cast<std::size_t>(n)] = (k == 0 ? first_centre[i] - low : 0) + rotation[i][k] * n;
     }
   }
@@ -79,7 +80,7 @@ class Steps {
   }
 
  private:
-  std::array<std::array<std::array<std::int64_t, kTileEdge>, 3>, 3> steps_;
+  std::array<std::array<std::array<std::int64_t, mapping::kTileEdge>, 3>, 3> steps_;
 };
 
 }  // namespace
@@ -114,27 +115,28 @@ Placement::Fixed Placement::moved(const Motion& motion, const std::array<int, 3>
   return place;
 }
 
-TileBox Placement::touched_by(TileKey tile) const {
+TileBox Placement::touched_by(mapping::TileKey tile) const {
   const auto first = first_voxel(tile);
-  const Fixed centre =
-      moved(team_from_submap_, {2 * first[0] + kTileEdge, 2 * first[1] + kTileEdge, 2 * first[2] + kTileEdge});
+  const Fixed centre = moved(team_from_submap_, {2 * first[0] + mapping::kTileEdge, 2 * first[1] + mapping::kTileEdge,
+                                                 2 * first[2] + mapping::kTileEdge});
   constexpr std::int64_t kHalf = std::int64_t{1} << (kBits - 1), kSlack = std::int64_t{1} << (kBits - 10);
   TileBox box;
   for (std::size_t i = 0; i < 3; ++i) {
     std::int64_t reach = kSlack - kHalf;  // it is the voxels' centres that must lie within
-    for (std::size_t k = 0; k < 3; ++k) reach += std::abs(team_from_submap_.rotation[i][k]) * kTileEdge / 2;
+    for (std::size_t k = 0; k < 3; ++k) reach += std::abs(team_from_submap_.rotation[i][k]) * mapping::kTileEdge / 2;
     box.low[static_cast<Eigen::Index>(i)] = tile_coordinate(centre[i] - reach);
     box.high[static_cast<Eigen::Index>(i)] = tile_coordinate(centre[i] + reach);
   }
   return box;
 }
 
-TileBox Placement::sources_of(TileKey tile) const {
+TileBox Placement::sources_of(mapping::TileKey tile) const {
   const Fixed corner = first_centre(tile);
   TileBox box;
   for (std::size_t i = 0; i < 3; ++i) {
     std::int64_t low = corner[i], high = corner[i];
-    for (const std::int64_t step : submap_from_team_.rotation[i]) (step < 0 ? low : high) += step * (kTileEdge - 1);
+    for (const std::int64_t step : submap_from_team_.rotation[i])
+      (step < 0 ? low : high) += step * (mapping::kTileEdge - 1);
     box.low[static_cast<Eigen::Index>(i)] = tile_coordinate(low);
     box.high[static_cast<Eigen::Index>(i)] = tile_coordinate(high);
   }
@@ -142,25 +144,25 @@ TileBox Placement::sources_of(TileKey tile) const {
 }
 
 /// Where the centre of a team's tile's first voxel lies in the submap.
-Placement::Fixed Placement::first_centre(TileKey tile) const {
+Placement::Fixed Placement::first_centre(mapping::TileKey tile) const {
   const auto first = first_voxel(tile);
   return moved(submap_from_team_, {2 * first[0] + 1, 2 * first[1] + 1, 2 * first[2] + 1});
 }
 
-bool Placement::read(const TileLayer& layer, TileKey tile, Opinion& opinion) const {
+bool Placement::read(const TileLayer& layer, mapping::TileKey tile, Opinion& opinion) const {
   const TileBox box = sources_of(tile);
   const Window window(layer, box);
   if (!window.any()) return false;
   const Steps steps(submap_from_team_.rotation, first_centre(tile), box.low);
   bool any = false;
   opinion.labelled = window.labelled();
-  for (int at = 0; at < kTileVoxels; ++at) {
+  for (int at = 0; at < mapping::kTileVoxels; ++at) {
     const int x = coordinate(at), y = coordinate(at >> 1), z = coordinate(at >> 2);
     const int u = steps.voxel(0, x, y, z), v = steps.voxel(1, x, y, z), w = steps.voxel(2, x, y, z);
     const float value = window.log_odds(u, v, w);
     opinion.voxels[static_cast<std::size_t>(at)] = value;
     if (opinion.labelled) opinion.labels[static_cast<std::size_t>(at)] = window.label(u, v, w);
-    any = any || value != SemanticNode::kAbsent;
+    any = any || value != mapping::SemanticNode::kAbsent;
   }
   return any;
 }

@@ -16,11 +16,11 @@ namespace cairn::merging {
 
 /// One tile of one submap, and when it came.
 struct ReceivedTile {
-  TileState state;
+  mapping::TileState state;
   Time stamp{};
 };
 /// Tiles of one submap, in its own frame.
-using TileLayer = std::map<TileKey, ReceivedTile>;
+using TileLayer = std::map<mapping::TileKey, ReceivedTile>;
 
 /// A box of tiles, in tiles from the corner of the tree, both ends inclusive. It may reach beyond the tree.
 struct TileBox {
@@ -36,18 +36,18 @@ class Placement {
   [[nodiscard]] static std::optional<Placement> of(const SE3& T_team_submap, double resolution_m);
 
   /// The team's tiles that a tile of the submap may reach into.
-  [[nodiscard]] TileBox touched_by(TileKey tile) const;
+  [[nodiscard]] TileBox touched_by(mapping::TileKey tile) const;
   /// What a submap knows of one of the team's tiles.
   struct Opinion {
-    TileVoxels voxels;
+    mapping::TileVoxels voxels;
     bool labelled = false;
-    TileLabels labels;  ///< if labelled
+    mapping::TileLabels labels;  ///< if labelled
   };
   /// False if the submap knows nothing of the team's tile.
-  [[nodiscard]] bool read(const TileLayer& layer, TileKey tile, Opinion& opinion) const;
+  [[nodiscard]] bool read(const TileLayer& layer, mapping::TileKey tile, Opinion& opinion) const;
 
   /// The submap's tiles that may reach into one of the team's.
-  [[nodiscard]] TileBox sources_of(TileKey tile) const;
+  [[nodiscard]] TileBox sources_of(mapping::TileKey tile) const;
 
   friend bool operator==(const Placement&, const Placement&) = default;
 
@@ -60,7 +60,7 @@ class Placement {
   };
   using Fixed = std::array<std::int64_t, 3>;
   static Motion motion(const SE3& T, double resolution_m);
-  [[nodiscard]] Fixed first_centre(TileKey tile) const;
+  [[nodiscard]] Fixed first_centre(mapping::TileKey tile) const;
   static Fixed moved(const Motion& motion, const std::array<int, 3>& twice_voxels);
 
   Motion submap_from_team_, team_from_submap_;

@@ -4,7 +4,7 @@
 namespace cairn::merging {
 namespace {
 
-constexpr int kTreeEdge = 1 << SemanticOcTree::kDepth;
+constexpr int kTreeEdge = 1 << mapping::SemanticOcTree::kDepth;
 constexpr double kSlack = 1e-6;  // voxels; rounding must not let a cube reach out of the one it lies in
 
 bool apart(const Resampled::Box& box, const Resampled::Place& p) {
@@ -21,16 +21,16 @@ Resampled::Place child(const Resampled::Place& p, unsigned i) {
 }
 
 /// Voxels that lie in a turned tile, from the lowest tile they touch: it is less than three tiles wide.
-constexpr int kWindowEdge = 3 * kTileEdge;
+constexpr int kWindowEdge = 3 * mapping::kTileEdge;
 
 std::array<int, kWindowEdge> indices_along(int axis, const Eigen::Vector3i& lowest_tile) {
   std::array<int, kWindowEdge> indices{};
   for (int i = 0; i < kWindowEdge; ++i)
-    indices[static_cast<std::size_t>(i)] = TileWindow::index(axis, kTileEdge * lowest_tile[axis] + i);
+    indices[static_cast<std::size_t>(i)] = TileWindow::index(axis, mapping::kTileEdge * lowest_tile[axis] + i);
   return indices;
 }
 
-Content content_of(const SemanticNode* leaf) {
+Content content_of(const mapping::SemanticNode* leaf) {
   return leaf->present() ? Content{Content::Kind::kUniform, leaf->getLogOdds()} : Content{};
 }
 
@@ -39,7 +39,7 @@ Content content_of(const SemanticNode* leaf) {
 bool add(const Resampled::Box& box, const Resampled::Place& p, Content& so_far, bool& first) {
   if (apart(box, p)) return true;
   if (p.node->block() != nullptr) {
-    for (unsigned i = 0; i < SemanticNode::kChildren; ++i)
+    for (unsigned i = 0; i < mapping::SemanticNode::kChildren; ++i)
       if (!add(box, child(p, i), so_far, first)) return false;
     return true;
   }
@@ -52,7 +52,7 @@ bool add(const Resampled::Box& box, const Resampled::Place& p, Content& so_far, 
 
 }  // namespace
 
-Resampled::Resampled(const SemanticOcTree& map, const SE3& T_grid_map, double grid_resolution_m)
+Resampled::Resampled(const mapping::SemanticOcTree& map, const SE3& T_grid_map, double grid_resolution_m)
     : root_(map.getRoot()), window_(map.getRoot()) {
   const double ratio = grid_resolution_m / map.getResolution();
   const SE3 T_map_grid = T_grid_map.inverse();
@@ -64,13 +64,13 @@ Resampled::Resampled(const SemanticOcTree& map, const SE3& T_grid_map, double gr
 }
 
 void Resampled::measure_steps() {
-  least_step_ = (kTileEdge - 1) * scaled_rotation_.cwiseMin(0).rowwise().sum().array() - kSlack;
-  greatest_step_ = (kTileEdge - 1) * scaled_rotation_.cwiseMax(0).rowwise().sum().array() + kSlack;
-  for (int z = 0; z < kTileEdge; ++z)
-    for (int y = 0; y < kTileEdge; ++y)
-      for (int x = 0; x < kTileEdge; ++x) {
+  least_step_ = (mapping::kTileEdge - 1) * scaled_rotation_.cwiseMin(0).rowwise().sum().array() - kSlack;
+  greatest_step_ = (mapping::kTileEdge - 1) * scaled_rotation_.cwiseMax(0).rowwise().sum().array() + kSlack;
+  for (int z = 0; z < mapping::kTileEdge; ++z)
+    for (int y = 0; y < mapping::kTileEdge; ++y)
+      for (int x = 0; x < mapping::kTileEdge; ++x) {
         const Eigen::Vector3d step = scaled_rotation_ * Eigen::Vector3d(x, y, z);
-        const int at = tile_index(0, x) + tile_index(1, y) + tile_index(2, z);
+        const int at = mapping::tile_index(0, x) + mapping::tile_index(1, y) + mapping::tile_index(2, z);
         for (int axis = 0; axis < 3; ++axis)
           steps_[static_cast<std::size_t>(axis)][static_cast<std::size_t>(at)] = step[axis];
       }
@@ -98,26 +98,26 @@ Content Resampled::look_aligned(const Eigen::Vector3i& first, int edge, Place& p
   return place.node->block() != nullptr ? Content{Content::Kind::kMixed, 0} : content_of(place.node);
 }
 
-void Resampled::read(const Eigen::Vector3i& first, const Place& place, TileVoxels& tile) {
+void Resampled::read(const Eigen::Vector3i& first, const Place& place, mapping::TileVoxels& tile) {
   if (aligned_)
-    read_voxels(*place.node, tile);
+    mapping::read_voxels(*place.node, tile);
   else
     read_turned(first, tile);
 }
 
-void Resampled::read_turned(const Eigen::Vector3i& first, TileVoxels& tile) {
+void Resampled::read_turned(const Eigen::Vector3i& first, mapping::TileVoxels& tile) {
   const Eigen::Vector3d centre = first.cast<double>().array() + 0.5 - kTreeEdge / 2.0;
   const Eigen::Vector3d in_map = scaled_rotation_ * centre + offset_;
   const auto tile_of = [](const Eigen::Vector3d& v) -> Eigen::Vector3i {
-    return (v.array() / kTileEdge).floor().cast<int>();
+    return (v.array() / mapping::kTileEdge).floor().cast<int>();
   };
   const Eigen::Vector3i low = tile_of(in_map + least_step_);
   window_.hold(low, tile_of(in_map + greatest_step_));
-  const Eigen::Vector3d in_window = in_map - (kTileEdge * low).cast<double>();
+  const Eigen::Vector3d in_window = in_map - (mapping::kTileEdge * low).cast<double>();
   const auto x = indices_along(0, low), y = indices_along(1, low), z = indices_along(2, low);
   const auto whole = [](double voxels) { return static_cast<std::size_t>(voxels); };
   const float* voxels = window_.voxels();
-  for (std::size_t i = 0; i < kTileVoxels; ++i)
+  for (std::size_t i = 0; i < mapping::kTileVoxels; ++i)
     tile[i] = voxels[x[whole(in_window.x() + steps_[0][i])] + y[whole(in_window.y() + steps_[1][i])] +
                      z[whole(in_window.z() + steps_[2][i])]];
 }

@@ -26,7 +26,7 @@ class Resampled {
  public:
   /// A node of the tree that holds all that a cube touches. The search inside the cube goes on from it.
   struct Place {
-    const SemanticNode* node;
+    const mapping::SemanticNode* node;
     Eigen::Vector3i first;  ///< lowest voxel key
     int edge;               ///< voxels
   };
@@ -37,7 +37,7 @@ class Resampled {
 
   /// Cubes are given in voxels of `grid_resolution_m`, counted from the corner of the grid's tree. These voxels are not
   /// larger than the map's.
-  Resampled(const SemanticOcTree& map, const SE3& T_grid_map, double grid_resolution_m);
+  Resampled(const mapping::SemanticOcTree& map, const SE3& T_grid_map, double grid_resolution_m);
 
   [[nodiscard]] Place root() const;
   /// What the cube of `edge`³ voxels from `first` on holds. `place` holds the cube, and becomes a smaller place that
@@ -45,20 +45,20 @@ class Resampled {
   [[nodiscard]] Content look(const Eigen::Vector3i& first, int edge, Place& place) const;
   /// The voxels of a tile that look() has called mixed; `place` is the one it gave. Merging spends most of its time
   /// here.
-  void read(const Eigen::Vector3i& first, const Place& place, TileVoxels& tile);
+  void read(const Eigen::Vector3i& first, const Place& place, mapping::TileVoxels& tile);
 
  private:
   void measure_steps();
   [[nodiscard]] Box box_of(const Eigen::Vector3i& first, int edge) const;
-  void read_turned(const Eigen::Vector3i& first, TileVoxels& tile);
+  void read_turned(const Eigen::Vector3i& first, mapping::TileVoxels& tile);
   [[nodiscard]] Content look_aligned(const Eigen::Vector3i& first, int edge, Place& place) const;
 
-  const SemanticNode* root_;
+  const mapping::SemanticNode* root_;
   bool aligned_;                             // the map's voxels are the grid's: each cube is a node or lies in a leaf
   Eigen::Matrix3d scaled_rotation_, reach_;  // from voxels of the grid to voxels of the map
   Eigen::Vector3d offset_;
   // From a tile's first voxel to each of its voxels, by axis.
-  std::array<std::array<double, kTileVoxels>, 3> steps_{};
+  std::array<std::array<double, mapping::kTileVoxels>, 3> steps_{};
   Eigen::Vector3d least_step_, greatest_step_;
   TileWindow window_;
 };

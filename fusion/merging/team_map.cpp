@@ -19,7 +19,7 @@ constexpr std::size_t kMarkedAtOnce = 16;               // tiles that one step m
 constexpr std::size_t kChunk = std::size_t{128} << 10;  // bytes: a step that needs a new chunk takes 30 µs longer
 constexpr int kTeamTiles = 1 << 13;                     // along an axis of the tree
 constexpr float kSteps = 1024;                          // of log-odds, per unit
-constexpr Limits kLimits{TileState::kFree.front(), TileState::kOccupied.front(), 0};
+constexpr Limits kLimits{mapping::TileState::kFree.front(), mapping::TileState::kOccupied.front(), 0};
 
 template <class Visit>
 void for_each_tile(const TileBox& box, const Visit& visit) {
@@ -27,7 +27,7 @@ void for_each_tile(const TileBox& box, const Visit& visit) {
   const auto voxel = [](int tile) { return static_cast<std::uint16_t>(tile * 8); };
   for (int z = low.z(); z <= high.z(); ++z)
     for (int y = low.y(); y <= high.y(); ++y)
-      for (int x = low.x(); x <= high.x(); ++x) visit(TileKey::of_voxel(voxel(x), voxel(y), voxel(z)));
+      for (int x = low.x(); x <= high.x(); ++x) visit(mapping::TileKey::of_voxel(voxel(x), voxel(y), voxel(z)));
 }
 
 }  // namespace
@@ -37,8 +37,8 @@ TeamMap::TeamMap(double resolution_m, Policy policy)
   shown_.fused = empty_map();
 }
 
-std::unique_ptr<SemanticOcTree> TeamMap::empty_map() {
-  if (!spare_) return std::make_unique<SemanticOcTree>(resolution_m_, kChunk);
+std::unique_ptr<mapping::SemanticOcTree> TeamMap::empty_map() {
+  if (!spare_) return std::make_unique<mapping::SemanticOcTree>(resolution_m_, kChunk);
   spare_->begin_anew();
   return std::exchange(spare_, nullptr);
 }
@@ -52,7 +52,7 @@ TeamMap::View TeamMap::view_of(const SubmapPoses& poses) const {
   return view;
 }
 
-void TeamMap::put(const SubmapKey& submap, TileKey tile, const TileState& state, Time stamp) {
+void TeamMap::put(const SubmapKey& submap, mapping::TileKey tile, const mapping::TileState& state, Time stamp) {
   TileLayer& layer = layers_[submap];
   if (state.empty())
     layer.erase(tile);
@@ -116,9 +116,9 @@ bool TeamMap::add_to_shown(const View& wanted) {
   return true;
 }
 
-void TeamMap::mark(Dirty& dirty, const Placement& placement, TileKey tile) {
+void TeamMap::mark(Dirty& dirty, const Placement& placement, mapping::TileKey tile) {
   for_each_tile(placement.touched_by(tile),
-                [&](TileKey touched) { dirty[touched.morton >> kRegionBits].insert(touched); });
+                [&](mapping::TileKey touched) { dirty[touched.morton >> kRegionBits].insert(touched); });
 }
 
 void TeamMap::mark_some(View& view) const {
@@ -137,9 +137,9 @@ void TeamMap::mark_some(View& view) const {
   view.marked.reset();
 }
 
-TileKey TeamMap::take_nearest(View& view) const {
+mapping::TileKey TeamMap::take_nearest(View& view) const {
   const auto distance = [&](std::uint64_t region) {
-    const TileKey first{region << kRegionBits};
+    const mapping::TileKey first{region << kRegionBits};
     Eigen::Vector3d centre;
     for (unsigned axis = 0; axis < 3; ++axis)
       centre[static_cast<Eigen::Index>(axis)] = (first.first_voxel(axis) - 32768 + 32) * resolution_m_;
@@ -154,13 +154,13 @@ TileKey TeamMap::take_nearest(View& view) const {
       }
   }
   auto& tiles = view.dirty.at(*view.region);
-  const TileKey tile = *tiles.begin();
+  const mapping::TileKey tile = *tiles.begin();
   tiles.erase(tiles.begin());
   if (tiles.empty()) view.dirty.erase(*view.region);
   return tile;
 }
 
-void TeamMap::fuse_tile(View& view, TileKey tile) {
+void TeamMap::fuse_tile(View& view, mapping::TileKey tile) {
   std::size_t known = 0;
   bool labelled = false;
   for (const auto& [submap, placement] : view.placements) {
@@ -171,23 +171,23 @@ void TeamMap::fuse_tile(View& view, TileKey tile) {
     labelled = labelled || by_submap_[known].labelled;
     ++known;
   }
-  TileVoxels fused;
-  TileLabels labels;
+  mapping::TileVoxels fused;
+  mapping::TileLabels labels;
   for (std::size_t i = 0; i < fused.size(); ++i) {
     opinions_.clear();
     for (std::size_t k = 0; k < known; ++k)
-      if (by_submap_[k].voxels[i] != SemanticNode::kAbsent) opinions_.push_back(by_submap_[k].voxels[i]);
-    fused[i] = opinions_.empty() ? SemanticNode::kAbsent : std::nearbyintf(fold_(opinions_) * kSteps) / kSteps;
-    labels[i] = labelled && fused[i] >= kLimits.occupied ? fused_label(known, i) : VoxelLabel{};
+      if (by_submap_[k].voxels[i] != mapping::SemanticNode::kAbsent) opinions_.push_back(by_submap_[k].voxels[i]);
+    fused[i] = opinions_.empty() ? mapping::SemanticNode::kAbsent : std::nearbyintf(fold_(opinions_) * kSteps) / kSteps;
+    labels[i] = labelled && fused[i] >= kLimits.occupied ? fused_label(known, i) : mapping::VoxelLabel{};
   }
-  write_tile(*view.fused, tile, fused, labelled ? &labels : nullptr);
+  mapping::write_tile(*view.fused, tile, fused, labelled ? &labels : nullptr);
 }
 
-VoxelLabel TeamMap::fused_label(std::size_t known, std::size_t voxel) {
+mapping::VoxelLabel TeamMap::fused_label(std::size_t known, std::size_t voxel) {
   labels_.clear();
   for (std::size_t k = 0; k < known; ++k)
     if (by_submap_[k].labelled && by_submap_[k].labels[voxel].any()) labels_.push_back(by_submap_[k].labels[voxel]);
-  return labels_.empty() ? VoxelLabel{} : fuse_labels(labels_);
+  return labels_.empty() ? mapping::VoxelLabel{} : fuse_labels(labels_);
 }
 
 void TeamMap::step(View& view) {
@@ -237,14 +237,14 @@ std::size_t TeamMap::backlog() const {
   return tiles;
 }
 
-TeamMap::Origin TeamMap::origin_of(TileKey tile) const {
+TeamMap::Origin TeamMap::origin_of(mapping::TileKey tile) const {
   Origin origin;
   Placement::Opinion opinion;
   for (const auto& [submap, placement] : shown_.placements) {
     const auto layer = layers_.find(submap);
     if (layer == layers_.end() || !placement.read(layer->second, tile, opinion)) continue;
     if (origin.robots.empty() || origin.robots.back() != submap.robot) origin.robots.push_back(submap.robot);
-    for_each_tile(placement.sources_of(tile), [&](TileKey source) {
+    for_each_tile(placement.sources_of(tile), [&](mapping::TileKey source) {
       const auto received = layer->second.find(source);
       if (received != layer->second.end()) origin.newest = std::max(origin.newest, received->second.stamp);
     });

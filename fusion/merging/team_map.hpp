@@ -43,7 +43,7 @@ class TeamMap {
   TeamMap(double resolution_m, Policy policy);
 
   /// The newest state of a tile, and when it came. An empty state removes the tile.
-  void put(const SubmapKey& submap, TileKey tile, const TileState& state, Time stamp);
+  void put(const SubmapKey& submap, mapping::TileKey tile, const mapping::TileState& state, Time stamp);
   /// Forgets all tiles of a robot.
   void drop(std::uint64_t robot);
   /// From now on these submaps take part. Those beyond ±2¹⁵ voxels do not.
@@ -60,7 +60,7 @@ class TeamMap {
   [[nodiscard]] std::size_t backlog() const;
 
   /// The map that is shown. It changes with each fuse(), and may be another tree then.
-  [[nodiscard]] const SemanticOcTree& map() const { return *shown_.fused; }
+  [[nodiscard]] const mapping::SemanticOcTree& map() const { return *shown_.fused; }
   /// Where the submaps of map() lie.
   [[nodiscard]] const SubmapPoses& poses() const { return shown_.poses; }
 
@@ -69,31 +69,31 @@ class TeamMap {
     std::vector<std::uint64_t> robots;  ///< ascending
     Time newest{};
   };
-  [[nodiscard]] Origin origin_of(TileKey tile) const;
+  [[nodiscard]] Origin origin_of(mapping::TileKey tile) const;
 
  private:
-  using Dirty = std::map<std::uint64_t, std::set<TileKey>>;  // by region: tiles to be fused
+  using Dirty = std::map<std::uint64_t, std::set<mapping::TileKey>>;  // by region: tiles to be fused
   /// One map, for one set of poses.
   struct View {
     SubmapPoses poses;
     std::map<SubmapKey, Placement> placements;
-    std::unique_ptr<SemanticOcTree> fused;
+    std::unique_ptr<mapping::SemanticOcTree> fused;
     Dirty dirty, later;                   // later: changed while the view was being built
     int catch_ups = 0;                    // with these
     std::optional<std::uint64_t> region;  // being worked on
     // Of a new view: whose tiles are marking what they touch, and the last that has; none: all have.
     std::optional<SubmapKey> marking;
-    std::optional<TileKey> marked;
+    std::optional<mapping::TileKey> marked;
   };
   [[nodiscard]] View view_of(const SubmapPoses& poses) const;
-  [[nodiscard]] std::unique_ptr<SemanticOcTree> empty_map();
+  [[nodiscard]] std::unique_ptr<mapping::SemanticOcTree> empty_map();
   [[nodiscard]] static bool complete(const View& view) { return !view.marking && view.dirty.empty(); }
-  static void mark(Dirty& dirty, const Placement& placement, TileKey tile);
+  static void mark(Dirty& dirty, const Placement& placement, mapping::TileKey tile);
   void mark_some(View& view) const;
   void step(View& view);
-  [[nodiscard]] TileKey take_nearest(View& view) const;
-  void fuse_tile(View& view, TileKey tile);
-  [[nodiscard]] VoxelLabel fused_label(std::size_t known, std::size_t voxel);
+  [[nodiscard]] mapping::TileKey take_nearest(View& view) const;
+  void fuse_tile(View& view, mapping::TileKey tile);
+  [[nodiscard]] mapping::VoxelLabel fused_label(std::size_t known, std::size_t voxel);
   void begin_wanted();
   [[nodiscard]] bool add_to_shown(const View& wanted);
   void catch_up_or_show();
@@ -103,7 +103,8 @@ class TeamMap {
   std::map<SubmapKey, TileLayer> layers_;
   View shown_;
   std::optional<View> next_;
-  std::unique_ptr<SemanticOcTree> spare_;  // of the view before: to take memory for a map would make a step long
+  // of the view before: to take memory for a map would make a step long
+  std::unique_ptr<mapping::SemanticOcTree> spare_;
   SubmapPoses wanted_;
   bool redo_ = false;  // shown_ and next_ hold what is to be forgotten
   unsigned turn_ = 0;
@@ -111,7 +112,7 @@ class TeamMap {
   RememberedFold fold_;
   std::vector<Placement::Opinion> by_submap_;  // of a tile; reused
   std::vector<float> opinions_;                // of a voxel
-  std::vector<VoxelLabel> labels_;
+  std::vector<mapping::VoxelLabel> labels_;
 };
 
 }  // namespace cairn::merging

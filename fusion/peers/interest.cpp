@@ -11,7 +11,8 @@
 namespace cairn::peers {
 namespace {
 
-constexpr int kEdgeOfTile = 1 << TileKey::kVoxelBits, kMiddle = 32768;  // voxels: of a tile, from key 0 to the origin
+constexpr int kEdgeOfTile = 1 << mapping::TileKey::kVoxelBits,
+              kMiddle = 32768;                // voxels: of a tile, from key 0 to the origin
 constexpr int kReach = 5, kReachUp = 2;       // tiles to each side: 8 m and 3 m at voxels of 0.2 m
 constexpr double kRingTiles = 2, kRings = 4;  // width of a ring in tiles, number of rings
 constexpr std::size_t kAhead = 32;            // older updates that a wall may overtake
@@ -55,7 +56,8 @@ std::vector<ItemId> Interest::near_by() const {
     for (int y = -kReach; y <= kReach; ++y)
       for (int x = -kReach; x <= kReach; ++x)
         if (inside(key(0, x)) && inside(key(1, y)) && inside(key(2, z)))
-          ids.push_back(ItemId::tile(0, TileKey::of_voxel(voxel(key(0, x)), voxel(key(1, y)), voxel(key(2, z)))));
+          ids.push_back(
+              ItemId::tile(0, mapping::TileKey::of_voxel(voxel(key(0, x)), voxel(key(1, y)), voxel(key(2, z)))));
   return ids;
 }
 

@@ -9,16 +9,17 @@
 
 namespace cairn::peers {
 
-double change_between(const TileState& said, const TileState& now) {
-  const auto differing = [](const TileState::Plane& a, const TileState::Plane& b) {
+double change_between(const mapping::TileState& said, const mapping::TileState& now) {
+  const auto differing = [](const mapping::TileState::Plane& a, const mapping::TileState::Plane& b) {
     int voxels = 0;
-    for (unsigned z = 0; z < TileState::kEdge; ++z) voxels += std::popcount(a[z] ^ b[z]);
+    for (unsigned z = 0; z < mapping::TileState::kEdge; ++z) voxels += std::popcount(a[z] ^ b[z]);
     return voxels;
   };
   int labels = 0;
-  for (unsigned z = 0; z < TileState::kEdge && !(said.labels.empty() && now.labels.empty()); ++z)
-    for (unsigned y = 0; y < TileState::kEdge; ++y)
-      for (unsigned x = 0; x < TileState::kEdge; ++x) labels += said.label(x, y, z) != now.label(x, y, z) ? 1 : 0;
+  for (unsigned z = 0; z < mapping::TileState::kEdge && !(said.labels.empty() && now.labels.empty()); ++z)
+    for (unsigned y = 0; y < mapping::TileState::kEdge; ++y)
+      for (unsigned x = 0; x < mapping::TileState::kEdge; ++x)
+        labels += said.label(x, y, z) != now.label(x, y, z) ? 1 : 0;
   return labels + differing(said.known, now.known) + differing(said.occupied, now.occupied) +
          0.25 * (differing(said.low, now.low) + differing(said.high, now.high));
 }

@@ -26,7 +26,7 @@ struct OwnTilesConfig {
 
 /// How many voxels have changed: those that became known, turned free or occupied, or have another label. Voxels that
 /// only became more or less sure count a quarter.
-[[nodiscard]] double change_between(const TileState& said, const TileState& now);
+[[nodiscard]] double change_between(const mapping::TileState& said, const mapping::TileState& now);
 
 /// Which tiles of its own map a robot publishes, and when. A scan changes a thousand tiles by a few voxels each, and a
 /// radio link carries a few hundred tiles a second. So a tile is published soon after it was first observed, and again
@@ -36,7 +36,7 @@ class OwnTiles {
   explicit OwnTiles(const OwnTilesConfig& config) : config_(config) {}
 
   /// A tile has changed. `submap`: the present one, which the tile is published in.
-  void observe(TileKey tile, const TileState& state, Time now, std::uint16_t submap = 0) {
+  void observe(mapping::TileKey tile, const mapping::TileState& state, Time now, std::uint16_t submap = 0) {
     auto [waiting, added] = waiting_.try_emplace(tile);
     if (added) waiting->second.first = now;
     waiting->second.state = state;
@@ -55,12 +55,12 @@ class OwnTiles {
 
  private:
   struct Waiting {
-    TileState state;
+    mapping::TileState state;
     std::uint16_t submap = 0;
     Time first{}, last{};
   };
   struct Said {
-    TileState state;
+    mapping::TileState state;
     std::uint16_t submap = 0;
     bool again = false;  // more than once
   };
@@ -68,8 +68,8 @@ class OwnTiles {
 
   OwnTilesConfig config_;
   Time next_round_ = Time::min(), last_{};
-  std::map<TileKey, Waiting> waiting_;
-  std::map<TileKey, Said> said_;
+  std::map<mapping::TileKey, Waiting> waiting_;
+  std::map<mapping::TileKey, Said> said_;
 };
 
 }  // namespace cairn::peers

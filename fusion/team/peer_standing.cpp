@@ -8,7 +8,7 @@
 
 #include "fusion/team/comparisons/deployments.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 using peers::RobotId;
@@ -94,4 +94,4 @@ PeerStanding standing_of(RobotId peer, const TeamView& team, const ComparedPeers
   return outcome(peer, team, entry);
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

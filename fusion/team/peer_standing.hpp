@@ -9,7 +9,7 @@
 #include "fusion/team/peer_state.hpp"
 #include "hal/time.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// Whether a peer's map is a part of the team's map, and why.
 struct PeerStanding {
@@ -25,4 +25,4 @@ struct PeerStanding {
 [[nodiscard]] PeerStanding standing_of(peers::RobotId peer, const TeamView& team, const ComparedPeers& compared,
                                        std::size_t least_tiles, Time now);
 
-}  // namespace cairn
+}  // namespace cairn::team

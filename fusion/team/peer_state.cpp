@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 constexpr std::array<std::string_view, kPeerStates> kNames{
@@ -23,4 +23,4 @@ std::optional<PeerState> peer_state_from(std::string_view name) {
   return static_cast<PeerState>(found - kNames.begin());
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string_view>
 
-namespace cairn {
+namespace cairn::team {
 
 /// Why a peer's map is, or is not, a part of the team's map.
 enum class PeerState : std::uint8_t {
@@ -35,4 +35,4 @@ inline constexpr std::size_t kPeerStates = 17;
 /// The inverse; none for any other text.
 [[nodiscard]] std::optional<PeerState> peer_state_from(std::string_view name);
 
-}  // namespace cairn
+}  // namespace cairn::team

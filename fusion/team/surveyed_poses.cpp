@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fusion/team/surveyed_poses.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 std::vector<IndexedEdge> SurveyedPoses::edges(const peers::Layers& layers) const {
   std::vector<IndexedEdge> edges;
@@ -21,4 +21,4 @@ std::vector<IndexedEdge> SurveyedPoses::edges(const peers::Layers& layers) const
   return edges;
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -8,7 +8,7 @@
 #include "fusion/team/graph/indexed_edge.hpp"
 #include "hal/se3.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// Where peers lie by something else than maps: a survey, a marker that both robots saw.
 class SurveyedPoses {
@@ -29,4 +29,4 @@ class SurveyedPoses {
   std::map<peers::RobotId, Surveyed> poses_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -9,7 +9,7 @@
 #include "fusion/team/comparisons/deployments.hpp"
 #include "fusion/team/comparisons/match_results.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 using peers::RobotId;
 
@@ -26,7 +26,7 @@ Team::Team(const TeamConfig& config, peers::Epoch epoch)
     : config_(config),
       exchange_(config.id, config.name, epoch, with_voxels(config.exchange, config.resolution_m)),
       own_tiles_(config.own_tiles),
-      own_submaps_(config.own_submaps, kTileEdge * config.resolution_m),
+      own_submaps_(config.own_submaps, mapping::kTileEdge * config.resolution_m),
       compared_(config.match),
       plan_(config.match, config.least_tiles),
       map_(config.resolution_m, config.policy) {
@@ -99,7 +99,7 @@ void Team::take_tile(RobotId robot, peers::ItemId id, Time now) {
   const auto state = peers::decode_tile(item.payload);
   if (!state) return;
   if (const auto before = tiles_.put(robot, id.tile(), held.submap(), state->any_occupied()))
-    map_.put({robot, *before}, id.tile(), TileState{}, now);
+    map_.put({robot, *before}, id.tile(), mapping::TileState{}, now);
   map_.put({robot, held.submap()}, id.tile(), *state, now);
 }
 
@@ -134,4 +134,4 @@ TeamView Team::view() const {
       .exchange = exchange_, .tiles = tiles_, .poses = poses_, .chains = chains_, .resolution_m = config_.resolution_m};
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -24,7 +24,7 @@
 #include "hal/result.hpp"
 #include "hal/time.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 struct TeamConfig {
   peers::RobotId id = 0;      ///< of this robot: its own in the team, not 0
@@ -63,7 +63,7 @@ class Team {
   /// from one place to the next is what odometry may drift along.
   void be_at(const UncertainPose& T_odom_base);
   /// A tile of the robot's own map has changed. It is published as a part of the present submap.
-  void observe(TileKey tile, const TileState& state, Time now) {
+  void observe(mapping::TileKey tile, const mapping::TileState& state, Time now) {
     own_tiles_.observe(tile, state, now, own_submaps_.current());
   }
   /// Where a peer's odom frame lies in this robot's by something else than maps: a survey, a marker that
@@ -119,4 +119,4 @@ class Team {
   merging::TeamMap map_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::team

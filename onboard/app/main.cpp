@@ -8,7 +8,7 @@ int main(int argc, char** argv) {
   CLI::App app{"Cairn's core: one robot, live or from a recording; the same code as `cairn run`", "cairn-core"};
   app.set_version_flag("--version", CAIRN_VERSION);
 
-  cairn::cli::Commands commands{app, {}};
-  cairn::cli::add_run_options(app, commands);
-  return cairn::cli::run_program(commands, argc, argv);
+  cairn::app::Commands commands{app, {}};
+  cairn::app::add_run_options(app, commands);
+  return cairn::app::run_program(commands, argc, argv);
 }

@@ -8,7 +8,7 @@
 #include "onboard/app/tasks/robot_tasks.hpp"
 #include "onboard/app/team/join_team.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using Sources = std::vector<recording::SourceEntry>;
@@ -47,4 +47,4 @@ Result<std::string> print_tasks(const RunOptions& options) {
   return tasks.graph.to_text();
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

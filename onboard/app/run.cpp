@@ -12,7 +12,7 @@
 #include "onboard/app/tasks/robot_tasks.hpp"
 #include "onboard/app/team/join_team.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 /// The schedule of the options goes before the recording's own.
@@ -93,4 +93,4 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
   return result;
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -8,16 +8,16 @@
 #include "onboard/app/profile/run_options.hpp"
 #include "onboard/report/figures/run_report.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// What a run leaves behind, beside its files.
 struct RunResult {
   Monitor monitor;  ///< report.monitor points to it
-  RunReport report;
+  report::RunReport report;
 };
 
 /// One robot, from its first packet to the last: live until a stop signal, or to the end of a recording. Writes
 /// trajectory.tum, map.cairn, map.ot, report.json, report.html and config.yaml into `out`; live also schedule.log.
 Result<std::unique_ptr<RunResult>> run(const RunOptions& options);
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -15,7 +15,7 @@
 #include "onboard/report/json/budgets.hpp"
 #include "onboard/report/json/report_json.hpp"
 
-namespace cairn::cli {
+namespace cairn::app {
 namespace {
 
 struct Arguments {
@@ -30,7 +30,7 @@ void show_progress(Time now, std::size_t scans) {
   if (scans % 10 == 0) std::fprintf(stderr, "\r%zu scans, t = %.1f s ", scans, to_seconds(now));
 }
 
-void print_summary(const RunReport& r, const std::filesystem::path& out) {
+void print_summary(const report::RunReport& r, const std::filesystem::path& out) {
   std::printf("%s: %zu scans in %.1f s, %.2f m travelled, %llu packets lost\n", r.robot.c_str(),
               static_cast<std::size_t>(r.scans), r.duration_s, r.distance_m,
               static_cast<unsigned long long>(r.lost_packets));
@@ -52,16 +52,16 @@ void print_summary(const RunReport& r, const std::filesystem::path& out) {
 }
 
 /// Prints the table; the exit code says whether everything was kept.
-int judge(const std::vector<BudgetLimit>& limits, const RunReport& report) {
-  const auto verdicts = check_budgets(limits, to_json(report));
+int judge(const std::vector<report::BudgetLimit>& limits, const report::RunReport& report) {
+  const auto verdicts = report::check_budgets(limits, report::to_json(report));
   if (!verdicts) return fail(verdicts.error());
-  std::fprintf(stderr, "%s", to_table(*verdicts).c_str());
-  if (all_kept(*verdicts)) return kDone;
+  std::fprintf(stderr, "%s", report::to_table(*verdicts).c_str());
+  if (report::all_kept(*verdicts)) return kDone;
   return fail({Errc::kLimit, "budgets were exceeded", report.robot, {}, "see the table above"});
 }
 
 int show_tasks(const RunOptions& options) {
-  const auto text = cairn::print_tasks(options);
+  const auto text = cairn::app::print_tasks(options);
   if (!text) return fail(text.error());
   std::printf("%s", text->c_str());
   return kDone;
@@ -69,9 +69,9 @@ int show_tasks(const RunOptions& options) {
 
 int run_robot(Arguments a) {
   if (a.print_tasks) return show_tasks(a.run);
-  std::vector<BudgetLimit> limits;
+  std::vector<report::BudgetLimit> limits;
   if (!a.budgets.empty()) {
-    auto loaded = load_budgets(a.budgets);
+    auto loaded = report::load_budgets(a.budgets);
     if (!loaded) return fail(loaded.error());
     limits = std::move(*loaded);
     a.run.reference = true;
@@ -86,12 +86,12 @@ int run_robot(Arguments a) {
   if (::isatty(STDERR_FILENO) != 0) a.run.progress = show_progress;
   catch_stop_signals();
   a.run.stop = stop_requested;
-  const auto result = cairn::run(a.run);
+  const auto result = cairn::app::run(a.run);
   if (a.run.progress) std::fputc('\n', stderr);
   if (!result) return fail(result.error());
-  const RunReport& report = (*result)->report;
+  const report::RunReport& report = (*result)->report;
   if (a.json)
-    print(to_json(report));
+    print(report::to_json(report));
   else
     print_summary(report, a.run.out);
   if (report.scans != 0) return limits.empty() ? kDone : judge(limits, report);
@@ -141,4 +141,4 @@ void add_run_options(CLI::App& app, Commands& commands) {
   app.callback([&commands, a] { commands.job = [a] { return run_robot(*a); }; });
 }
 
-}  // namespace cairn::cli
+}  // namespace cairn::app

@@ -15,7 +15,7 @@
 #include "onboard/report/figures/sha256.hpp"
 #include "onboard/report/write_report.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -31,8 +31,8 @@ Result<void> write_trajectory(const fs::path& file, const std::vector<TrackPoint
   return recording::write_tum(file, poses);
 }
 
-OdometryStats odometry_stats(const std::vector<TrackPoint>& track) {
-  OdometryStats stats;
+report::OdometryStats odometry_stats(const std::vector<TrackPoint>& track) {
+  report::OdometryStats stats;
   for (const TrackPoint& p : track) {
     stats.degenerate_scans += p.degenerate_directions > 0 ? 1U : 0U;
     stats.lost_scans += p.lost ? 1U : 0U;
@@ -49,7 +49,7 @@ double length_m(const std::vector<TrackPoint>& track) {
 }
 
 /// The control thread is that of the safety task.
-void add_tasks(const RobotTasks& tasks, RunReport& report) {
+void add_tasks(const RobotTasks& tasks, report::RunReport& report) {
   for (const scheduler::ScheduledTask& task : tasks.graph.tasks()) report.tasks.push_back({task.spec, task.stats});
   const scheduler::TaskStats& control = tasks.graph.scheduled(tasks.safety).stats;
   report.ticks = {control.ticks, control.misses + control.slips, control.wake.max()};
@@ -57,11 +57,11 @@ void add_tasks(const RobotTasks& tasks, RunReport& report) {
 }
 
 /// A level that leaves nothing out is reported as `nothing`, which is first.
-void add_shed(const MappingTask& mapping, RunReport& report) {
-  for (int i = 0; i < kShedLevels; ++i) {
-    const auto level = static_cast<Shed>(i);
+void add_shed(const MappingTask& mapping, report::RunReport& report) {
+  for (int i = 0; i < safety::kShedLevels; ++i) {
+    const auto level = static_cast<safety::Shed>(i);
     const std::uint64_t scans = mapping.scans_at()[static_cast<std::size_t>(i)];
-    if (i == 0 || in_force(level) == level)
+    if (i == 0 || safety::in_force(level) == level)
       report.shed.emplace_back(to_string(level), scans);
     else
       report.shed.front().second += scans;
@@ -75,7 +75,7 @@ std::string utc_of(Time t, const recording::Recording& recording) {
   return known && utc_ns > 0 ? recording::to_iso_utc(utc_ns) : std::string();
 }
 
-void add_input(const RunFacts& facts, RunReport& report) {
+void add_input(const RunFacts& facts, report::RunReport& report) {
   const ReceiveTask::Figures& figures = facts.tasks.receive.figures();
   report.scans = figures.scans;
   report.lost_packets = figures.lost_packets;
@@ -88,9 +88,9 @@ void add_input(const RunFacts& facts, RunReport& report) {
 }
 
 /// Every stage of the odometry and the map, as far as the run got.
-RunReport make_report(const RunFacts& facts) {
+report::RunReport make_report(const RunFacts& facts) {
   const auto& track = facts.tasks.robot.track();
-  RunReport report;
+  report::RunReport report;
   report.robot = facts.profile.name;
   report.profile = facts.options.config.string();
   report.source = facts.options.recording.empty() ? "live" : facts.options.recording.string();
@@ -98,22 +98,22 @@ RunReport make_report(const RunFacts& facts) {
   report.distance_m = length_m(track);
   add_input(facts, report);
   report.odometry = odometry_stats(track);
-  report.peak_rss_mb = peak_rss_mb();
+  report.peak_rss_mb = report::peak_rss_mb();
   add_tasks(facts.tasks, report);
   report.mode = to_string(facts.tasks.safety.decision().mode);
   if (const auto cause = facts.tasks.safety.decision().cause) report.mode_cause = to_string(*cause);
   add_shed(facts.tasks.mapping, report);
   report.monitor = &facts.monitor;
   for (const TrackPoint& p : track) report.trajectory.push_back({p.stamp, p.T_odom_base});
-  report.map = summarise(facts.tasks.robot.map());
-  if (auto picture = look_at(facts.tasks.robot.map(), {})) report.picture = std::move(*picture);
+  report.map = report::summarise(facts.tasks.robot.map());
+  if (auto picture = report::look_at(facts.tasks.robot.map(), {})) report.picture = std::move(*picture);
   report.effective_config = to_yaml(facts.profile);
   if (facts.tasks.team) add_team(facts.tasks.team->team(), report);
   return report;
 }
 
 /// The truth beside a simulated recording; a run without one is as good as any.
-void add_ground_truth(const RunFacts& facts, RunReport& report) {
+void add_ground_truth(const RunFacts& facts, report::RunReport& report) {
   const fs::path file = facts.options.recording / "ground_truth.tum";
   if (facts.options.recording.empty() || !fs::exists(file)) return;
   if (auto truth = recording::read_tum(file))
@@ -121,11 +121,11 @@ void add_ground_truth(const RunFacts& facts, RunReport& report) {
 }
 
 /// What a team run leaves besides, as a part of what is to be repeated.
-Result<void> add_team_files(const RunFacts& facts, RunReport& report, std::vector<fs::path>& hashed) {
+Result<void> add_team_files(const RunFacts& facts, report::RunReport& report, std::vector<fs::path>& hashed) {
   if (!facts.tasks.team || !facts.tasks.team->team().team()) return {};
   const auto files = write_team(*facts.tasks.team->team().team(), facts.options.out);
   if (!files) return files.error();
-  const auto hash = sha256_of_files(*files);
+  const auto hash = report::sha256_of_files(*files);
   if (!hash) return hash.error();
   report.team->sha256 = *hash;
   hashed.insert(hashed.end(), files->begin(), files->end());
@@ -142,23 +142,23 @@ Result<void> prepare_output(const fs::path& out) {
   return write_file_atomic(out / "config.yaml", "# the run has not ended\n");
 }
 
-Result<RunReport> write_output(const RunFacts& facts) {
+Result<report::RunReport> write_output(const RunFacts& facts) {
   const fs::path& out = facts.options.out;
-  RunReport report = make_report(facts);
+  report::RunReport report = make_report(facts);
   add_ground_truth(facts, report);
   std::vector<fs::path> hashed{out / "trajectory.tum", out / "map.cairn"};
   if (const auto r = write_file_atomic(out / "config.yaml", report.effective_config); !r) return r.error();
   if (const auto r = write_trajectory(hashed[0], facts.tasks.robot.track(), shift_of(facts)); !r) return r.error();
-  if (const auto r = save_cairn(facts.tasks.robot.map(), hashed[1]); !r) return r.error();
-  if (const auto r = save_ot(facts.tasks.robot.map(), out / "map.ot"); !r) return r.error();
+  if (const auto r = mapping::save_cairn(facts.tasks.robot.map(), hashed[1]); !r) return r.error();
+  if (const auto r = mapping::save_ot(facts.tasks.robot.map(), out / "map.ot"); !r) return r.error();
   if (const auto r = add_team_files(facts, report, hashed); !r) return r.error();
-  const auto hash = sha256_of_files(hashed);
+  const auto hash = report::sha256_of_files(hashed);
   if (!hash) return hash.error();
   report.output_sha256 = *hash;
   std::error_code ignored;
   report.map_file_bytes = fs::file_size(hashed[1], ignored);
-  if (const auto r = write_report(report, out); !r) return r.error();
+  if (const auto r = report::write_report(report, out); !r) return r.error();
   return report;
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

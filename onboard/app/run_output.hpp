@@ -8,7 +8,7 @@
 #include "onboard/app/profile/robot_profile.hpp"
 #include "onboard/report/figures/run_report.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 class RobotTasks;
 struct Door;
@@ -26,6 +26,6 @@ struct RunFacts {
 /// Makes the folder, so that a run does not end with nowhere to go.
 Result<void> prepare_output(const std::filesystem::path& out);
 /// Writes trajectory, maps, reports and configuration into options.out. Returns what the report says.
-Result<RunReport> write_output(const RunFacts& facts);
+Result<report::RunReport> write_output(const RunFacts& facts);
 
-}  // namespace cairn
+}  // namespace cairn::app

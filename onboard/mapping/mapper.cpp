@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 constexpr std::size_t kMegabyte = std::size_t{1} << 20U;
@@ -96,4 +96,4 @@ std::vector<TileKey> Mapper::take_changed_tiles() {
   return taken;
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

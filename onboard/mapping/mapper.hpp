@@ -17,7 +17,7 @@
 #include "onboard/mapping/tree/map_tile.hpp"
 #include "onboard/mapping/tree/semantic_octree.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// What became of one scan.
 struct InsertReport {
@@ -70,4 +70,4 @@ class Mapper {
   std::vector<TileKey> changed_, changed_now_, merged_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -3,7 +3,7 @@
 
 #include "hal/config/config.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// Settings of Mapper. The defaults of the sensor model are OctoMap's (Hornung et al. 2013, octomap
 /// 1.9), and give its log-odds to the bit.
@@ -33,4 +33,4 @@ inline void declare(config::Section& s, MappingConfig& c) {
   s.integer("max_scan_mb", c.max_scan_mb, {8, 4096}, "MB", "scans that touch more space than fits are refused");
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

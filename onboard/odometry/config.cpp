@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/odometry/config.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 void declare_registration(config::Section& s, OdometryConfig& c) {
@@ -93,4 +93,4 @@ void declare(config::Section& s, RestartConfig& c) {
            "the first scan must know this share of what the previous run's last scan knew");
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -3,7 +3,7 @@
 
 #include "hal/config/config.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// When the prediction says too little to begin a registration there, and how other starts are
 /// compared.
@@ -110,4 +110,4 @@ void declare(config::Section& section, OdometryConfig& c);
 void declare(config::Section& section, StartSearchConfig& c);
 void declare(config::Section& section, RestartConfig& c);
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <utility>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 // A new epoch begins after so much way or turn: an edge of the finest blocks, or the turn that
@@ -47,4 +47,4 @@ Matrix6 DriftHistory::average(std::span<const KeypointUse> uses) {
   return sum;
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

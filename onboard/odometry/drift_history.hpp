@@ -9,7 +9,7 @@
 #include "hal/se3.hpp"
 #include "onboard/odometry/estimation/normal_equations.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// How uncertain the pose was when each part of the map was made. Registration can only be as good
 /// as the planes it refers to: standing still among old planes adds nothing to the drift, moving
@@ -47,4 +47,4 @@ class DriftHistory {
   bool empty_ = true;  // no scan is placed yet
 };
 
-}  // namespace cairn
+}  // namespace cairn::odometry

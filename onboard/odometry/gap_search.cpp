@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 /// A direction of the error state, and how it is looked along.
@@ -56,4 +56,4 @@ MotionState search_after_gap(const MotionState& predicted, const Matrix12& covar
   return best;
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -5,7 +5,7 @@
 
 #include "onboard/odometry/estimation/motion_filter.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// Start hypothesis after a gap of `dt` seconds between scans. The prediction may be farther off
 /// than registration reaches then: a turn that ended in the gap puts far walls metres away. Looks
@@ -17,4 +17,4 @@ namespace cairn {
 [[nodiscard]] MotionState search_after_gap(const MotionState& predicted, const Matrix12& covariance, double dt,
                                            const std::function<double(const MotionState&)>& score);
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 // Wide enough that the nearest surfaces alone do not lead the first registrations, whose gate is
@@ -51,4 +51,4 @@ void KeypointSelector::follow(std::size_t chosen) {
   spacing_m_ = std::clamp(spacing_m_, map_spacing_m_, kWidestSpacing_m);
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -11,7 +11,7 @@
 #include "onboard/odometry/local_map/subsample.hpp"
 #include "onboard/odometry/scan_preparation.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// The points of a scan that are worth using. Valid until the next scan is selected from.
 struct Selection {
@@ -42,4 +42,4 @@ class KeypointSelector {
   std::vector<Keypoint> keypoints_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/odometry/local_map.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 // Of window_m. Pruning visits every block: it is worth its time after a stretch of way only.
@@ -67,4 +67,4 @@ void LocalMap::prune(const SE3& T_odom_base) {
   T_odom_pruned_ = T_odom_base;
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

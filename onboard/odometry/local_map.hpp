@@ -13,7 +13,7 @@
 #include "onboard/odometry/local_map/patch_map.hpp"
 #include "onboard/odometry/recent_scans.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// The surroundings as the last scans showed them: patches within `window_m` of the robot, and how
 /// uncertain the pose was when each of them was made. Covariances are those of a left perturbation
@@ -55,4 +55,4 @@ class LocalMap {
   std::vector<Eigen::Vector3d> points_odom_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::odometry

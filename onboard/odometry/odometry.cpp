@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 /// At rest in odom, exactly; how fast is unknown.
@@ -148,4 +148,4 @@ double LidarOdometry::known_share(const PlacedScan& scan) {
   return known / static_cast<double>(selected.keypoints.size());
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

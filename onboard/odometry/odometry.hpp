@@ -21,7 +21,7 @@
 #include "onboard/odometry/start_search.hpp"
 #include "onboard/odometry/tracking_state.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// The robot's motion, as one scan shows it.
 struct OdometryUpdate {
@@ -106,4 +106,4 @@ class LidarOdometry {
   Relocaliser relocaliser_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/odometry/recent_scans.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 bool ScanSelection::wants(const SE3& T_odom_base) const {
   const SE3 motion = T_odom_last_.inverse() * T_odom_base;
@@ -27,4 +27,4 @@ void RecentScans::add(PlacedScan scan) {
   if (scans_.size() > kScans) scans_.pop_front();
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -13,7 +13,7 @@
 #include "onboard/odometry/config.hpp"
 #include "onboard/odometry/local_map/subsample.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// A scan as it was placed: enough to see its surroundings again.
 struct PlacedScan {
@@ -68,4 +68,4 @@ class RecentScans {
   std::deque<PlacedScan> scans_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 // The gate begins at 3 standard deviations of the predicted position, and halves with every step.
@@ -71,4 +71,4 @@ NormalEquations Registration::linearise(const Selection& scan, const PatchMap& m
   return linearise_(scan.keypoints, map, here, workers_);
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -13,7 +13,7 @@
 #include "onboard/odometry/keypoint_selector.hpp"
 #include "onboard/odometry/local_map/patch_map.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// Where the iteration ended, and the equations of its last step.
 struct Fit {
@@ -65,4 +65,4 @@ class Registration {
   Linearise linearise_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 // Times min_matches. A scan of fewer keypoints does not tell where the robot is.
@@ -66,4 +66,4 @@ bool Relocaliser::fits(const Fit& fit, std::size_t keypoints) const {
          motion.translation().norm() <= expected_->farthest_m;
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

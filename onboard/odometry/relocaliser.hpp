@@ -11,7 +11,7 @@
 #include "onboard/odometry/estimation/motion_filter.hpp"
 #include "onboard/odometry/registration.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// What a scan told about a robot that was restarted.
 enum class Relocalisation : std::uint8_t {
@@ -60,4 +60,4 @@ class Relocaliser {
   std::optional<Expected> expected_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::odometry

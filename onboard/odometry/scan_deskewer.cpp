@@ -5,7 +5,7 @@
 
 #include "onboard/odometry/estimation/deskew.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 // Points per job of the workers: a scan of a VLP-16 (28 928 points) makes eight jobs.
@@ -24,4 +24,4 @@ void ScanDeskewer::deskew(const PreparedScan& scan, const Vector6& twist) {
   });
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

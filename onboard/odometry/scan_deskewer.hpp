@@ -9,7 +9,7 @@
 #include "hal/workers.hpp"
 #include "onboard/odometry/scan_preparation.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// Deskews whole scans, see Deskew. Keeps its memory between calls.
 class ScanDeskewer {
@@ -29,4 +29,4 @@ class ScanDeskewer {
   std::vector<Eigen::Vector3f> points_base_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::odometry

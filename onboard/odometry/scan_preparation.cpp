@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 // A revolution of a spinning LiDAR takes at most 0.2 s (VLP-16 user manual: 5 to 20 Hz). An older
@@ -67,4 +67,4 @@ const PreparedScan& ScanPreparation::prepare(const PlacedScan& scan, const SE3& 
   return out_;
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

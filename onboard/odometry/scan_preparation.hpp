@@ -12,7 +12,7 @@
 #include "onboard/odometry/config.hpp"
 #include "onboard/odometry/recent_scans.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// A scan as odometry works on it: its finite points in the scan's order.
 struct PreparedScan {
@@ -47,4 +47,4 @@ class ScanPreparation {
   PreparedScan out_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::odometry

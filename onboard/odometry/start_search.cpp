@@ -3,7 +3,7 @@
 
 #include "onboard/odometry/gap_search.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 // Scans per map. In a corridor the speed stays unknown for ever: what the first scans cannot tell,
@@ -63,4 +63,4 @@ MotionState StartSearch::guess_speed(const MotionState& predicted, double dt_s, 
   return best;
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -6,7 +6,7 @@
 #include "onboard/odometry/config.hpp"
 #include "onboard/odometry/estimation/motion_filter.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// Finds the start hypothesis of a registration. As a rule that is the prediction. Where the
 /// prediction says little, hypotheses around it are compared by how many keypoints fit:
@@ -35,4 +35,4 @@ class StartSearch {
   int speed_guesses_left_ = 0;
 };
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 // In revolutions. One missing scan puts the next one two revolutions after the last; 1.8 leaves
@@ -69,4 +69,4 @@ bool TrackingState::plausible(const Fit& fit, const SE3& motion, double dt_s) co
          rotation_angle(motion) <= max_angular_speed_rad_s_ * dt_s;
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -11,7 +11,7 @@
 #include "onboard/odometry/local_map/patch_map.hpp"
 #include "onboard/odometry/registration.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// What becomes of a scan after its registration.
 enum class Track : std::uint8_t {
@@ -55,4 +55,4 @@ class TrackingState {
   int lost_in_a_row_ = 0;
 };
 
-}  // namespace cairn
+}  // namespace cairn::odometry

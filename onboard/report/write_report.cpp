@@ -9,7 +9,7 @@
 #include "onboard/report/json/report_json.hpp"
 #include "onboard/report/page/report_html.hpp"
 
-namespace cairn {
+namespace cairn::report {
 
 double peak_rss_mb() {
   struct rusage usage {};
@@ -25,4 +25,4 @@ Result<void> write_report(const RunReport& report, const std::filesystem::path& 
   return write_file_atomic(folder / "report.html", *page);
 }
 
-}  // namespace cairn
+}  // namespace cairn::report

@@ -6,9 +6,9 @@
 #include "hal/result.hpp"
 #include "onboard/report/figures/run_report.hpp"
 
-namespace cairn {
+namespace cairn::report {
 
 /// Writes report.json and report.html into an existing folder, each atomically.
 Result<void> write_report(const RunReport& report, const std::filesystem::path& folder);
 
-}  // namespace cairn
+}  // namespace cairn::report

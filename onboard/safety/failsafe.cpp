@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-namespace cairn {
+namespace cairn::safety {
 namespace {
 
 Duration milliseconds(double ms) { return from_seconds(1e-3 * ms); }
@@ -156,4 +156,4 @@ DriveCommand limited(const DriveCommand& command, const FailsafeDecision& decisi
   return out;
 }
 
-}  // namespace cairn
+}  // namespace cairn::safety

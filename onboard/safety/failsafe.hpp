@@ -10,7 +10,7 @@
 #include "onboard/safety/failsafe_config.hpp"
 #include "onboard/safety/failsafe_state.hpp"
 
-namespace cairn {
+namespace cairn::safety {
 
 /// What the failsafe watches for silence.
 enum class Watched : std::uint8_t { kLidar, kCamera, kThermal, kDepth, kFeedback };
@@ -105,4 +105,4 @@ class Failsafe {
 /// The command as the mode allows it: slower on the same curve, or zero.
 [[nodiscard]] DriveCommand limited(const DriveCommand& command, const FailsafeDecision& decision);
 
-}  // namespace cairn
+}  // namespace cairn::safety

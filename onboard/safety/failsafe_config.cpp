@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <vector>
 
-namespace cairn {
+namespace cairn::safety {
 namespace {
 
 constexpr std::array kModes{Mode::kNormal, Mode::kDegraded, Mode::kHold, Mode::kStop};
@@ -56,4 +56,4 @@ Result<void> check(const FailsafeConfig& c) {
   return Error{Errc::kInvalidConfig, "faults in the section failsafe", {}, {}, faults};
 }
 
-}  // namespace cairn
+}  // namespace cairn::safety

@@ -7,7 +7,7 @@
 #include "hal/config/config.hpp"
 #include "onboard/safety/fault.hpp"
 
-namespace cairn {
+namespace cairn::safety {
 
 /// Section `failsafe` of a robot profile: after how long a source counts as missing, and what each fault leads to.
 /// Both may be made stricter than the defaults say is safe, never milder: the bounds are part of the declaration.
@@ -34,4 +34,4 @@ void declare(config::Section& section, FailsafeConfig& config);
 /// Faults between keys, all in one Error.
 [[nodiscard]] Result<void> check(const FailsafeConfig& config);
 
-}  // namespace cairn
+}  // namespace cairn::safety

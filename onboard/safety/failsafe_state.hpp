@@ -7,7 +7,7 @@
 
 #include "onboard/safety/fault.hpp"
 
-namespace cairn {
+namespace cairn::safety {
 
 /// The table of a profile, as masks: which faults lead to which mode.
 struct FaultPolicy {
@@ -59,4 +59,4 @@ struct Latch {
   friend constexpr bool operator==(const Latch&, const Latch&) = default;
 };
 
-}  // namespace cairn
+}  // namespace cairn::safety

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/safety/fault.hpp"
 
-namespace cairn {
+namespace cairn::safety {
 namespace {
 
 constexpr Mode N = Mode::kNormal, D = Mode::kDegraded, H = Mode::kHold, S = Mode::kStop;
@@ -57,4 +57,4 @@ std::string_view to_string(Mode mode) {
   return kNames[static_cast<std::size_t>(mode)];
 }
 
-}  // namespace cairn
+}  // namespace cairn::safety

@@ -7,7 +7,7 @@
 #include <initializer_list>
 #include <string_view>
 
-namespace cairn {
+namespace cairn::safety {
 
 /// What the robot may do. The worst of what is wrong decides.
 enum class Mode : std::uint8_t {
@@ -89,4 +89,4 @@ class FaultSet {
 };
 static_assert(kFaults <= 32);
 
-}  // namespace cairn
+}  // namespace cairn::safety

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cairn {
+namespace cairn::safety {
 namespace {
 
 // A supervisor that was away for so long cannot tell a hung task from a machine that stood.
@@ -29,4 +29,4 @@ std::optional<Supervisor::Finding> Supervisor::step(Time now) {
   return worst;
 }
 
-}  // namespace cairn
+}  // namespace cairn::safety

@@ -9,7 +9,7 @@
 #include "hal/relaxed_counter.hpp"
 #include "hal/time.hpp"
 
-namespace cairn {
+namespace cairn::safety {
 
 /// A task under supervision. Its thread counts `beats` up, as TaskStats::ticks does: no lock, no call.
 struct Pulse {
@@ -44,4 +44,4 @@ class Supervisor {
   std::optional<Time> stepped_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::safety

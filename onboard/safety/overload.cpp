@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <array>
 
-namespace cairn {
+namespace cairn::safety {
 
 std::string_view to_string(Shed level) {
   constexpr std::array<std::string_view, kShedLevels> kNames{"nothing", "peer_tiles", "semantics", "map_density",
@@ -59,4 +59,4 @@ Shed OverloadController::step(Time now, const Load& load) {
   return level_ = static_cast<Shed>(level - 1);
 }
 
-}  // namespace cairn
+}  // namespace cairn::safety

@@ -7,7 +7,7 @@
 #include "hal/config/config.hpp"
 #include "hal/time.hpp"
 
-namespace cairn {
+namespace cairn::safety {
 
 /// What is left undone under overload: each level includes those before it. Never drive, safety or odometry.
 enum class Shed : std::uint8_t {
@@ -65,4 +65,4 @@ class OverloadController {
   Time relieved_since_ = Time::max();  ///< max: there is no relief now
 };
 
-}  // namespace cairn
+}  // namespace cairn::safety

@@ -7,7 +7,7 @@
 
 #include "hal/time.hpp"
 
-namespace cairn {
+namespace cairn::safety {
 
 /// Whether more than half of what a source sent within the last second was refused (Fault::kLidarRejected). Pure; the
 /// second is ten parts long, so that the answer is at most a tenth late.
@@ -40,4 +40,4 @@ class RejectionWatch {
   std::uint64_t accepted_ = 0, refused_ = 0;
 };
 
-}  // namespace cairn
+}  // namespace cairn::safety

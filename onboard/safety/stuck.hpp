@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-namespace cairn {
+namespace cairn::safety {
 
 /// Whether a source says the same again and again (Fault::kLidarStuck): noise alone makes two real measurements differ.
 /// Pure; keeps the bytes of one packet per channel.
@@ -46,4 +46,4 @@ class StuckWatch {
   std::vector<Last> last_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::safety

@@ -38,16 +38,16 @@ std::map<std::string, double> g_options{
 constexpr RobotId kRobot = 1;
 constexpr Duration kTick = std::chrono::milliseconds(20);
 
-using Tiles = std::vector<std::pair<TileKey, TileState>>;
+using Tiles = std::vector<std::pair<mapping::TileKey, mapping::TileState>>;
 
-Tiles tiles_of(const SemanticOcTree& map) {
-  std::set<TileKey> keys;
+Tiles tiles_of(const mapping::SemanticOcTree& map) {
+  std::set<mapping::TileKey> keys;
   for (auto leaf = map.begin_leafs(); leaf != map.end_leafs(); ++leaf) {
     const octomap::OcTreeKey key = leaf.getKey();
-    keys.insert(TileKey::of_voxel(key[0], key[1], key[2]));
+    keys.insert(mapping::TileKey::of_voxel(key[0], key[1], key[2]));
   }
   Tiles tiles;
-  for (const TileKey key : keys) tiles.emplace_back(key, read_tile(map, key));
+  for (const mapping::TileKey key : keys) tiles.emplace_back(key, mapping::read_tile(map, key));
   return tiles;
 }
 
@@ -79,7 +79,7 @@ class Peer {
     config.voxel_um = static_cast<std::uint32_t>(std::lround(g_options["resolution"] * 1e6));
     return config;
   }
-  void say(TileKey key, const TileState& state) {
+  void say(mapping::TileKey key, const mapping::TileState& state) {
     bytes_.clear();
     peers::encode_tile(state, bytes_);
     exchange_.say(peers::ItemId::tile(0, key), bytes_);
@@ -101,13 +101,13 @@ class Peer {
 
 /// Speaks for all of them until it is told to end.
 void speak(const fs::path& socket, const Tiles& tiles, const std::atomic<bool>& ended) {
-  peers::LocalLink link = peers::LocalLink::connect(socket);
+  peer_link::LocalLink link = peer_link::LocalLink::connect(socket);
   std::map<RobotId, Peer> team;
   for (int i = 0; i < static_cast<int>(g_options["peers"]); ++i)
     team.try_emplace(kRobot + 1 + static_cast<RobotId>(i), kRobot + 1 + static_cast<RobotId>(i), tiles);
   const LiveClock clock;
   std::vector<std::byte> memory;
-  peers::LinkFrame frame;
+  peer_link::LinkFrame frame;
   for (Time due = clock.now(); !ended; due += kTick) {
     LiveClock::wait_until(due);
     if (!link.join()) continue;
@@ -117,31 +117,31 @@ void speak(const fs::path& socket, const Tiles& tiles, const std::atomic<bool>& 
     for (auto& [id, peer] : team) {
       std::vector<peers::Outgoing> out;
       peer.tick(clock.now(), out);
-      for (const auto& datagram : out) link.send({peers::LinkFrame::Kind::kReceived, id, datagram.bytes});
+      for (const auto& datagram : out) link.send({peer_link::LinkFrame::Kind::kReceived, id, datagram.bytes});
     }
   }
   std::printf("  the peers' frames: %llu sent, %llu lost\n", static_cast<unsigned long long>(link.counters().sent),
               static_cast<unsigned long long>(link.counters().lost));
 }
 
-std::unique_ptr<RunResult> play(const fs::path& recording, const Tiles* tiles, const fs::path& folder) {
+std::unique_ptr<app::RunResult> play(const fs::path& recording, const Tiles* tiles, const fs::path& folder) {
   const fs::path socket = folder / "core.sock";
   std::ofstream(folder / "robot.yaml") << "team: {id: " << kRobot << ", socket: " << socket.string() << "}\n"
                                        << "mapping: {resolution_m: " << g_options["resolution"] << "}\n";
-  RunOptions options;
+  app::RunOptions options;
   options.config = folder / "robot.yaml";
   options.recording = recording;
   options.out = folder / "out";
   options.peers = true;
-  options.pace = Pace::kLive;
+  options.pace = app::Pace::kLive;
   options.seconds = g_options["seconds"];
   options.reference = true;
-  Result<std::unique_ptr<RunResult>> ran = Error{Errc::kNotFound, "the run has not begun"};
+  Result<std::unique_ptr<app::RunResult>> ran = Error{Errc::kNotFound, "the run has not begun"};
   std::atomic<bool> ended = false;
   Workers both(2);
   both.for_each(tiles != nullptr ? 2 : 1, [&](std::size_t side) {
     if (side == 1) return speak(socket, *tiles, ended);
-    ran = run(options);
+    ran = app::run(options);
     ended = true;
   });
   if (ran) return std::move(*ran);
@@ -149,19 +149,19 @@ std::unique_ptr<RunResult> play(const fs::path& recording, const Tiles* tiles, c
   std::exit(1);
 }
 
-const StageStats* stage_of(const RunResult& run, const std::string& name) {
+const StageStats* stage_of(const app::RunResult& run, const std::string& name) {
   for (const StageStats& stage : run.monitor.stages())
     if (stage.name == name) return &stage;
   return nullptr;
 }
 
-unsigned long long missed(const RunResult& run, const std::string& name) {
-  for (const TaskFigures& task : run.report.tasks)
+unsigned long long missed(const app::RunResult& run, const std::string& name) {
+  for (const report::TaskFigures& task : run.report.tasks)
     if (task.spec.name == name) return task.stats.misses;
   return 0;
 }
 
-void compare(const RunResult& alone, const RunResult& among) {
+void compare(const app::RunResult& alone, const app::RunResult& among) {
   std::printf("  merged with %zu, %zu peers heard\n", among.report.team ? among.report.team->merged_with.size() : 0,
               among.report.peers.size());
   std::printf("  %-16s %9s %9s %6s   %9s %9s %6s   %9s %9s\n", "CPU time", "p50 ms", "peers", "ratio", "p99 ms",
@@ -179,7 +179,7 @@ void compare(const RunResult& alone, const RunResult& among) {
 }
 
 int measure(const fs::path& recording, const fs::path& map_file) {
-  const auto map = load_map(map_file);
+  const auto map = mapping::load_map(map_file);
   if (!map) return std::fprintf(stderr, "core_with_peers: %s\n", to_string(map.error()).c_str()), 1;
   const Tiles tiles = tiles_of(**map);
   const fs::path folder = fs::temp_directory_path() / ("core_with_peers." + std::to_string(::getpid()));

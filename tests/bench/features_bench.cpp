@@ -8,7 +8,7 @@
 namespace cairn::matching {
 namespace {
 
-const SemanticOcTree& lobby() {
+const mapping::SemanticOcTree& lobby() {
   static const auto map = support::two_robots(support::lobby(), {0, 3.4, 30}, {2.2, 5.6, 2}, 1).a;
   return *map;
 }
@@ -20,7 +20,7 @@ BENCHMARK(BM_Build)->Unit(benchmark::kMillisecond);
 
 void BM_Update(benchmark::State& state) {
   auto features = MapFeatures::build(lobby());
-  std::vector<TileKey> tiles;
+  std::vector<mapping::TileKey> tiles;
   const auto voxels = occupied_voxels(lobby());
   for (const Voxel& v : *voxels) {
     if (tiles.size() == static_cast<std::size_t>(state.range(0))) break;

@@ -40,7 +40,7 @@ SE3 slip_at(const Slip& slip, const SE3& T_map_world, const Eigen::Vector2d& wor
 
 void run(const Site& site, std::uint64_t seed, const Slip& slip, Count& count) {
   Explorer robot(site, seed, 60);
-  std::vector<std::unique_ptr<SemanticOcTree>> maps;
+  std::vector<std::unique_ptr<mapping::SemanticOcTree>> maps;
   for (int i = 0; i < kSubmaps; ++i) {
     robot.advance(kScans);
     const bool now = i + 1 == kSubmaps / 2;

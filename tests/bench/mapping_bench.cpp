@@ -18,7 +18,7 @@
 #include "tests/onboard/mapping/tree_compare.hpp"
 #include "tests/support/allocation_count.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 double resident_mb() {
@@ -126,16 +126,16 @@ void add(const char* name, std::vector<MapScan> (*scans)(int), int count, const 
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::mapping
 
 int main(int argc, char** argv) {
   using namespace cairn;
-  add("insert/yard_vlp16/0.1m/30m", yard, 30, {0.1, 30, 1});
-  add("insert/yard_vlp16/0.2m/30m", yard, 30, {0.2, 30, 1});
-  add("insert/kitti_hdl64/0.1m/30m", kitti_scans, 16, {0.1, 30, 1});
-  add("insert/kitti_hdl64/0.2m/30m", kitti_scans, 16, {0.2, 30, 1});
-  add("insert_long/yard_vlp16/0.1m/30m/300", yard, 300, {0.1, 30, 10});
-  add("insert_alone/yard_vlp16/0.1m/30m", yard, 100, {0.1, 30, 0});
+  mapping::add("insert/yard_vlp16/0.1m/30m", mapping::yard, 30, {0.1, 30, 1});
+  mapping::add("insert/yard_vlp16/0.2m/30m", mapping::yard, 30, {0.2, 30, 1});
+  mapping::add("insert/kitti_hdl64/0.1m/30m", mapping::kitti_scans, 16, {0.1, 30, 1});
+  mapping::add("insert/kitti_hdl64/0.2m/30m", mapping::kitti_scans, 16, {0.2, 30, 1});
+  mapping::add("insert_long/yard_vlp16/0.1m/30m/300", mapping::yard, 300, {0.1, 30, 10});
+  mapping::add("insert_alone/yard_vlp16/0.1m/30m", mapping::yard, 100, {0.1, 30, 0});
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   return 0;

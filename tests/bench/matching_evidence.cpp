@@ -35,7 +35,7 @@ std::vector<support::MapPair> pairs(unsigned seed) {
                                       uniform(random, -3, 3), 0.1, uniform(random, 6, 15)));
   }
   for (const std::string name : {"fr_079", "geb079"})
-    if (const auto map = load_map(support::recorded_data("octomap") / (name + ".bt"))) {
+    if (const auto map = mapping::load_map(support::recorded_data("octomap") / (name + ".bt"))) {
       const auto cut = protocol::halves(
           **map, name, {.overlap = uniform(random, 0.2, 0.6), .yaw = uniform(random, -3, 3), .seed = seed});
       out.push_back({.name = name, .a = cut.a, .b = cut.b, .T_a_b = cut.T_a_b});

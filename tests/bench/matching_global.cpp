@@ -67,8 +67,8 @@ Site visit(std::uint64_t seed, std::uint64_t stream) {
 }
 
 /// The map with holes.
-std::unique_ptr<SemanticOcTree> spoilt(const SemanticOcTree& map, Random& random) {
-  auto holed = std::make_unique<SemanticOcTree>(map);
+std::unique_ptr<mapping::SemanticOcTree> spoilt(const mapping::SemanticOcTree& map, Random& random) {
+  auto holed = std::make_unique<mapping::SemanticOcTree>(map);
   std::vector<octomap::OcTreeKey> lost;
   for (auto leaf = map.begin_leafs(); leaf != map.end_leafs(); ++leaf)
     if (map.isNodeOccupied(*leaf) && leaf.getDepth() == map.getTreeDepth() && random.uniform() < kDropped)
@@ -77,7 +77,7 @@ std::unique_ptr<SemanticOcTree> spoilt(const SemanticOcTree& map, Random& random
   return holed;
 }
 
-std::size_t occupied(const SemanticOcTree& map) {
+std::size_t occupied(const mapping::SemanticOcTree& map) {
   std::size_t count = 0;
   for (auto leaf = map.begin_leafs(); leaf != map.end_leafs(); ++leaf) count += map.isNodeOccupied(*leaf) ? 1 : 0;
   return count;

@@ -93,7 +93,7 @@ std::vector<support::MapPair> pairs(const std::string& wanted, unsigned seed, do
   std::vector<support::MapPair> out;
   for (const std::string name : {"fr_079", "geb079"}) {
     if (wanted != "all" && wanted != name) continue;
-    const auto map = load_map(support::recorded_data("octomap") / (name + ".bt"));
+    const auto map = mapping::load_map(support::recorded_data("octomap") / (name + ".bt"));
     if (!map) {
       std::printf("%s\n", to_string(map.error()).c_str());
       continue;

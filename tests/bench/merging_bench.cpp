@@ -25,10 +25,11 @@ void BM_Merge(benchmark::State& state) {
   for (auto _ : state) nodes = (*merge(team))->size();
   state.counters["nodes"] = static_cast<double>(nodes);
 }
-using Tiles = std::vector<std::pair<TileKey, TileState>>;
-Tiles tiles_of(const SemanticOcTree& map) {
+using Tiles = std::vector<std::pair<mapping::TileKey, mapping::TileState>>;
+Tiles tiles_of(const mapping::SemanticOcTree& map) {
   Tiles tiles;
-  for (const TileKey key : known_tiles(map, 1U << 20U)) tiles.emplace_back(key, read_tile(map, key));
+  for (const mapping::TileKey key : mapping::known_tiles(map, 1U << 20U))
+    tiles.emplace_back(key, mapping::read_tile(map, key));
   return tiles;
 }
 

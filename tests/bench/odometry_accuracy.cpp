@@ -13,7 +13,7 @@
 #include "tests/support/recorded_data.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 OdometryConfig g_config;
@@ -189,7 +189,7 @@ void run_kitti(const std::filesystem::path& recording, int scans, double angle_d
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry
 
 int main(int argc, char** argv) {
   using namespace cairn;
@@ -197,7 +197,7 @@ int main(int argc, char** argv) {
   const double seconds = argc > 2 ? std::atof(argv[2]) : 60;
   const unsigned seed = argc > 3 ? static_cast<unsigned>(std::atoi(argv[3])) : 1;
   config::Section section;
-  declare(section, g_config);
+  odometry::declare(section, odometry::g_config);
   std::string yaml;
   for (int i = 4; i < argc; ++i) {
     std::string kv = argv[i];
@@ -208,10 +208,10 @@ int main(int argc, char** argv) {
     return std::printf("%s\n", to_string(ok.error()).c_str()), 2;
   const std::filesystem::path data = support::recorded_data("kitti");
   if (what == "kitti" || what == "all") {
-    run_kitti(data / "odometry00", 16, 0.0);
-    run_kitti(data / "odometry00", 16, 0.205);
+    odometry::run_kitti(data / "odometry00", 16, 0.0);
+    odometry::run_kitti(data / "odometry00", 16, 0.205);
   }
-  if (what == "street22" || what == "all") run_kitti(data / "street22", 22, 0);
+  if (what == "street22" || what == "all") odometry::run_kitti(data / "street22", 22, 0);
   for (const auto& scene : support::all_scenes())
-    if (what == scene.name || what == "all") run_scene(scene, seconds, seed);
+    if (what == scene.name || what == "all") odometry::run_scene(scene, seconds, seed);
 }

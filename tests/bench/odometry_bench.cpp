@@ -17,7 +17,7 @@
 #include "tests/support/scenes.hpp"
 #include "tests/support/vlp16_drive.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 const SE3 kMount = SE3::from_xyz_rpy((Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished());
@@ -156,6 +156,6 @@ BENCHMARK_CAPTURE(ride, forest, support::forest())
 BENCHMARK(street)->Name("odometry/street22_hdl64")->Iterations(1)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry
 
 BENCHMARK_MAIN();

@@ -10,17 +10,18 @@
 #include "fusion/peers/items/tile_codec.hpp"
 #include "tests/support/map_pairs.hpp"
 
-namespace cairn {
+namespace cairn::peers {
 namespace {
 
 constexpr double kMiB = 1 << 20;
 
 struct Lobby {
   Lobby() : pair(support::two_robots(support::lobby(), {0, 3.4, 30}, {2.2, 5.6, 30}, 1)) {
-    for (const TileKey tile : known_tiles(*pair.a, 1U << 20U)) tiles.emplace_back(tile, read_tile(*pair.a, tile));
+    for (const mapping::TileKey tile : mapping::known_tiles(*pair.a, 1U << 20U))
+      tiles.emplace_back(tile, mapping::read_tile(*pair.a, tile));
   }
   support::MapPair pair;
-  std::vector<std::pair<TileKey, TileState>> tiles;
+  std::vector<std::pair<mapping::TileKey, mapping::TileState>> tiles;
 };
 const Lobby& lobby() {
   static const Lobby lobby;
@@ -28,12 +29,13 @@ const Lobby& lobby() {
 }
 
 /// One byte for each voxel.
-std::vector<std::byte> plain(const TileState& tile) {
+std::vector<std::byte> plain(const mapping::TileState& tile) {
   std::vector<std::byte> bytes;
   for (unsigned i = 0; i < 512; ++i) {
     const float value = tile.log_odds(i & 7U, i >> 3 & 7U, i >> 6);
-    bytes.push_back(value == SemanticNode::kAbsent ? std::byte{0}
-                                                   : static_cast<std::byte>(static_cast<int>(value * 10) + 50));
+    bytes.push_back(value == mapping::SemanticNode::kAbsent
+                        ? std::byte{0}
+                        : static_cast<std::byte>(static_cast<int>(value * 10) + 50));
   }
   return bytes;
 }
@@ -73,7 +75,7 @@ std::vector<std::vector<std::byte>> datagrams(int kind) {
   std::mt19937 random(1);
   std::vector<std::vector<std::byte>> payloads;
   for (unsigned i = 0; i < 300; ++i) {
-    TileState tile;
+    mapping::TileState tile;
     if (kind == 0)  // as they come
       tile = lobby().tiles[(7 * i) % lobby().tiles.size()].second;
     for (unsigned v = 0; v < 512 && kind > 0; ++v) {
@@ -111,12 +113,12 @@ BENCHMARK(BM_DecodeDatagrams)->ArgName("as_they_come_uniform_one_voxel_rows_nois
 
 void BM_FuseTile(benchmark::State& state) {
   const auto& map = *lobby().pair.b;
-  const auto tiles = known_tiles(map, 1U << 20U);
+  const auto tiles = mapping::known_tiles(map, 1U << 20U);
   std::vector<double> steps;
   for (auto _ : state) {
     merging::TeamMap team(map.getResolution(), merging::Policy::kRelativeEntropy);
     for (std::uint64_t robot = 1; robot <= static_cast<std::uint64_t>(state.range(0)); ++robot)
-      for (const TileKey tile : tiles) team.put({robot, 0}, tile, read_tile(map, tile), Time{});
+      for (const mapping::TileKey tile : tiles) team.put({robot, 0}, tile, mapping::read_tile(map, tile), Time{});
     merging::SubmapPoses poses;
     for (std::uint64_t robot = 1; robot <= static_cast<std::uint64_t>(state.range(0)); ++robot)
       poses[{robot, 0}] = robot == 1 ? SE3() : lobby().pair.T_a_b;
@@ -129,6 +131,6 @@ void BM_FuseTile(benchmark::State& state) {
 BENCHMARK(BM_FuseTile)->ArgName("robots")->Arg(1)->Arg(2)->Arg(8)->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::peers
 
 BENCHMARK_MAIN();

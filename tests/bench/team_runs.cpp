@@ -42,19 +42,19 @@ constexpr int kStepsOfATick = 150;  // of fusing: 1.5 ms of each 40, at 25 µs a
 
 Vector6 log_error(const SE3& truth, const SE3& T) { return (truth.inverse() * T).log(); }
 
-double iou(const SemanticOcTree& map, const SE3& T_world_map, const SemanticOcTree& world,
-           const team::Area* within = nullptr) {
-  return team::iou_with_world(map, T_world_map, world, within).value_or(0);
+double iou(const mapping::SemanticOcTree& map, const SE3& T_world_map, const mapping::SemanticOcTree& world,
+           const team_run::Area* within = nullptr) {
+  return team_run::iou_with_world(map, T_world_map, world, within).value_or(0);
 }
 
-std::uint64_t hash_of(const SemanticOcTree& map) {
+std::uint64_t hash_of(const mapping::SemanticOcTree& map) {
   std::ostringstream out;
-  SemanticOcTree copy(map);
+  mapping::SemanticOcTree copy(map);
   (void)copy.writeData(out);
   return XXH3_64bits(out.str().data(), out.str().size());
 }
 
-void print_items(const Team& team) {
+void print_items(const team::Team& team) {
   std::uint64_t sent = 0, received = 0, known = 0;
   for (const auto& [id, link] : team.exchange().links()) {
     sent += link.sent_items;
@@ -97,11 +97,11 @@ class TeamRun {
   }
 
   void report() {
-    const auto world = load_map(folder_ / "robot_1" / "world.ot");
+    const auto world = mapping::load_map(folder_ / "robot_1" / "world.ot");
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       RecordedRobot& robot = *robots_[i];
       const auto& map = robot.finished_map();
-      if (!g_out.empty()) (void)save_cairn(map, g_out / ("team_" + std::to_string(i + 1) + ".cairn"));
+      if (!g_out.empty()) (void)mapping::save_cairn(map, g_out / ("team_" + std::to_string(i + 1) + ".cairn"));
       std::printf(
           "%s robot_%zu: team of %zu, map %016llx, sent %.0f kB, received %.0f kB, raw %.1f MB (1/%.0f), "
           "slice max %.2f ms\n",
@@ -113,14 +113,14 @@ class TeamRun {
       sent_[i + 1].print();
       print_items(robot.team);
       if (!world) continue;
-      const RobotId anchor = robot.team.poses().anchor;
-      const SE3 T_world_team =
-          robots_[anchor - 1]->T_world_odom() * robot.team.poses().T_team_odom.at(anchor).inverse();
+      const auto& poses = robot.team.poses();
+      const SE3 T_world_team = robots_[poses.anchor - 1]->T_world_odom() * poses.T_team_odom.at(poses.anchor).inverse();
       const auto& own = robot.robot().map();
-      const team::Area there{own, robot.team.poses().T_team_odom.at(static_cast<RobotId>(i + 1))};
+      const team_run::Area there{own, poses.T_team_odom.at(static_cast<RobotId>(i + 1))};
       std::printf("  own map: iou %.3f, %zu occupied; team's: iou %.3f, there %.3f, %zu occupied\n",
-                  iou(own, robot.T_world_odom(), **world), team::occupied_leaves(own), iou(map, T_world_team, **world),
-                  iou(map, T_world_team, **world, &there), team::occupied_leaves(map));
+                  iou(own, robot.T_world_odom(), **world), team_run::occupied_leaves(own),
+                  iou(map, T_world_team, **world), iou(map, T_world_team, **world, &there),
+                  team_run::occupied_leaves(map));
     }
     for (RobotId a = 1; a <= robots_.size(); ++a)
       for (RobotId b = a + 1; b <= robots_.size(); ++b) report_pair(a, b);
@@ -148,7 +148,7 @@ class TeamRun {
     if (auto job = robot.team.next_match(now_)) {
       const Duration before = thread_cpu_time();
       Budget budget = Budget::steps(matching::kAmpleSteps);
-      cairn::run(*job, budget);
+      cairn::team::run(*job, budget);
       (job->refinement ? refine_time_ : match_time_) += thread_cpu_time() - before;
       ++(job->refinement ? refinements_ : matches_);
       if (g_options["looks"] != 0 && !job->refinement) print_looks(self, *job);
@@ -179,9 +179,9 @@ class TeamRun {
   }
 
   /// What the pair would look like at its true pose, and every place that is held.
-  void print_looks(RobotId self, const MatchJob& job) {
+  void print_looks(RobotId self, const team::MatchJob& job) {
     const SE3 truth = true_pose(self, job.peer);
-    const SemanticOcTree own_map = job.own.map(), other_map = job.other.map();
+    const mapping::SemanticOcTree own_map = job.own.map(), other_map = job.other.map();
     const auto own = matching::MapFeatures::build(own_map), other = matching::MapFeatures::build(other_map);
     if (!own || !other) return;
     const auto seen = matching::Judge(*own, *other).look(truth, matching::anywhere().covariance);
@@ -229,7 +229,7 @@ class TeamRun {
   }
 
   void report_pair(RobotId a, RobotId b) {
-    const Team& team = robots_[a - 1]->team;
+    const team::Team& team = robots_[a - 1]->team;
     const auto& poses = team.poses().T_team_odom;
     if (!poses.contains(b)) {
       std::printf("  %d-%d not merged: %s\n", static_cast<int>(a), static_cast<int>(b),
@@ -259,7 +259,7 @@ class TeamRun {
 int run(const fs::path& folder) {
   std::vector<std::unique_ptr<RecordedRobot>> robots;
   for (int i = 1; fs::exists(folder / ("robot_" + std::to_string(i))); ++i) {
-    TeamConfig config;
+    team::TeamConfig config;
     config.id = static_cast<RobotId>(i);
     config.name = "robot_" + std::to_string(i);
     config.resolution_m = g_options["resolution"];

@@ -16,7 +16,7 @@ struct Measured {
   std::optional<Duration> detect;  ///< from the fault's beginning to the first sign that the core knows
   std::optional<Duration>
       recover;  ///< from the fault's end to normal operation; none: it is latched, or nothing changed
-  Mode worst = Mode::kNormal;
+  safety::Mode worst = safety::Mode::kNormal;
   bool held = true;  ///< everything else that the requirement says
 };
 
@@ -26,7 +26,7 @@ struct Row {
   std::string fault;                           ///< as the matrix says
   std::string requirement;                     ///< what must hold
   Duration detect_within{}, recover_within{};  ///< zero: nothing is required
-  Mode worst = Mode::kNormal;                  ///< the mode it must lead to
+  safety::Mode worst = safety::Mode::kNormal;  ///< the mode it must lead to
   std::string test;                            ///< what shows it, or why it is left out
   std::function<Measured()> measure{};         ///< empty: `test` alone
 };

@@ -21,7 +21,7 @@ using namespace std::chrono_literals;
 
 /// The pipeline at 10 Hz: overloaded by half for ten seconds.
 Measured overload() {
-  OverloadController controller{OverloadConfig{}};
+  safety::OverloadController controller{safety::OverloadConfig{}};
   Measured m;
   int worst_level = 0;
   for (Time now{}; now < Time{20s}; now += 100ms) {
@@ -33,23 +33,23 @@ Measured overload() {
     if (level > 0 && !m.detect) m.detect = now - Time{5s};
     if (level == 0 && m.detect && now >= Time{15s} && !m.recover) m.recover = now - Time{15s};
   }
-  m.held = m.held && worst_level == kShedLevels - 1;
-  Failsafe failsafe({}, {});
-  FailsafeInputs in;
-  in.faults = {Fault::kOverload};
+  m.held = m.held && worst_level == safety::kShedLevels - 1;
+  safety::Failsafe failsafe({}, {});
+  safety::FailsafeInputs in;
+  in.faults = {safety::Fault::kOverload};
   m.worst = failsafe.step(in).mode;
   return m;
 }
 
 /// The first sign within the fault's time, and the first of normal operation after it.
-void note(Measured& m, Mode mode, Time now, Time begin, Time end) {
+void note(Measured& m, safety::Mode mode, Time now, Time begin, Time end) {
   m.worst = std::max(m.worst, mode);
-  if (mode != Mode::kNormal && !m.detect) m.detect = now - begin;
-  if (mode == Mode::kNormal && m.detect && now >= end && !m.recover) m.recover = now - end;
+  if (mode != safety::Mode::kNormal && !m.detect) m.detect = now - begin;
+  if (mode == safety::Mode::kNormal && m.detect && now >= end && !m.recover) m.recover = now - end;
 }
 
-Mode step(Failsafe& failsafe, Time now, Fault fault, bool active) {
-  FailsafeInputs in;
+safety::Mode step(safety::Failsafe& failsafe, Time now, safety::Fault fault, bool active) {
+  safety::FailsafeInputs in;
   in.now = now;
   in.faults.set(fault, active);
   return failsafe.step(in).mode;
@@ -61,7 +61,7 @@ struct LateMapping {
 
   struct Odometry final : scheduler::Task {
     void tick(scheduler::Tick& /*tick*/) override {}
-    scheduler::OutputPort<ArrivedMotion> motions{*this, "motions"};
+    scheduler::OutputPort<app::ArrivedMotion> motions{*this, "motions"};
   };
 
   LateMapping() {
@@ -70,12 +70,12 @@ struct LateMapping {
     graph.connect(odometry.motions, task.motions, {.capacity = 4});
   }
 
-  Shed map_scan(Time arrival, Duration late) {
+  safety::Shed map_scan(Time arrival, Duration late) {
     clock.advance_to(arrival + late);
     scheduler::TickRecord sent, record;
     sent.index = record.index = scans++;
     scheduler::Tick sending(scheduler::Regime::kLive, arrival, sent);
-    ArrivedMotion* motion = odometry.motions.back(sending);
+    app::ArrivedMotion* motion = odometry.motions.back(sending);
     motion->arrival = motion->scan.stamp = arrival;
     motion->scan.points_base.assign(8, {5, 0, 1});
     odometry.motions.push(sending);
@@ -89,7 +89,7 @@ struct LateMapping {
   Workers one{1}, other{1};
   Robot robot{{}, one, other, monitor};
   Odometry odometry;
-  MappingTask task{{}, kDeadline, robot, monitor};
+  app::MappingTask task{{}, kDeadline, robot, monitor};
   scheduler::TaskGraph graph;
   VirtualClock clock;
   std::uint64_t scans = 0;
@@ -99,7 +99,7 @@ struct LateMapping {
 /// Another process takes the CPU for ten seconds: each scan is mapped 1.5 deadlines after its last byte.
 Measured hog() {
   LateMapping late;
-  Failsafe failsafe({}, {});
+  safety::Failsafe failsafe({}, {});
   Measured m;
   int before = 0, worst_level = 0;
   for (Time now{}; now < Time{20s}; now += 100ms) {
@@ -108,25 +108,25 @@ Measured hog() {
     m.held = m.held && std::abs(level - before) <= 1;
     before = level;
     worst_level = std::max(worst_level, level);
-    note(m, step(failsafe, now, Fault::kOverload, level > 0), now, Time{5s}, Time{15s});
+    note(m, step(failsafe, now, safety::Fault::kOverload, level > 0), now, Time{5s}, Time{15s});
   }
   std::uint64_t mapped = 0;
   for (const RelaxedCounter& scans : late.task.scans_at()) m.held = m.held && scans > 0, mapped += scans;
-  m.held = m.held && worst_level == kShedLevels - 1 && mapped == late.scans && late.logged;
+  m.held = m.held && worst_level == safety::kShedLevels - 1 && mapped == late.scans && late.logged;
   return m;
 }
 
 /// A stage of 10 Hz that needs more than its hard budget for three seconds.
 Measured overruns() {
   scheduler::OverrunPolicy policy(40ms, 80ms);
-  Failsafe failsafe({}, {});
+  safety::Failsafe failsafe({}, {});
   Measured m;
   std::uint64_t skip = 0;
   for (Time now{}; now < Time{15s}; now += 100ms * (1 + skip)) {
     const bool heavy = now >= Time{5s} && now < Time{8s};
     skip = policy.tick(heavy ? 90ms : 20ms, true).skip;
     m.held = m.held && (!heavy || skip == 1);
-    note(m, step(failsafe, now, Fault::kStageDemoted, policy.demoted()), now, Time{5s}, Time{8s});
+    note(m, step(failsafe, now, safety::Fault::kStageDemoted, policy.demoted()), now, Time{5s}, Time{8s});
   }
   return m;
 }
@@ -134,13 +134,13 @@ Measured overruns() {
 /// A task of 10 Hz with a limit of 300 ms under a supervisor that looks every 100 ms.
 Measured hang() {
   RelaxedCounter beats;
-  Supervisor supervisor({{"mapping", 300ms, &beats}});
-  Failsafe failsafe({}, {});
+  safety::Supervisor supervisor({{"mapping", 300ms, &beats}});
+  safety::Failsafe failsafe({}, {});
   Measured m;
   for (Time now{}; now < Time{10s}; now += 100ms) {
     const bool hangs = now >= Time{4s} && now < Time{6s};
     beats += hangs ? 0U : 1U;
-    note(m, step(failsafe, now, Fault::kTaskHung, supervisor.step(now).has_value()), now, Time{4s}, Time{6s});
+    note(m, step(failsafe, now, safety::Fault::kTaskHung, supervisor.step(now).has_value()), now, Time{4s}, Time{6s});
   }
   return m;
 }
@@ -150,8 +150,8 @@ Measured disk(int error) {
   const support::TemporaryFolder folder;
   support::FailingDisk disk;
   Monitor monitor;
-  Generations generations(folder.path(), monitor, disk);
-  SemanticOcTree map(0.1);
+  app::Generations generations(folder.path(), monitor, disk);
+  mapping::SemanticOcTree map(0.1);
   map.updateNode(octomap::point3d(1, 1, 1), true);
   Measured m;
   for (Time now{}; now < Time{15s}; now += 1s) {
@@ -160,39 +160,39 @@ Measured disk(int error) {
       disk.fail(0, error, true);
     else
       disk.heal();
-    SavedState state;
+    app::SavedState state;
     state.stamp = now;
     const bool saved = generations.save(map, state).has_value();
     if (!saved && !m.detect) m.detect = now - Time{5s};
     if (saved && m.detect && !m.recover) m.recover = now - Time{10s};
-    const auto newest = Generations(folder.path(), monitor).load(now);
+    const auto newest = app::Generations(folder.path(), monitor).load(now);
     m.held = m.held && saved != sick && newest && newest->state.stamp >= std::min(now, Time{4s});
   }
   m.held = m.held && monitor.events().empty();
-  Failsafe failsafe({}, {});
-  FailsafeInputs in;
-  in.faults = {Fault::kDiskFailing};
+  safety::Failsafe failsafe({}, {});
+  safety::FailsafeInputs in;
+  in.faults = {safety::Fault::kDiskFailing};
   m.worst = failsafe.step(in).mode;
   return m;
 }
 
 Measured crash_loop() {
   const support::TemporaryFolder folder;
-  StartLog log(folder / "starts");
+  app::StartLog log(folder / "starts");
   Measured m;
   Time now{100s};
   for (int start = 0; start < 6; ++start, now += 2s) {
-    FailsafeInputs in;
-    in.faults.set(Fault::kCrashLoop, log.begin(now, "boot"));
-    Failsafe failsafe({}, {});
+    safety::FailsafeInputs in;
+    in.faults.set(safety::Fault::kCrashLoop, log.begin(now, "boot"));
+    safety::Failsafe failsafe({}, {});
     m.worst = failsafe.step(in).mode;
-    if (m.worst == Mode::kStop && !m.detect) m.detect = now - Time{100s};
+    if (m.worst == safety::Mode::kStop && !m.detect) m.detect = now - Time{100s};
   }
   return m;
 }
 
 std::vector<Row> late_rows() {
-  constexpr Mode D = Mode::kDegraded, H = Mode::kHold;
+  constexpr safety::Mode D = safety::Mode::kDegraded, H = safety::Mode::kHold;
   return {
       {"C1", "the pipeline needs 1.5 times its budget for 10 s",
        "Work is left out level by level. All of it is back within 1 s.", 500ms, 1s, D, "", overload},
@@ -214,7 +214,7 @@ std::vector<Row> late_rows() {
 }
 
 std::vector<Row> disk_rows() {
-  constexpr Mode N = Mode::kNormal;
+  constexpr safety::Mode N = safety::Mode::kNormal;
   return {
       {"C3", "disk full", "The next save reports it. A whole saved map always exists. Saving works again by itself.",
        1s, 1s, N, "", [] { return disk(ENOSPC); }},
@@ -236,7 +236,7 @@ std::vector<Row> disk_rows() {
 }
 
 std::vector<Row> process_rows() {
-  constexpr Mode N = Mode::kNormal, S = Mode::kStop;
+  constexpr safety::Mode N = safety::Mode::kNormal, S = safety::Mode::kStop;
   return {
       {"C6", "crash loop: a restart every 2 s",
        "From the fourth start within a minute on, the drive stays off. Telemetry goes on.", 10s, 0ms, S, "",
@@ -266,7 +266,7 @@ std::vector<Row> computer_rows() {
 
 std::vector<Row> rows_left_out() {
   const auto row = [](const char* id, const char* fault, const char* why) {
-    return Row{id, fault, "", 0ms, 0ms, Mode::kNormal, why};
+    return Row{id, fault, "", 0ms, 0ms, safety::Mode::kNormal, why};
   };
   return {
       row("X1", "another sender floods the LiDAR's port",

@@ -31,9 +31,9 @@ class CoreRig {
 
   CoreRig() : CoreRig(Guard{}) {}
   explicit CoreRig(const Guard& guard) : guard_(guard) {
-    Fitted fitted;
-    fitted.drive = fitted.estop = fitted.watched[static_cast<std::size_t>(Watched::kFeedback)] = true;
-    safety_.emplace(FailsafeConfig{}, fitted);
+    safety::Fitted fitted;
+    fitted.drive = fitted.estop = fitted.watched[static_cast<std::size_t>(safety::Watched::kFeedback)] = true;
+    safety_.emplace(safety::FailsafeConfig{}, fitted);
     graph_.add({.name = "safety"}, *safety_);
     graph_.add({.name = "drive"}, drive_);
     graph_.connect(drive_.status, safety_->drive, {.capacity = 64});
@@ -62,13 +62,13 @@ class CoreRig {
     const Time mended = bus.now;
     well_.reset();
     go(seconds(2));
-    if (worst_ < Mode::kStop) {
+    if (worst_ < safety::Mode::kStop) {
       if (well_) m.recover = *well_ - mended;
       return m;
     }
     // Latched: two seconds after the mending nothing has moved, whatever was commanded; a request brings it back.
     m.held = m.held && !well_ && left_speed() < 1e-9;
-    for (int i = 0; i < 20 && decision().mode == Mode::kStop; ++i) {
+    for (int i = 0; i < 20 && decision().mode == safety::Mode::kStop; ++i) {
       safety_->request_rearm(decision().epoch);
       go(std::chrono::milliseconds(200));
     }
@@ -82,8 +82,8 @@ class CoreRig {
     if (!stop_frame_) return std::nullopt;
     return *stop_frame_ - struck_;
   }
-  [[nodiscard]] const FailsafeDecision& decision() const { return safety_->decision(); }
-  [[nodiscard]] bool drives() const { return decision().mode == Mode::kNormal && left_speed() > 0.4; }
+  [[nodiscard]] const safety::FailsafeDecision& decision() const { return safety_->decision(); }
+  [[nodiscard]] bool drives() const { return decision().mode == safety::Mode::kNormal && left_speed() > 0.4; }
   /// Of both tasks.
   [[nodiscard]] std::uint64_t ticks() const { return 2 * index_; }
 
@@ -134,12 +134,12 @@ class CoreRig {
       note(bus.now, decision().mode);
     }
   }
-  void note(Time now, Mode mode) {
+  void note(Time now, safety::Mode mode) {
     if (struck_ != Time{}) {
       worst_ = std::max(worst_, mode);
-      if (mode != Mode::kNormal && !detected_) detected_ = now - struck_;
-      if (mode == Mode::kNormal && !well_) well_ = now;
-      if (mode != Mode::kNormal) well_.reset();
+      if (mode != safety::Mode::kNormal && !detected_) detected_ = now - struck_;
+      if (mode == safety::Mode::kNormal && !well_) well_ = now;
+      if (mode != safety::Mode::kNormal) well_.reset();
       for (const drive::CanFrame& frame : bus.sent)
         if (frame.is(drive::canopen::kRpdo1 + 1) && !stop_frame_ &&
             (frame.data[0] & 0x0FU) != drive::cia402::kEnableOperation)
@@ -150,15 +150,15 @@ class CoreRig {
 
   Guard guard_;
   Wire wire_{bus, guard_};
-  std::optional<SafetyTask> safety_;
-  DriveTask drive_;
+  std::optional<app::SafetyTask> safety_;
+  app::DriveTask drive_;
   scheduler::TaskGraph graph_;  // joins the two
   std::uint64_t index_ = 0;
   bool moves_ = false;
   Time struck_{};
   std::optional<Time> well_, stop_frame_;
   std::optional<Duration> detected_;
-  Mode worst_ = Mode::kNormal;
+  safety::Mode worst_ = safety::Mode::kNormal;
 };
 
 }  // namespace cairn::faults

@@ -29,7 +29,7 @@ void mute(CoreRig& rig, bool silent) {
 }
 
 std::vector<Row> estop_rows() {
-  constexpr Mode S = Mode::kStop;
+  constexpr safety::Mode S = safety::Mode::kStop;
   const Act closed = [](CoreRig& r) { r.line.move(true, r.bus.now); };
   return {
       {"E1", "e-stop pressed",
@@ -61,7 +61,7 @@ std::vector<Row> estop_rows() {
 }
 
 std::vector<Row> rows_shown_elsewhere() {
-  constexpr Mode S = Mode::kStop;
+  constexpr safety::Mode S = safety::Mode::kStop;
   return {
       {"D8", "old, repeated or reordered feedback, and random faults at random times",
        "No motion after a stop until the drive is armed again.", 0ms, 0ms, S,
@@ -77,7 +77,7 @@ std::vector<Row> rows_shown_elsewhere() {
 }  // namespace
 
 std::vector<Row> drive_rows() {
-  constexpr Mode H = Mode::kHold, S = Mode::kStop;
+  constexpr safety::Mode H = safety::Mode::kHold, S = safety::Mode::kStop;
   const Act nothing = [](CoreRig&) {};
   std::vector<Row> rows{
       {"D1", "CAN bus-off",

@@ -15,9 +15,9 @@ namespace {
 TEST(FailingMalloc, ASaveThatGetsNoMemoryIsAnErrorAndKeepsTheGenerationBefore) {
   const support::TemporaryFolder folder;
   Monitor monitor;
-  Generations generations(folder.path(), monitor);
-  const auto map = random_map<SemanticOcTree>(1, 500);
-  SavedState state;
+  app::Generations generations(folder.path(), monitor);
+  const auto map = mapping::random_map<mapping::SemanticOcTree>(1, 500);
+  app::SavedState state;
   ASSERT_TRUE(generations.save(*map, state));
   int refused = 0;
   for (long n = 0;; ++n) {
@@ -26,7 +26,7 @@ TEST(FailingMalloc, ASaveThatGetsNoMemoryIsAnErrorAndKeepsTheGenerationBefore) {
     const auto saved = generations.save(*map, state);
     const bool reached = allocation_failed();
     fail_allocation(-1);
-    const auto newest = Generations(folder.path(), monitor).load(Time{});
+    const auto newest = app::Generations(folder.path(), monitor).load(Time{});
     ASSERT_TRUE(newest) << n;
     // Where only the syncing of the folder had no memory, the new one is there already.
     EXPECT_TRUE(!saved || newest->state.stamp == state.stamp) << n;

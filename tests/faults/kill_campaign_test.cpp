@@ -140,8 +140,8 @@ Duration kill_one(const std::filesystem::path& folder, std::mt19937_64& random) 
   const LiveClock clock;
   const Time begin = clock.now();
   Core core(folder);
-  const std::filesystem::path state = folder / "state", map = state / Generations::kMapFiles.front();
-  const bool pose = wait_for_change(state / Generations::kStateFile);
+  const std::filesystem::path state = folder / "state", map = state / app::Generations::kMapFiles.front();
+  const bool pose = wait_for_change(state / app::Generations::kStateFile);
   const Duration restart = clock.now() - begin;
   if (!pose || (!std::filesystem::exists(map) && !wait_for_change(map))) {
     core.stop();
@@ -156,7 +156,7 @@ Duration kill_one(const std::filesystem::path& folder, std::mt19937_64& random) 
 /// The newest map after a kill; `least`: the one before.
 std::uint64_t newest_map(const std::filesystem::path& state, std::uint64_t least) {
   const auto monitor = std::make_unique<Monitor>();
-  const auto newest = Generations(state, *monitor).load(Time{});
+  const auto newest = app::Generations(state, *monitor).load(Time{});
   for (const Event& e : monitor->events()) ADD_FAILURE() << e.what;
   const std::uint64_t sequence = newest ? newest->state.sequence : 0;
   EXPECT_GE(sequence, least) << "an older map than before";

@@ -69,7 +69,7 @@ class LidarRig {
   /// Something done to the sensor itself when the fault begins.
   std::function<void(velodyne::test::Sensor&)> strike;
 
-  Measured run(std::optional<Fault> fault = {}) { return rig_.run(start_, fault); }
+  Measured run(std::optional<safety::Fault> fault = {}) { return rig_.run(start_, fault); }
 
   [[nodiscard]] const std::vector<Scan>& scans() const { return rig_.scans(); }
   [[nodiscard]] const velodyne::Counters& counters() const { return lidar_->counters(); }

@@ -39,7 +39,7 @@ TEST(MillionTicks, OfSafetyAndDriveNeitherAllocateNorLock) {
     const Measured m = rig.run([](CoreRig& r) { r.line.move(false, r.bus.now); },
                                [](CoreRig& r) { r.line.move(true, r.bus.now); }, std::chrono::seconds(58));
     EXPECT_TRUE(m.held) << "minute " << minute;
-    EXPECT_EQ(m.worst, Mode::kStop);
+    EXPECT_EQ(m.worst, safety::Mode::kStop);
   }
   EXPECT_GE(rig.ticks(), 1'000'000U);
   EXPECT_TRUE(rig.drives());

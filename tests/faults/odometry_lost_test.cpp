@@ -58,12 +58,12 @@ std::vector<Time> record(const fs::path& folder) {
   return arrivals;
 }
 
-Result<std::unique_ptr<RunResult>> replay(const fs::path& folder, Pace pace) {
-  RunOptions options;
+Result<std::unique_ptr<app::RunResult>> replay(const fs::path& folder, app::Pace pace) {
+  app::RunOptions options;
   options.recording = folder / "recording";
   options.out = folder / "out";
   options.pace = pace;
-  return run(options);
+  return app::run(options);
 }
 
 const Event* find(const Monitor& monitor, std::string_view what) {
@@ -75,13 +75,13 @@ const Event* find(const Monitor& monitor, std::string_view what) {
 Measured covered() {
   const support::TemporaryFolder folder;
   const auto arrivals = record(folder.path());
-  const auto result = replay(folder.path(), Pace::kMaximum);
+  const auto result = replay(folder.path(), app::Pace::kMaximum);
   Measured m;
   if (!result || arrivals.empty()) return m.held = false, m;
   const Monitor& monitor = (*result)->monitor;
   const Event *lost = find(monitor, "fault: odometry_lost"), *ended = find(monitor, "ended: odometry_lost");
-  if (find(monitor, "mode: degraded") != nullptr) m.worst = Mode::kDegraded;
-  if (find(monitor, "mode: hold") != nullptr) m.worst = Mode::kHold;
+  if (find(monitor, "mode: degraded") != nullptr) m.worst = safety::Mode::kDegraded;
+  if (find(monitor, "mode: hold") != nullptr) m.worst = safety::Mode::kHold;
   if (lost != nullptr) m.detect = lost->first - arrivals[kFirstStrange];
   if (ended != nullptr) m.recover = ended->last - arrivals[kFirstStrange + kStrange];
   m.held = lost != nullptr && lost->count == 1 && (*result)->report.mode == "normal" &&
@@ -100,7 +100,7 @@ std::vector<std::pair<Time, std::string>> said(const Monitor& monitor) {
 TEST(OdometryLost, ReachesTheModeAtTheSameTickOnOneThreadAndOnManyAtRealSpeed) {
   const support::TemporaryFolder folder;
   record(folder.path());
-  const auto once = replay(folder.path(), Pace::kMaximum), again = replay(folder.path(), Pace::kRecorded);
+  const auto once = replay(folder.path(), app::Pace::kMaximum), again = replay(folder.path(), app::Pace::kRecorded);
   ASSERT_TRUE(once && again);
   EXPECT_EQ(said((*once)->monitor).size(), 8U) << "lost, degraded, found, normal";
   EXPECT_EQ(said((*again)->monitor), said((*once)->monitor));
@@ -111,7 +111,7 @@ TEST(OdometryLost, ReachesTheModeAtTheSameTickOnOneThreadAndOnManyAtRealSpeed) {
 std::vector<Row> odometry_rows() {
   return {{"L18", "sensor covered: three scans do not fit",
            "Degraded. The three scans do not go into the map. Normal with the first scan that fits.", 250ms, 250ms,
-           Mode::kDegraded, "", covered}};
+           safety::Mode::kDegraded, "", covered}};
 }
 
 }  // namespace cairn::faults

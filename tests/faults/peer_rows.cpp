@@ -122,9 +122,9 @@ Measured over(const LinkQuality& quality) {
 
 /// A peer that sends garbage ten times a second for two seconds, between hellos that are right.
 Measured malformed() {
-  TeamConfig config;
+  team::TeamConfig config;
   config.id = 1;
-  Team team(config, peers::Epoch{1} << 32U);
+  team::Team team(config, peers::Epoch{1} << 32U);
   Time now{1000s};
   const auto hello = [&] {
     return peers::encode({2, peers::Hello{peers::Epoch{1} << 32U, 0, now, "second", {}, 200'000}, {}, {}}).bytes;
@@ -149,13 +149,13 @@ Measured malformed() {
 }
 
 Row shown_by(const char* id, const char* fault, const char* requirement, const char* test) {
-  return {id, fault, requirement, 0ms, 0ms, Mode::kNormal, test};
+  return {id, fault, requirement, 0ms, 0ms, safety::Mode::kNormal, test};
 }
 
 }  // namespace
 
 std::vector<Row> peer_rows() {
-  constexpr Mode N = Mode::kNormal;
+  constexpr safety::Mode N = safety::Mode::kNormal;
   return {
       {"P1", "a peer vanishes", "It counts as lost after its lease. Its map and its pose are kept.", 3600ms, 2s, N, "",
        vanishes},

@@ -20,7 +20,7 @@ recording::Faults spell(Spell kind, Duration lasts) {
   return faults;
 }
 
-Measured silent(Spell kind, Duration lasts, std::optional<Fault> fault = {}) {
+Measured silent(Spell kind, Duration lasts, std::optional<safety::Fault> fault = {}) {
   return LidarRig(spell(kind, lasts), lasts).run(fault);
 }
 
@@ -35,7 +35,7 @@ Measured burst() {
 }
 
 /// Beside a LiDAR: pictures at `rate_hz` that stay out for a second. The scans are those of a run without the fault.
-Measured pictures_missing(recording::SensorKind kind, double rate_hz, Fault fault) {
+Measured pictures_missing(recording::SensorKind kind, double rate_hz, safety::Fault fault) {
   const auto camera = [rate_hz](Time start) {
     return [=, n = 0](Packet& packet) mutable {
       packet.bytes.assign(16, static_cast<std::byte>(n));
@@ -98,7 +98,7 @@ Measured damaged_never_decodes_to_nonsense() {
 }  // namespace
 
 std::vector<Row> sensor_rows() {
-  constexpr Mode N = Mode::kNormal, D = Mode::kDegraded, H = Mode::kHold;
+  constexpr safety::Mode N = safety::Mode::kNormal, D = safety::Mode::kDegraded, H = safety::Mode::kHold;
   return {
       {"L1", "LiDAR silent for 0.3 s", "Degraded 150 ms after the last scan. Normal with the second new scan.", 260ms,
        310ms, D, "", [] { return silent(Spell::kSilence, 300ms); }},
@@ -108,7 +108,7 @@ std::vector<Row> sensor_rows() {
        [] { return silent(Spell::kDisconnect, 3s); }},
       {"L4", "LiDAR stuck: it repeats the same packet",
        "Hold with the third equal packet. Normal when less than half of a second's packets are refused.", 50ms, 1200ms,
-       H, "", [] { return silent(Spell::kStuck, 2s, Fault::kLidarStuck); }},
+       H, "", [] { return silent(Spell::kStuck, 2s, safety::Fault::kLidarStuck); }},
       {"L5", "90 % of the packets are cut short",
        "Damaged packets are refused whole. Hold when more than half of a second's packets are refused.", 700ms, 1200ms,
        H, "", [] { return shares([](auto& f) { f.cut = 0.9; }); }},
@@ -134,11 +134,11 @@ std::vector<Row> sensor_rows() {
       {"L15", "camera of 15 Hz silent for 1 s",
        "The fault is raised after three periods without a picture. Scans equal those of a run without the fault, to "
        "the bit.",
-       240ms, 100ms, N, "", [] { return pictures_missing(recording::kCamera, 15, Fault::kCameraSilent); }},
+       240ms, 100ms, N, "", [] { return pictures_missing(recording::kCamera, 15, safety::Fault::kCameraSilent); }},
       {"L16", "thermal camera of 9 Hz silent for 1 s", "As for L15.", 380ms, 150ms, N, "",
-       [] { return pictures_missing(recording::kThermal, 9, Fault::kThermalSilent); }},
+       [] { return pictures_missing(recording::kThermal, 9, safety::Fault::kThermalSilent); }},
       {"L17", "depth camera of 15 Hz silent for 1 s", "As for L15.", 240ms, 100ms, N, "",
-       [] { return pictures_missing(recording::kDepth, 15, Fault::kDepthSilent); }},
+       [] { return pictures_missing(recording::kDepth, 15, safety::Fault::kDepthSilent); }},
   };
 }
 

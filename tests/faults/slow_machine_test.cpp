@@ -37,9 +37,9 @@ class EdgeReader final : public scheduler::Task {
       : feed_(
             edges_, SourceId{0}, 0, [](Time, const Error&) {}, std::move(tap)) {}
   void tick(Tick& tick) override {
-    const std::uint64_t before = allocations_of_this_thread();
+    const std::uint64_t before = app::allocations_of_this_thread();
     while (feed_.take(tick) != nullptr) ++taken;
-    allocated += allocations_of_this_thread() - before;
+    allocated += app::allocations_of_this_thread() - before;
   }
   RelaxedCounter taken, allocated;
 
@@ -81,11 +81,11 @@ class SlowDiskTest : public testing::Test {
   SlowDiskTest() {
     map_.updateNode(octomap::point3d(1, 1, 1), true);
     housekeeping_.add([this](Time now) {
-      SavedState state;
+      app::SavedState state;
       state.stamp = now;
       if (generations_.save(map_, state)) ++saved_;
     });
-    watch_.add([this](Time) { failing_ = watch_.faults().has(Fault::kDiskFailing) ? 1 : 0; });
+    watch_.add([this](Time) { failing_ = watch_.faults().has(safety::Fault::kDiskFailing) ? 1 : 0; });
   }
 
   /// The disk is slow until the reader has run a hundred ticks more and its queue has overflowed; over when maps are
@@ -118,16 +118,17 @@ class SlowDiskTest : public testing::Test {
   support::SlowDisk disk_;
   Monitor monitor_;
   const LiveClock clock_;
-  Recorder recorder_{recording::RecordingWriter::create(folder_ / "recording", gpio_recording()).value(), monitor_};
+  app::Recorder recorder_{recording::RecordingWriter::create(folder_ / "recording", gpio_recording()).value(),
+                          monitor_};
   EdgeReader reader_{recorder_.tap(kQueue, gpio::kEventBytes)};
   TaskGraph graph_;
   ScheduledTask& reading_ = graph_.add({.name = "safety", .rate_hz = 500}, reader_);
-  HousekeepingTask housekeeping_{graph_, folder_ / "schedule.log", &recorder_};
+  app::HousekeepingTask housekeeping_{graph_, folder_ / "schedule.log", &recorder_};
   ScheduledTask& keeping_ = graph_.add({.name = "housekeeping", .rate_hz = 100}, housekeeping_, TaskRole::kLiveOnly);
-  WatchTask watch_{{{"housekeeping", WatchTask::kDiskLimit, &keeping_.stats.ticks}}, &recorder_};
+  app::WatchTask watch_{{{"housekeeping", app::WatchTask::kDiskLimit, &keeping_.stats.ticks}}, &recorder_};
   ScheduledTask& watching_ = graph_.add({.name = "watch", .rate_hz = 100}, watch_, TaskRole::kLiveOnly);
-  Generations generations_{folder_ / "maps", monitor_, disk_};
-  SemanticOcTree map_{0.1};
+  app::Generations generations_{folder_ / "maps", monitor_, disk_};
+  mapping::SemanticOcTree map_{0.1};
   RelaxedCounter saved_, failing_;
   Phase phase_ = kWell;
   std::uint64_t read_then_ = 0, watched_then_ = 0, saved_then_ = 0, lost_while_well_ = 0;
@@ -143,7 +144,7 @@ TEST_F(SlowDiskTest, CostsTheRealTimeTasksNothing) {
   EXPECT_GE(written, kQueue);
   ASSERT_EQ(monitor_.events().size(), 1U);
   EXPECT_EQ(monitor_.events()[0].stage, "recording") << "said once, at the end";
-  EXPECT_TRUE(Generations(folder_ / "maps", monitor_).load(clock_.now())) << "a whole generation";
+  EXPECT_TRUE(app::Generations(folder_ / "maps", monitor_).load(clock_.now())) << "a whole generation";
 }
 
 /// Stops in its tick until it is told to go on, as one that waits for what never comes.
@@ -225,9 +226,9 @@ class Supervised {
   ScheduledTask& safety_ = graph_.add({.name = "safety", .rate_hz = 500}, safety_task_);
   ScheduledTask& supervised_;
   Act hang_, go_on_;
-  Watchdog watchdog_{
+  app::Watchdog watchdog_{
       {{"safety", 300ms, &safety_.stats.ticks}, {supervised_.spec.name, 300ms, &supervised_.stats.ticks}},
-      SdNotify::open((folder_ / "notify").string()).value(),
+      app::SdNotify::open((folder_ / "notify").string()).value(),
       1s,
       monitor};
   Time now_{};

@@ -31,26 +31,26 @@ class TaskRig {
   TaskRig& operator=(const TaskRig&) = delete;
 
   void add(recording::SensorKind kind, std::unique_ptr<Source> source, std::unique_ptr<ScanDecoder> decoder = nullptr) {
-    Input& input = inputs_.emplace_back();
+    app::Input& input = inputs_.emplace_back();
     input.entry.kind = kind;
     input.source = std::move(source);
     input.scans = std::move(decoder);
     receive_.add(input, static_cast<SourceId>(inputs_.size() - 1), {});
-    fitted_.watched[static_cast<std::size_t>(watched_as(kind).value())] = true;
+    fitted_.watched[static_cast<std::size_t>(app::watched_as(kind).value())] = true;
   }
 
   /// `fault`: what its beginning is known by; none: anything.
-  Measured run(Time start, std::optional<Fault> fault = {}) {
-    SafetyTask safety({}, fitted_);
+  Measured run(Time start, std::optional<safety::Fault> fault = {}) {
+    app::SafetyTask safety({}, fitted_);
     scheduler::TaskGraph graph;
     connect(graph, safety);
     scheduler::Executive executive(graph);
     const auto ran = executive.run_replay({.start = start, .length = end_ + kAfterwards});
     Measured m;
     m.held = ran.has_value() && !executive.diverged() && safety.lost_changes() == 0;
-    for (; const SafetyTask::Change* c = safety.changes().front(); safety.changes().pop())
+    for (; const app::SafetyTask::Change* c = safety.changes().front(); safety.changes().pop())
       if (c->at - start >= kBegin) note(*c, c->at - start, fault, m);
-    m.held = m.held && safety.decision().mode == Mode::kNormal && safety.decision().active.empty();
+    m.held = m.held && safety.decision().mode == safety::Mode::kNormal && safety.decision().active.empty();
     return m;
   }
 
@@ -61,13 +61,13 @@ class TaskRig {
  private:
   struct Keeper final : scheduler::Task {
     void tick(scheduler::Tick& tick) override {
-      while (const ArrivedScan* arrived = arriving.take(tick)) scans.push_back(arrived->scan);
+      while (const app::ArrivedScan* arrived = arriving.take(tick)) scans.push_back(arrived->scan);
     }
-    scheduler::InputPort<ArrivedScan> arriving{*this, "scans"};
+    scheduler::InputPort<app::ArrivedScan> arriving{*this, "scans"};
     std::vector<Scan> scans;
   };
 
-  void connect(scheduler::TaskGraph& graph, SafetyTask& safety) {
+  void connect(scheduler::TaskGraph& graph, app::SafetyTask& safety) {
     graph.add(schedule_.safety, safety);
     graph.add(schedule_.drive, drive_);
     graph.add(schedule_.receive, receive_, scheduler::TaskRole::kInput);
@@ -78,7 +78,7 @@ class TaskRig {
     graph.connect(receive_.scans, keeper_.arriving, {.capacity = 4});
   }
 
-  void note(const SafetyTask::Change& change, Duration t, std::optional<Fault> fault, Measured& m) const {
+  void note(const app::SafetyTask::Change& change, Duration t, std::optional<safety::Fault> fault, Measured& m) const {
     m.worst = std::max(m.worst, change.mode);
     if (!m.detect && (fault ? change.raised.has(*fault) : !change.raised.empty())) m.detect = t - kBegin;
     m.recover.reset();
@@ -86,12 +86,12 @@ class TaskRig {
   }
 
   Duration end_;
-  ScheduleProfile schedule_;
+  app::ScheduleProfile schedule_;
   Monitor monitor_;
-  Fitted fitted_;
-  std::deque<Input> inputs_;
-  DriveTask drive_;
-  ReceiveTask receive_{monitor_};
+  safety::Fitted fitted_;
+  std::deque<app::Input> inputs_;
+  app::DriveTask drive_;
+  app::ReceiveTask receive_{monitor_};
   Keeper keeper_;
 };
 

@@ -39,14 +39,14 @@ class Journey {
     ASSERT_TRUE(point) << to_string(point.error());
     if (const SE3& T = point->T_odom_base.mean; selection_.wants(T)) {
       selection_.take(T);
-      PlacedScan scan_placed{.stamp = located.stamp, .T_odom_base = T, .points_base = {}};
+      odometry::PlacedScan scan_placed{.stamp = located.stamp, .T_odom_base = T, .points_base = {}};
       thin_(located.points_base, scan_placed.points_base);
       recent.add(std::move(scan_placed));
     }
     if (scans_ == 1) T_world_odom_ = at(to_seconds(scan.valid.end));
     last = *point;
   }
-  [[nodiscard]] SavedScans saved_scans() const { return {0, {recent.scans().begin(), recent.scans().end()}}; }
+  [[nodiscard]] app::SavedScans saved_scans() const { return {0, {recent.scans().begin(), recent.scans().end()}}; }
   /// T_estimate⁻¹·T_truth of the last step.
   [[nodiscard]] Vector6 error() const {
     const SE3 truth = T_world_odom_.inverse() * at(to_seconds(last.stamp));
@@ -58,7 +58,7 @@ class Journey {
   Monitor monitor;
   TrackPoint last;
   LocatedScan located;
-  RecentScans recent;
+  odometry::RecentScans recent;
 
  private:
   /// Without its core the robot comes to rest, as its motors' watchdog sees to, and later goes on from there.
@@ -75,14 +75,14 @@ class Journey {
   support::RidePath path_;
   double brake_at_s_;
   support::Vlp16 lidar_{kMount, 0.02, 1};
-  ScanSelection selection_;
-  ScanThinning thin_{OdometryConfig{}};
+  odometry::ScanSelection selection_;
+  odometry::ScanThinning thin_{odometry::OdometryConfig{}};
   SE3 T_world_odom_;
   int scans_ = 0;
 };
 
-SavedState state_of(const Journey& journey) {
-  SavedState state;
+app::SavedState state_of(const Journey& journey) {
+  app::SavedState state;
   state.boot = "b";
   state.stamp = journey.last.stamp;
   state.T_odom_base = journey.last.T_odom_base;
@@ -90,7 +90,7 @@ SavedState state_of(const Journey& journey) {
   return state;
 }
 
-Resume resume(const Generation& saved) {
+Resume resume(const app::Generation& saved) {
   return {.map = *saved.map,
           .map_stamp = saved.map_stamp,
           .scans = saved.scans,
@@ -109,7 +109,7 @@ TEST_P(Resumed, TheTrajectoryGoesOn) {
   const auto& [scene, scans] = GetParam();
   support::TemporaryFolder folder;
   Journey journey(scene, 0.1 * scans + 0.2);
-  Generations generations(folder.path(), journey.monitor);
+  app::Generations generations(folder.path(), journey.monitor);
   Vector6 before;
   {
     Robot robot(journey.config, journey.workers, journey.workers, journey.monitor);
@@ -122,7 +122,7 @@ TEST_P(Resumed, TheTrajectoryGoesOn) {
   }
   journey.miss(12);  // dead: 0.2 s at full speed, then braking, then at rest
 
-  const auto saved = Generations(folder.path(), journey.monitor).load(Time{});
+  const auto saved = app::Generations(folder.path(), journey.monitor).load(Time{});
   ASSERT_TRUE(saved);
   Robot robot(journey.config, journey.workers, journey.workers, journey.monitor, resume(*saved));
   journey.step(robot);
@@ -155,8 +155,8 @@ TEST_P(CarriedAway, TheMapBeginsAnew) {
   std::unique_ptr<Robot> robot =
       std::make_unique<Robot>(journey.config, journey.workers, journey.workers, journey.monitor);
   for (int i = 0; i < scans; ++i) journey.step(*robot);
-  const Generation saved{state_of(journey), std::make_unique<SemanticOcTree>(robot->map()), journey.last.stamp, 0,
-                         journey.saved_scans().scans};
+  const app::Generation saved{state_of(journey), std::make_unique<mapping::SemanticOcTree>(robot->map()),
+                              journey.last.stamp, 0, journey.saved_scans().scans};
   journey.miss(60);
   Robot again(journey.config, journey.workers, journey.workers, journey.monitor, resume(saved));
   const Scan first = journey.next();
@@ -165,7 +165,7 @@ TEST_P(CarriedAway, TheMapBeginsAnew) {
   EXPECT_EQ(journey.last.T_odom_base.mean.log().norm(), 0);
   Robot stranger(journey.config, journey.workers, journey.workers, journey.monitor);
   journey.step(stranger, first);
-  EXPECT_EQ(differing_nodes(again.map(), stranger.map()), 0U);
+  EXPECT_EQ(mapping::differing_nodes(again.map(), stranger.map()), 0U);
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, CarriedAway,

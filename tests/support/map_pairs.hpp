@@ -17,7 +17,7 @@ namespace cairn::support {
 /// Two maps of one place and where b's frame lies in a's.
 struct MapPair {
   std::string name;
-  std::shared_ptr<const SemanticOcTree> a, b;
+  std::shared_ptr<const mapping::SemanticOcTree> a, b;
   SE3 T_a_b;
 };
 
@@ -35,17 +35,18 @@ inline SE3 pose_on(const Ride& ride, double phi) {
 }
 
 /// The map of a robot that stops along a stretch and takes a scan each time; poses are exact, ranges have 2 cm noise.
-inline std::unique_ptr<SemanticOcTree> stretch_map(const Scene& scene, const Stretch& stretch, const SE3& T_map_world,
-                                                   unsigned seed, double resolution_m, double range_m) {
+inline std::unique_ptr<mapping::SemanticOcTree> stretch_map(const Scene& scene, const Stretch& stretch,
+                                                            const SE3& T_map_world, unsigned seed, double resolution_m,
+                                                            double range_m) {
   Vector6 mount;
   mount << 0.2, 0, 0.6, 0, 0, 0;
   const SE3 T_base_lidar = SE3::from_xyz_rpy(mount);
   Vlp16 lidar(T_base_lidar, 0.02, seed);
   Workers workers(1);
-  MappingConfig config;
+  mapping::MappingConfig config;
   config.resolution_m = resolution_m;
   config.max_range_m = range_m;
-  Mapper mapper(config, workers);
+  mapping::Mapper mapper(config, workers);
   for (int i = 0; i < stretch.scans; ++i) {
     const SE3 at = pose_on(scene.ride, stretch.from + (stretch.to - stretch.from) * i / stretch.scans);
     const Scan scan = lidar.scan(
@@ -55,7 +56,7 @@ inline std::unique_ptr<SemanticOcTree> stretch_map(const Scene& scene, const Str
     for (const Eigen::Vector3f& p : scan.cloud.xyz) points.emplace_back((T_map_lidar * p.cast<double>()).cast<float>());
     (void)mapper.insert(points, T_map_lidar.translation().cast<float>());
   }
-  auto map = std::make_unique<SemanticOcTree>(mapper.tree());
+  auto map = std::make_unique<mapping::SemanticOcTree>(mapper.tree());
   map->canonicalise();
   return map;
 }

@@ -6,8 +6,8 @@
 namespace cairn::support {
 
 /// A robot in trouble, for tests of the live view.
-inline LiveView sample_view() {
-  LiveView v;
+inline app::LiveView sample_view() {
+  app::LiveView v;
   v.robot = "husky";
   v.t_s = 83.4;
   v.mode = "degraded";

@@ -88,9 +88,9 @@ class EStopRig {
     link_ = drive::SocketCanLink::open(can, SourceId{0}, clock).value();
     peer_ = drive::SocketCanLink::open(can, SourceId{1}, clock).value();
     lines_ = gpio::open_lines(gpio_, SourceId{2}, clock).value();
-    Fitted fitted;
-    fitted.drive = fitted.estop = fitted.watched[static_cast<std::size_t>(Watched::kFeedback)] = true;
-    safety.emplace(FailsafeConfig{}, fitted);
+    safety::Fitted fitted;
+    fitted.drive = fitted.estop = fitted.watched[static_cast<std::size_t>(safety::Watched::kFeedback)] = true;
+    safety.emplace(safety::FailsafeConfig{}, fitted);
     edges.reserve(1000);
     safety->watch_estop(gpio_, *lines_, SourceId{2}, lines_.get(), [this](const Packet& p) { note(p); });
     (void)drive_.attach(drive::test::two_nodes(), *link_, SourceId{0}, link_.get(), {});
@@ -119,11 +119,11 @@ class EStopRig {
   };
   [[nodiscard]] const scheduler::ScheduledTask& safety_schedule() const { return graph_.scheduled(*safety); }
   [[nodiscard]] const scheduler::ScheduledTask& drive_schedule() const { return graph_.scheduled(drive_); }
-  [[nodiscard]] const DriveTask& drive() const { return drive_; }
+  [[nodiscard]] const app::DriveTask& drive() const { return drive_; }
 
   LiveClock clock;
   std::vector<Edge> edges;  ///< after the run
-  std::optional<SafetyTask> safety;
+  std::optional<app::SafetyTask> safety;
   std::optional<FarEnd> far_end;
 
  private:
@@ -134,11 +134,11 @@ class EStopRig {
 
   std::string world_;
   gpio::Config gpio_;
-  ScheduleProfile schedule_;
+  app::ScheduleProfile schedule_;
   scheduler::TaskGraph graph_;
   std::unique_ptr<drive::SocketCanLink> link_, peer_;
   std::unique_ptr<gpio::GpioLines> lines_;
-  DriveTask drive_;
+  app::DriveTask drive_;
 };
 
 }  // namespace cairn::vm

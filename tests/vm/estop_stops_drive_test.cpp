@@ -32,11 +32,11 @@ class Operator {
     const bool driving = speed > 3000, standing = speed < 10;  // 0.5 m/s: 3.1 rad/s
     switch (doing_) {
       case kAsking:
-        if (driving && mode_ == Mode::kNormal) return press(), false;
-        if (mode_ == Mode::kStop && now > asked_ + 200ms) rig_.safety->request_rearm(epoch_), asked_ = now;
+        if (driving && mode_ == safety::Mode::kNormal) return press(), false;
+        if (mode_ == safety::Mode::kStop && now > asked_ + 200ms) rig_.safety->request_rearm(epoch_), asked_ = now;
         break;
       case kPressing:
-        if (standing && mode_ == Mode::kStop) release(now);
+        if (standing && mode_ == safety::Mode::kStop) release(now);
         break;
       case kReleased:
         moved_by_itself = moved_by_itself || !standing;
@@ -61,7 +61,7 @@ class Operator {
     become(kPressing);
   }
   void release(Time) {
-    causes_right += cause_ == Fault::kEStopOpen ? 1 : 0;
+    causes_right += cause_ == safety::Fault::kEStopOpen ? 1 : 0;
     rig_.pull(true);
     become(kReleased);
   }
@@ -76,8 +76,8 @@ class Operator {
   EStopRig& rig_;
   Doing doing_ = kAsking;
   Time changed_ = rig_.clock.now(), asked_{};
-  Mode mode_ = Mode::kStop;
-  std::optional<Fault> cause_;
+  safety::Mode mode_ = safety::Mode::kStop;
+  std::optional<safety::Fault> cause_;
   std::uint32_t epoch_ = 0;
 };
 

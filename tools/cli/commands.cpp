@@ -19,7 +19,7 @@
 
 namespace cairn::cli {
 
-void add_tool_commands(Commands& commands) {
+void add_tool_commands(app::Commands& commands) {
   add_record_command(commands);
   add_send_command(commands);
 #ifdef CAIRN_HAS_SIMULATOR  // it needs Embree, which Debian has for x86-64 only

@@ -6,6 +6,6 @@
 namespace cairn::cli {
 
 /// Every command but `run`, which belongs to the onboard program.
-void add_tool_commands(Commands& commands);
+void add_tool_commands(app::Commands& commands);
 
 }  // namespace cairn::cli

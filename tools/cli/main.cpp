@@ -10,8 +10,8 @@ int main(int argc, char** argv) {
   app.set_version_flag("--version", CAIRN_VERSION);
   app.require_subcommand(1);
 
-  cairn::cli::Commands commands{app, {}};
-  cairn::cli::add_run_command(commands);
+  cairn::app::Commands commands{app, {}};
+  cairn::app::add_run_command(commands);
   cairn::cli::add_tool_commands(commands);
-  return cairn::cli::run_program(commands, argc, argv);
+  return cairn::app::run_program(commands, argc, argv);
 }

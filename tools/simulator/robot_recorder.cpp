@@ -99,7 +99,7 @@ class RobotRecorder {
     if (auto closed = writer->close(); !closed) return closed.error();
     if (auto written = truth_.write(run_.trajectory); !written) return written.error();
     if (index_.sources.size() > 1 || config_.flies()) {
-      const std::string profile = to_yaml(simulated_profile(config_));
+      const std::string profile = app::to_yaml(simulated_profile(config_));
       if (auto written = write_file_atomic(dir_ / "robot.yaml", profile); !written) return written.error();
     }
     if (progress_) progress_(1.0);

@@ -14,8 +14,8 @@ void set_size(camera::CaptureConfig& capture, int width, int height, double rate
 
 }  // namespace
 
-RobotProfile simulated_profile(const SimulationConfig& config) {
-  RobotProfile profile;
+app::RobotProfile simulated_profile(const SimulationConfig& config) {
+  app::RobotProfile profile;
   profile.name = config.profile;
   profile.lidar.enabled = config.sensors.lidar;
   profile.lidar.base_xyz_rpy = numbers(config.lidar.base_sensor_xyz_rpy);

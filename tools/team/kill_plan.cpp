@@ -5,7 +5,7 @@
 #include <random>
 #include <tuple>
 
-namespace cairn::team {
+namespace cairn::team_run {
 
 std::vector<Kill> plan_kills(std::uint64_t seed, Index robots, std::size_t times, Duration span) {
   std::mt19937_64 random(seed);
@@ -21,4 +21,4 @@ std::vector<Kill> plan_kills(std::uint64_t seed, Index robots, std::size_t times
   return plan;
 }
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

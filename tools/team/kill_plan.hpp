@@ -7,7 +7,7 @@
 #include "hal/time.hpp"
 #include "tools/team/network/radio.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 
 struct Kill {
   Duration after{};  ///< of the run's start
@@ -18,4 +18,4 @@ struct Kill {
 /// kill somewhere in each. Kills are in order of time. The same seed gives the same plan.
 [[nodiscard]] std::vector<Kill> plan_kills(std::uint64_t seed, Index robots, std::size_t times, Duration span);
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 /// In the new process. Only what may be called between fork() and exec().
@@ -88,4 +88,4 @@ void Process::kill() {
   code_ = code_of(status);
 }
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

@@ -11,7 +11,7 @@
 
 #include "hal/result.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 
 struct Command {
   std::vector<std::string> words;  ///< the program's path first
@@ -48,4 +48,4 @@ class Process {
   std::optional<int> code_;
 };
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

@@ -20,7 +20,7 @@
 #include "tools/team/supervisor.hpp"
 #include "tools/team/team_report.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -47,14 +47,15 @@ Result<void> make_folder(const fs::path& folder) {
 
 /// Writes each robot's profile into its folder.
 Result<void> write_profiles(const TeamOptions& options, const Plan& plan) {
-  auto profile = load_profile(options.config);
+  auto profile = app::load_profile(options.config);
   if (!profile) return profile.error();
   if (options.resolution_m > 0) profile->mapping.resolution_m = options.resolution_m;
   for (Index i = 0; i < plan.recordings.size(); ++i) {
     profile->name = plan.recordings[i].name;
     profile->team.id = static_cast<int>(i) + 1;
     profile->team.socket = kCoreSocket;
-    if (auto written = write_file_atomic(plan.folders[i] / "profile.yaml", to_yaml(*profile)); !written) return written;
+    if (auto written = write_file_atomic(plan.folders[i] / "profile.yaml", app::to_yaml(*profile)); !written)
+      return written;
   }
   return {};
 }
@@ -150,7 +151,7 @@ Result<void> save_picture(const std::vector<RobotResult>& robots, const fs::path
 Result<TeamOutcome> compare(const TeamOptions& options, const Plan& plan, const Network& network, const TeamEnd& end) {
   const auto robots = collect(plan);
   if (!robots) return robots.error();
-  const auto world = load_map(plan.recordings.front().folder / "world.ot");
+  const auto world = mapping::load_map(plan.recordings.front().folder / "world.ot");
   const TeamFigures figures = compare_team(*robots, world ? world->get() : nullptr);
   const TeamReport report{plan.recordings, network, end, figures};
   TeamOutcome outcome{to_text(to_json(report)), to_table(report), figures.sound()};
@@ -173,4 +174,4 @@ Result<TeamOutcome> run_team(const TeamOptions& options) {
   return compare(options, *plan, **network, *end);
 }
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

@@ -10,7 +10,7 @@
 #include "hal/result.hpp"
 #include "tools/team/network/link_config.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 
 struct TeamOptions {
   std::vector<std::filesystem::path> recordings;
@@ -38,4 +38,4 @@ struct TeamOutcome {
 /// robot failed or the run was ended early; the error names the log.
 Result<TeamOutcome> run_team(const TeamOptions& options);
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

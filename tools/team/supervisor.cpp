@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 class Supervisor {
@@ -144,4 +144,4 @@ Result<TeamEnd> supervise(const Supervision& supervision, Network& network, cons
   return Supervisor(supervision, network, clock).run();
 }
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

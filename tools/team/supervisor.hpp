@@ -12,7 +12,7 @@
 #include "tools/team/network/network.hpp"
 #include "tools/team/process.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 
 /// A robot's two processes, to be started: its core, and its peer process.
 struct RobotProcesses {
@@ -48,4 +48,4 @@ struct TeamEnd {
 /// left to compare. Errors: kIo (a process cannot be started).
 Result<TeamEnd> supervise(const Supervision& supervision, Network& network, const Clock& clock);
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

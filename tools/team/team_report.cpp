@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 using Json = nlohmann::ordered_json;
@@ -114,4 +114,4 @@ std::string to_table(const TeamReport& report) {
   return text;
 }
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

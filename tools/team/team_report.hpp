@@ -10,7 +10,7 @@
 #include "tools/team/network/network.hpp"
 #include "tools/team/supervisor.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 
 /// All that is known about a run of a team. The robots have the same order everywhere.
 struct TeamReport {
@@ -25,4 +25,4 @@ struct TeamReport {
 /// The same as a table for people.
 [[nodiscard]] std::string to_table(const TeamReport& report);
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

@@ -29,17 +29,17 @@ double weighted_log(double p) { return p > 0 ? -p * std::log2(p) : 0; }
 
 }  // namespace
 
-MapFeatures::MapFeatures(const SemanticOcTree& map, int voxels_per_fine_cell, int min_normal_voxels)
+MapFeatures::MapFeatures(const mapping::SemanticOcTree& map, int voxels_per_fine_cell, int min_normal_voxels)
     : map_(&map),
       fine_grid_(voxels_per_fine_cell, static_cast<float>(map.getResolution()), min_normal_voxels),
       coarse_grid_(2 * voxels_per_fine_cell, static_cast<float>(map.getResolution()), min_normal_voxels) {}
 
-Result<MapFeatures> MapFeatures::build(const SemanticOcTree& map, const FeatureConfig& config) {
+Result<MapFeatures> MapFeatures::build(const mapping::SemanticOcTree& map, const FeatureConfig& config) {
   const auto voxels = occupied_voxels(map);
   if (!voxels) return voxels.error();
   MapFeatures features(map, voxels_per_fine_cell(config.fine_cell_m, map.getResolution()), config.min_normal_voxels);
   for (auto from = voxels->begin(); from != voxels->end();) {
-    const TileKey tile = tile_of(*from);
+    const mapping::TileKey tile = tile_of(*from);
     const auto to = std::find_if(from, voxels->end(), [&](const Voxel& v) { return tile_of(v) != tile; });
     features.replace(tile, {from, to});
     from = to;
@@ -48,12 +48,12 @@ Result<MapFeatures> MapFeatures::build(const SemanticOcTree& map, const FeatureC
   return features;
 }
 
-void MapFeatures::update(std::span<const TileKey> changed) {
-  for (const TileKey tile : changed) replace(tile, occupied_voxels(*map_, tile));
+void MapFeatures::update(std::span<const mapping::TileKey> changed) {
+  for (const mapping::TileKey tile : changed) replace(tile, occupied_voxels(*map_, tile));
   finish();
 }
 
-void MapFeatures::replace(TileKey tile, std::span<const Voxel> voxels) {
+void MapFeatures::replace(mapping::TileKey tile, std::span<const Voxel> voxels) {
   fine_grid_.replace_tile(tile, voxels);
   coarse_grid_.replace_tile(tile, voxels);
 }

@@ -26,13 +26,13 @@ class MapFeatures {
  public:
   /// Reads the whole map. The map must outlive the features, and nobody may edit it while they are
   /// used. Errors: kLimit for a map of more than kMaxVoxels occupied voxels.
-  static Result<MapFeatures> build(const SemanticOcTree& map, const FeatureConfig& config = {});
-  static Result<MapFeatures> build(SemanticOcTree&&, const FeatureConfig& = {}) = delete;
+  static Result<MapFeatures> build(const mapping::SemanticOcTree& map, const FeatureConfig& config = {});
+  static Result<MapFeatures> build(mapping::SemanticOcTree&&, const FeatureConfig& = {}) = delete;
 
   /// Reads the changed tiles again (see Mapper::take_changed_tiles()). The result equals build()'s.
-  void update(std::span<const TileKey> changed);
+  void update(std::span<const mapping::TileKey> changed);
 
-  [[nodiscard]] const SemanticOcTree& map() const { return *map_; }
+  [[nodiscard]] const mapping::SemanticOcTree& map() const { return *map_; }
   [[nodiscard]] double resolution() const { return map_->getResolution(); }
   [[nodiscard]] float fine_m() const { return fine_grid_.cell_m(); }
   [[nodiscard]] float coarse_m() const { return coarse_grid_.cell_m(); }
@@ -41,11 +41,11 @@ class MapFeatures {
   [[nodiscard]] std::span<const Surfel> coarse() const { return coarse_; }
 
  private:
-  MapFeatures(const SemanticOcTree& map, int voxels_per_fine_cell, int min_normal_voxels);
-  void replace(TileKey tile, std::span<const Voxel> voxels);
+  MapFeatures(const mapping::SemanticOcTree& map, int voxels_per_fine_cell, int min_normal_voxels);
+  void replace(mapping::TileKey tile, std::span<const Voxel> voxels);
   void finish();
 
-  const SemanticOcTree* map_;
+  const mapping::SemanticOcTree* map_;
   SurfelGrid fine_grid_, coarse_grid_;
   std::vector<Surfel> fine_, coarse_;
 };

@@ -12,7 +12,7 @@ float probability(float log_odds) { return 1.0F - 1.0F / (1.0F + std::exp(log_od
 
 /// A node, its lowest voxel key and the edge of its cube in voxels.
 struct Cube {
-  const SemanticNode* node;
+  const mapping::SemanticNode* node;
   Eigen::Vector3i first;
   int edge;
 
@@ -27,7 +27,7 @@ struct Cube {
 
 class Collector {
  public:
-  Collector(const SemanticOcTree& map, std::size_t max_voxels)
+  Collector(const mapping::SemanticOcTree& map, std::size_t max_voxels)
       : resolution_(static_cast<float>(map.getResolution())),
         threshold_(map.getOccupancyThresLog()),
         max_voxels_(max_voxels) {}
@@ -38,9 +38,9 @@ class Collector {
     if (!cube.node->present() || cube.node->getLogOdds() < threshold_) return true;
     const bool leaf = cube.node->block() == nullptr;
     if (leaf && !fits(cube)) return false;
-    if (leaf && cube.edge <= 1 << TileKey::kVoxelBits) return add(cube), true;
+    if (leaf && cube.edge <= 1 << mapping::TileKey::kVoxelBits) return add(cube), true;
     // A leaf above tiles stands for each of them.
-    for (unsigned i = 0; i < SemanticNode::kChildren; ++i)
+    for (unsigned i = 0; i < mapping::SemanticNode::kChildren; ++i)
       if (!collect(leaf ? Cube{.node = cube.node, .first = cube.child_first(i), .edge = cube.edge / 2} : cube.child(i)))
         return false;
     return true;
@@ -70,13 +70,13 @@ class Collector {
   std::vector<Voxel> voxels_;
 };
 
-Cube root_of(const SemanticOcTree& map) {
+Cube root_of(const mapping::SemanticOcTree& map) {
   return {.node = map.getRoot(), .first = Eigen::Vector3i::Constant(-kKeyOrigin), .edge = 2 * kKeyOrigin};
 }
 
 }  // namespace
 
-Result<std::vector<Voxel>> occupied_voxels(const SemanticOcTree& map, std::size_t max_voxels) {
+Result<std::vector<Voxel>> occupied_voxels(const mapping::SemanticOcTree& map, std::size_t max_voxels) {
   if (map.getRoot() == nullptr) return std::vector<Voxel>{};
   Collector collector(map, max_voxels);
   if (!collector.collect(root_of(map)))
@@ -85,10 +85,10 @@ Result<std::vector<Voxel>> occupied_voxels(const SemanticOcTree& map, std::size_
   return std::move(collector.voxels());
 }
 
-std::vector<Voxel> occupied_voxels(const SemanticOcTree& map, TileKey tile) {
+std::vector<Voxel> occupied_voxels(const mapping::SemanticOcTree& map, mapping::TileKey tile) {
   if (map.getRoot() == nullptr) return {};
   Cube cube = root_of(map);
-  for (unsigned shift = 3 * (SemanticOcTree::kDepth - TileKey::kVoxelBits); shift > 0; shift -= 3) {
+  for (unsigned shift = 3 * (mapping::SemanticOcTree::kDepth - mapping::TileKey::kVoxelBits); shift > 0; shift -= 3) {
     const auto i = static_cast<unsigned>(tile.morton >> (shift - 3) & 7U);
     const bool leaf = cube.node->block() == nullptr;  // above the tile: it stands for the tile too
     cube = {.node = leaf ? cube.node : cube.node->block() + i, .first = cube.child_first(i), .edge = cube.edge / 2};
@@ -99,18 +99,18 @@ std::vector<Voxel> occupied_voxels(const SemanticOcTree& map, TileKey tile) {
   return std::move(collector.voxels());
 }
 
-TileKey tile_of(const Voxel& voxel) {
+mapping::TileKey tile_of(const Voxel& voxel) {
   const auto key = [](int k) { return static_cast<std::uint16_t>(k + kKeyOrigin); };
-  return TileKey::of_voxel(key(voxel.key.x()), key(voxel.key.y()), key(voxel.key.z()));
+  return mapping::TileKey::of_voxel(key(voxel.key.x()), key(voxel.key.y()), key(voxel.key.z()));
 }
 
-FreeSpace::FreeSpace(const SemanticOcTree& map)
+FreeSpace::FreeSpace(const mapping::SemanticOcTree& map)
     : root_(map.getRoot()),
       inverse_resolution_(static_cast<float>(1.0 / map.getResolution())),
       threshold_(map.getOccupancyThresLog()) {
   const double levels = std::round(std::log2(std::max(kMargin_voxels, kMargin_m / map.getResolution())));
-  margin_depth_ = SemanticOcTree::kDepth -
-                  static_cast<unsigned>(std::clamp(levels, 0.0, static_cast<double>(SemanticOcTree::kDepth)));
+  margin_depth_ = mapping::SemanticOcTree::kDepth -
+                  static_cast<unsigned>(std::clamp(levels, 0.0, static_cast<double>(mapping::SemanticOcTree::kDepth)));
 }
 
 bool FreeSpace::free_at(const Eigen::Vector3f& point, unsigned margin_depth) const {
@@ -119,10 +119,10 @@ bool FreeSpace::free_at(const Eigen::Vector3f& point, unsigned margin_depth) con
   if (root_ == nullptr || !(scaled.cwiseAbs().maxCoeff() < static_cast<float>(kKeyOrigin - 1)) || scaled.hasNaN())
     return false;
   const Eigen::Vector3i key = scaled.array().floor().cast<int>() + kKeyOrigin;
-  const SemanticNode* node = root_;
+  const mapping::SemanticNode* node = root_;
   for (unsigned depth = 0; node->block() != nullptr; ++depth) {
     if (depth == margin_depth && node->getLogOdds() >= threshold_) return false;
-    const auto bit = SemanticOcTree::kDepth - 1 - depth;
+    const auto bit = mapping::SemanticOcTree::kDepth - 1 - depth;
     node = node->block() + ((key.x() >> bit & 1) | (key.y() >> bit & 1) << 1 | (key.z() >> bit & 1) << 2);
     if (!node->present()) return false;
   }

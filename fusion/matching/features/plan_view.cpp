@@ -23,7 +23,7 @@ constexpr float kFar_m = 1e9F;  // beyond every map
 
 }  // namespace
 
-PlanView::PlanView(std::span<const Surfel> surfels, const SemanticOcTree& map) {
+PlanView::PlanView(std::span<const Surfel> surfels, const mapping::SemanticOcTree& map) {
   lay_out(surfels);
   std::vector<Walls> walls = walls_of(surfels);
   if (map.getRoot() != nullptr)
@@ -73,8 +73,8 @@ void PlanView::lay_out(std::span<const Surfel> surfels) {
 
 /// Adds the space that was observed free, in m³, to the columns in which it lies.
 // NOLINTNEXTLINE(misc-no-recursion): as deep as the tree
-void PlanView::add_room(const SemanticNode* node, const Eigen::Vector3i& first, int edge, const SemanticOcTree& map,
-                        std::vector<Walls>& walls) const {
+void PlanView::add_room(const mapping::SemanticNode* node, const Eigen::Vector3i& first, int edge,
+                        const mapping::SemanticOcTree& map, std::vector<Walls>& walls) const {
   if (!node->present()) return;
   if (node->block() != nullptr) {
     for (int i = 0; i < 8; ++i)

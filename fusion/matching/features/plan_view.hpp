@@ -35,7 +35,7 @@ class PlanView {
   };
 
   /// `surfels`: the fine ones, with facing_free_space() applied.
-  PlanView(std::span<const Surfel> surfels, const SemanticOcTree& map);
+  PlanView(std::span<const Surfel> surfels, const mapping::SemanticOcTree& map);
 
   /// The columns with walls or room, row by row.
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
@@ -58,8 +58,8 @@ class PlanView {
   };
   void lay_out(std::span<const Surfel> surfels);
   void stack_heights(std::span<const Surfel> surfels);
-  void add_room(const SemanticNode* node, const Eigen::Vector3i& first, int edge, const SemanticOcTree& map,
-                std::vector<Walls>& walls) const;
+  void add_room(const mapping::SemanticNode* node, const Eigen::Vector3i& first, int edge,
+                const mapping::SemanticOcTree& map, std::vector<Walls>& walls) const;
   [[nodiscard]] std::vector<Walls> walls_of(std::span<const Surfel> surfels) const;
   [[nodiscard]] Column column_of(const Walls& walls, int x, int y) const;
   void look_around(std::span<const Surfel> surfels);

@@ -7,7 +7,7 @@
 namespace cairn::matching {
 namespace {
 
-constexpr int kTile_voxels = 1 << TileKey::kVoxelBits;  // edge of a tile
+constexpr int kTile_voxels = 1 << mapping::TileKey::kVoxelBits;  // edge of a tile
 // Added to the spread's diagonal, in squared cells: keeps the eigenvalues of exact planes apart
 // from zero. Chosen by hand, not tuned.
 constexpr float kLeastSpread_cells2 = 1e-6F;
@@ -46,7 +46,7 @@ void SurfelGrid::make_stale(int i) {
   cell.stale = true;
 }
 
-void SurfelGrid::clear_tile(TileKey tile) {
+void SurfelGrid::clear_tile(mapping::TileKey tile) {
   Eigen::Vector3i first;
   for (unsigned axis = 0; axis < 3; ++axis)
     first[axis] = floor_div(static_cast<int>(tile.first_voxel(axis)) - kKeyOrigin, voxels_per_cell_);
@@ -61,7 +61,7 @@ void SurfelGrid::clear_tile(TileKey tile) {
       }
 }
 
-void SurfelGrid::replace_tile(TileKey tile, std::span<const Voxel> voxels) {
+void SurfelGrid::replace_tile(mapping::TileKey tile, std::span<const Voxel> voxels) {
   clear_tile(tile);
   for (const Voxel& v : voxels) {
     const Eigen::Vector3i key(floor_div(v.key.x(), voxels_per_cell_), floor_div(v.key.y(), voxels_per_cell_),

@@ -66,7 +66,7 @@ class SurfelGrid {
 
   [[nodiscard]] float cell_m() const { return cell_m_; }
   /// Sets the tile's occupied voxels, in depth-first order.
-  void replace_tile(TileKey tile, std::span<const Voxel> voxels);
+  void replace_tile(mapping::TileKey tile, std::span<const Voxel> voxels);
   /// Computes the surfels that the replaced tiles changed.
   void refresh();
   /// In order of cells: x, then y, then z. Valid after refresh().
@@ -91,7 +91,7 @@ class SurfelGrid {
     }
   };
   Cell& cell_at(const Eigen::Vector3i& cell);
-  void clear_tile(TileKey tile);
+  void clear_tile(mapping::TileKey tile);
   void put_in_order();
   void make_stale(int i);
   [[nodiscard]] Surfel fit(const Cell& cell) const;

@@ -29,7 +29,9 @@ struct ItemId {
 
   static constexpr unsigned kKeyBits = 39, kSubmapBits = 16;
 
-  static constexpr ItemId tile(std::uint16_t submap, TileKey tile) { return of(ItemKind::kTile, submap, tile.morton); }
+  static constexpr ItemId tile(std::uint16_t submap, mapping::TileKey tile) {
+    return of(ItemKind::kTile, submap, tile.morton);
+  }
   static constexpr ItemId submap(std::uint16_t submap) { return of(ItemKind::kSubmap, submap, 0); }
   static constexpr ItemId edge(std::uint16_t index) { return of(ItemKind::kEdge, index, 0); }
   static constexpr ItemId deployment() { return of(ItemKind::kDeployment, 0, 0); }
@@ -37,7 +39,7 @@ struct ItemId {
   [[nodiscard]] constexpr ItemKind kind() const { return static_cast<ItemKind>(code >> (kKeyBits + kSubmapBits)); }
   /// The submap; of an edge, its index.
   [[nodiscard]] constexpr std::uint16_t submap() const { return static_cast<std::uint16_t>(code >> kKeyBits); }
-  [[nodiscard]] constexpr TileKey tile() const { return {code & ((std::uint64_t{1} << kKeyBits) - 1)}; }
+  [[nodiscard]] constexpr mapping::TileKey tile() const { return {code & ((std::uint64_t{1} << kKeyBits) - 1)}; }
   /// Whether the functions above can have made it.
   [[nodiscard]] constexpr bool valid() const {
     return code >> (kKeyBits + kSubmapBits) <= 3 && (kind() == ItemKind::kTile || tile().morton == 0) &&

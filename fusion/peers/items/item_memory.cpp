@@ -12,12 +12,12 @@ namespace {
 
 constexpr std::size_t kBlockBytes = 128, kInnerBlocks = 8 + 1;  // see NodePool; the two levels above the voxels' blocks
 constexpr std::size_t kItemBytes = 192;                         // two nodes of a map, a block of the heap
-constexpr std::size_t kTileBytes = sizeof(TileState) + 192;     // likewise, a stamp, and which submap it is in
+constexpr std::size_t kTileBytes = sizeof(mapping::TileState) + 192;  // likewise, a stamp, and which submap it is in
 constexpr std::size_t kMaps = 2;
 
 /// One bit of each voxel's label.
-TileState::Plane label_bit(const TileState& state, unsigned bit) {
-  TileState::Plane plane{};
+mapping::TileState::Plane label_bit(const mapping::TileState& state, unsigned bit) {
+  mapping::TileState::Plane plane{};
   for (std::size_t i = 0; i < state.labels.size(); ++i)
     plane[i / 64] |= std::uint64_t{state.labels[i].code >> bit & 1U} << (i % 64);
   return plane;
@@ -34,15 +34,15 @@ std::uint64_t uneven(std::uint64_t lower, std::uint64_t upper) {
 
 }  // namespace
 
-std::size_t blocks_of(const TileState& state) {
-  std::vector<TileState::Plane> labels;
+std::size_t blocks_of(const mapping::TileState& state) {
+  std::vector<mapping::TileState::Plane> labels;
   for (unsigned bit = 0; bit < 7 && !state.labels.empty(); ++bit) labels.push_back(label_bit(state, bit));
   std::size_t cubes = 0;
-  for (std::size_t z = 0; z < TileState::kEdge; z += 2) {
+  for (std::size_t z = 0; z < mapping::TileState::kEdge; z += 2) {
     std::uint64_t differs = 0;
-    for (const TileState::Plane* plane : {&state.known, &state.occupied, &state.low, &state.high})
+    for (const mapping::TileState::Plane* plane : {&state.known, &state.occupied, &state.low, &state.high})
       differs |= uneven((*plane)[z], (*plane)[z + 1]);
-    for (const TileState::Plane& plane : labels) differs |= uneven(plane[z], plane[z + 1]);
+    for (const mapping::TileState::Plane& plane : labels) differs |= uneven(plane[z], plane[z + 1]);
     cubes += static_cast<std::size_t>(std::popcount(differs));
   }
   return cubes + kInnerBlocks;

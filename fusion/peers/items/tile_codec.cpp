@@ -21,11 +21,11 @@ bool is(const Plane& plane, std::uint64_t value) {
   return std::all_of(plane.begin(), plane.end(), [value](std::uint64_t slice) { return slice == value; });
 }
 bool uniform(const Plane& plane) { return (plane[0] == 0 || plane[0] == kAll) && is(plane, plane[0]); }
-bool uniform(const TileState& s) {
+bool uniform(const mapping::TileState& s) {
   return s.labels.empty() && is(s.known, kAll) && uniform(s.occupied) && uniform(s.low) && uniform(s.high);
 }
 
-Plane weak(const TileState& s) {
+Plane weak(const mapping::TileState& s) {
   Plane plane{};
   for (unsigned z = 0; z < kEdge; ++z) plane[z] = s.low[z] & ~s.occupied[z];
   return plane;
@@ -40,7 +40,7 @@ Plane from_slice_changes(Plane changes) {
   return changes;
 }
 
-void put_grades(std::vector<std::byte>& out, const TileState& s) {
+void put_grades(std::vector<std::byte>& out, const mapping::TileState& s) {
   unsigned bits = 0, filled = 0;
   for (unsigned z = 0; z < kEdge; ++z)
     for (std::uint64_t left = s.occupied[z]; left != 0; left &= left - 1) {
@@ -55,7 +55,7 @@ void put_grades(std::vector<std::byte>& out, const TileState& s) {
   if (filled != 0) put(out, static_cast<std::uint8_t>(bits));
 }
 
-bool read_grades(ByteReader& in, TileState& s) {
+bool read_grades(ByteReader& in, mapping::TileState& s) {
   unsigned bits = 0, left_over = 0;
   for (unsigned z = 0; z < kEdge; ++z)
     for (std::uint64_t left = s.occupied[z]; left != 0; left &= left - 1) {
@@ -74,8 +74,8 @@ bool read_grades(ByteReader& in, TileState& s) {
   return bits == 0;
 }
 
-TileState uniform_tile(std::uint8_t byte) {
-  TileState s;
+mapping::TileState uniform_tile(std::uint8_t byte) {
+  mapping::TileState s;
   s.known.fill(kAll);
   if ((byte & kUniformOccupied) != 0) s.occupied.fill(kAll);
   if ((byte & 1U) != 0) s.low.fill(kAll);
@@ -83,17 +83,17 @@ TileState uniform_tile(std::uint8_t byte) {
   return s;
 }
 
-std::uint8_t uniform_byte(const TileState& s) {
+std::uint8_t uniform_byte(const mapping::TileState& s) {
   return static_cast<std::uint8_t>(kUniform | (s.occupied[0] & kUniformOccupied) | (s.high[0] & 2U) | (s.low[0] & 1U));
 }
 
-std::uint8_t what_follows(const TileState& s) {
+std::uint8_t what_follows(const mapping::TileState& s) {
   return static_cast<std::uint8_t>((is(s.known, kAll) ? 0U : kSomeUnknown) | (s.any_occupied() ? kSomeOccupied : 0U) |
                                    (is(weak(s), 0) ? 0U : kSomeWeak) | (s.labels.empty() ? 0U : kSomeLabels));
 }
 
 /// The planes and grades that `flags` announce.
-bool read_mixed(ByteReader& in, std::uint8_t flags, TileState& s) {
+bool read_mixed(ByteReader& in, std::uint8_t flags, mapping::TileState& s) {
   s.known.fill(kAll);
   if ((flags & kSomeUnknown) != 0) {
     const auto plane = read_plane(in);
@@ -107,7 +107,7 @@ bool read_mixed(ByteReader& in, std::uint8_t flags, TileState& s) {
   }
   if ((flags & kSomeWeak) != 0) {
     const auto plane = read_plane(in);
-    if (!plane || !TileState{s.known, *plane, {}, {}, {}}.valid()) return false;
+    if (!plane || !mapping::TileState{s.known, *plane, {}, {}, {}}.valid()) return false;
     for (unsigned z = 0; z < kEdge; ++z)
       if (((*plane)[z] & s.occupied[z]) != 0) return false;
     s.low = *plane;
@@ -119,7 +119,7 @@ bool read_mixed(ByteReader& in, std::uint8_t flags, TileState& s) {
 
 }  // namespace
 
-void encode_tile(const TileState& state, std::vector<std::byte>& out) {
+void encode_tile(const mapping::TileState& state, std::vector<std::byte>& out) {
   if (uniform(state)) return put(out, uniform_byte(state));
   const std::uint8_t flags = what_follows(state);
   put(out, flags);
@@ -142,7 +142,7 @@ bool has_occupied(std::span<const std::byte> bytes) {
   return (flags & ((flags & kUniform) != 0 ? kUniformOccupied : kSomeOccupied)) != 0;
 }
 
-Result<TileState> decode_tile(std::span<const std::byte> bytes) {
+Result<mapping::TileState> decode_tile(std::span<const std::byte> bytes) {
   ByteReader in(bytes);
   const auto flags = in.read<std::uint8_t>();
   if (!flags) return Error{Errc::kTruncated, "a tile of no bytes"};
@@ -150,7 +150,7 @@ Result<TileState> decode_tile(std::span<const std::byte> bytes) {
     if (!is_uniform_tile(bytes)) return Error{Errc::kMalformed, "no such uniform tile"};
     return uniform_tile(*flags);
   }
-  TileState state;
+  mapping::TileState state;
   if ((*flags & ~kBits) != 0 || !read_mixed(in, *flags, state) || in.remaining() != 0 || uniform(state) ||
       what_follows(state) != *flags)
     return Error{Errc::kMalformed, "not an encoded tile", {}, in.offset()};

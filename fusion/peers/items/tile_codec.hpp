@@ -27,10 +27,10 @@ inline constexpr std::size_t kMaxTileBytes = 1 + 3 * (1 + 8 + 64) + 512 * 2 / 8 
 /// A plane is sent as its differences from the row below (y − 1). The plane of known voxels is sent as the differences
 /// of these from the slice below (z − 1). One byte tells which slices have such rows, one byte for each of these slices
 /// which rows, and one byte for each of these rows which voxels.
-void encode_tile(const TileState& state, std::vector<std::byte>& out);
+void encode_tile(const mapping::TileState& state, std::vector<std::byte>& out);
 
 /// Decodes exactly what encode_tile() can have written, all of `bytes`. Errors: kTruncated, kMalformed.
-[[nodiscard]] Result<TileState> decode_tile(std::span<const std::byte> bytes);
+[[nodiscard]] Result<mapping::TileState> decode_tile(std::span<const std::byte> bytes);
 
 /// Whether some voxel is occupied. The bytes are some that decode_tile() takes.
 [[nodiscard]] bool has_occupied(std::span<const std::byte> bytes);

@@ -53,13 +53,13 @@ class BitReader {
 
 unsigned bits_for(std::size_t labels) { return static_cast<unsigned>(std::bit_width(labels - 1)); }
 
-std::optional<std::vector<VoxelLabel>> read_palette(ByteReader& in) {
+std::optional<std::vector<mapping::VoxelLabel>> read_palette(ByteReader& in) {
   const auto count = in.read<std::uint8_t>();
-  if (!count || *count == 0 || *count > TileState::kMostLabels) return std::nullopt;
-  std::vector<VoxelLabel> palette;
+  if (!count || *count == 0 || *count > mapping::TileState::kMostLabels) return std::nullopt;
+  std::vector<mapping::VoxelLabel> palette;
   for (unsigned i = 0; i < *count; ++i) {
     const auto code = in.read<std::uint8_t>();
-    if (!code || *code == 0 || *code > VoxelLabel::kCodes) return std::nullopt;
+    if (!code || *code == 0 || *code > mapping::VoxelLabel::kCodes) return std::nullopt;
     if (!palette.empty() && *code <= palette.back().code) return std::nullopt;
     palette.push_back({*code});
   }
@@ -68,8 +68,8 @@ std::optional<std::vector<VoxelLabel>> read_palette(ByteReader& in) {
 
 }  // namespace
 
-void put_labels(std::vector<std::byte>& out, const TileState& state) {
-  std::set<VoxelLabel> palette;
+void put_labels(std::vector<std::byte>& out, const mapping::TileState& state) {
+  std::set<mapping::VoxelLabel> palette;
   Plane labelled{};
   for (std::size_t i = 0; i < state.labels.size(); ++i) {
     if (!state.labels[i].any()) continue;
@@ -78,16 +78,16 @@ void put_labels(std::vector<std::byte>& out, const TileState& state) {
   }
   put_plane(out, row_changes(labelled));
   put(out, static_cast<std::uint8_t>(palette.size()));
-  for (const VoxelLabel label : palette) put(out, label.code);
+  for (const mapping::VoxelLabel label : palette) put(out, label.code);
   BitWriter indices(out);
-  for (const VoxelLabel label : state.labels)
+  for (const mapping::VoxelLabel label : state.labels)
     if (label.any())
       indices.write(static_cast<unsigned>(std::distance(palette.begin(), palette.find(label))),
                     bits_for(palette.size()));
   indices.finish();
 }
 
-bool read_labels(ByteReader& in, TileState& state) {
+bool read_labels(ByteReader& in, mapping::TileState& state) {
   const auto changes = read_plane(in);
   const auto palette = changes ? read_palette(in) : std::nullopt;
   if (!palette) return false;

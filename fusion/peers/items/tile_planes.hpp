@@ -12,8 +12,8 @@
 // Bits of a tile's voxels as encode_tile() writes them.
 namespace cairn::peers {
 
-using Plane = TileState::Plane;
-inline constexpr unsigned kEdge = TileState::kEdge;
+using Plane = mapping::TileState::Plane;
+inline constexpr unsigned kEdge = mapping::TileState::kEdge;
 
 /// The differences from the row below, in each slice; and back.
 inline Plane row_changes(Plane plane) {

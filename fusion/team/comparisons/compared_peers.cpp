@@ -3,7 +3,7 @@
 
 #include "fusion/team/graph/indexed_edge.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 ComparedPeer& ComparedPeers::at(peers::RobotId peer, peers::Epoch own_epoch, peers::Epoch peer_epoch) {
   const auto [entry, added] = peers_.try_emplace(peer);
@@ -33,4 +33,4 @@ ComparedPeer* ComparedPeers::of(const MatchJob& job, peers::Epoch own_epoch) {
   return same && job.own_epoch == own_epoch ? &compared : nullptr;
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

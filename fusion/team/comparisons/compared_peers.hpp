@@ -13,7 +13,7 @@
 #include "fusion/team/comparisons/refinements.hpp"
 #include "hal/time.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// What was made of the likeliest place. Comparisons are worth their time as long as it changes.
 struct PlaceStanding {
@@ -56,4 +56,4 @@ class ComparedPeers {
   Refinements refinements_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -7,7 +7,7 @@
 
 #include "fusion/matching/belief/guess.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 using peers::RobotId;
@@ -85,4 +85,4 @@ std::string deployment_fault(const TeamView& team, const ComparedPeer* compared,
   return refuted ? "; the maps contradict the deployments of the two" : "";
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

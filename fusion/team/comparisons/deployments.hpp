@@ -15,7 +15,7 @@
 // Where robots say that they were put down. It is a guess for the comparison of their maps. If it is
 // exact, it also places the two until the maps themselves do. It may be wrong: the maps have the last
 // word.
-namespace cairn {
+namespace cairn::team {
 
 /// Where b's odom frame lies in a's by the deployments of both; nothing if one of them has none.
 [[nodiscard]] std::optional<UncertainPose> deployed_between(const peers::Layers& layers, peers::RobotId a,
@@ -33,4 +33,4 @@ namespace cairn {
 /// a semicolon. Empty if they do not, or if there are none.
 [[nodiscard]] std::string deployment_fault(const TeamView& team, const ComparedPeer* compared, peers::RobotId peer);
 
-}  // namespace cairn
+}  // namespace cairn::team

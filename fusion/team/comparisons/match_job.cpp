@@ -4,7 +4,7 @@
 #include "fusion/matching/belief/team_consistency.hpp"
 #include "fusion/matching/default_matcher.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 void refine(Refinement& refinement, const matching::MapFeatures& own, const matching::MapFeatures& other,
@@ -24,7 +24,7 @@ void refine(Refinement& refinement, const matching::MapFeatures& own, const matc
 }  // namespace
 
 void run(MatchJob& job, Budget& budget) {
-  const SemanticOcTree own_map = job.own.map(), other_map = job.other.map();  // features read them
+  const mapping::SemanticOcTree own_map = job.own.map(), other_map = job.other.map();  // features read them
   const auto own = matching::MapFeatures::build(own_map), other = matching::MapFeatures::build(other_map);
   job.ran = true;
   if (!own || !other) return;
@@ -34,4 +34,4 @@ void run(MatchJob& job, Budget& budget) {
     job.match->update(*own, *other, budget, job.guess);
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

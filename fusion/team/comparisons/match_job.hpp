@@ -11,7 +11,7 @@
 #include "hal/budget.hpp"
 #include "hal/se3.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// Two submaps to be compared. Their maps are in the submaps' own frames.
 struct Refinement {
@@ -35,4 +35,4 @@ struct MatchJob {
 /// Does the job. It takes seconds: run it where nothing waits for it.
 void run(MatchJob& job, Budget& budget);
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -6,23 +6,24 @@
 
 #include "fusion/team/comparisons/deployments.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
-constexpr double kLikely = 0.5;                                   // probability: the place is rather right than wrong
-constexpr std::size_t kSample = 128;                              // tiles of b: the share is right to a few percent
-constexpr int kEdge = 1 << TileKey::kVoxelBits, kMiddle = 32768;  // voxels: of a tile, from key 0 to the origin
+constexpr double kLikely = 0.5;       // probability: the place is rather right than wrong
+constexpr std::size_t kSample = 128;  // tiles of b: the share is right to a few percent
+constexpr int kEdge = 1 << mapping::TileKey::kVoxelBits,
+              kMiddle = 32768;  // voxels: of a tile, from key 0 to the origin
 
 /// The tile at a place of the map, which is in voxels from the origin. Beyond the map: its last tile.
-TileKey tile_at(const Eigen::Vector3d& voxels) {
+mapping::TileKey tile_at(const Eigen::Vector3d& voxels) {
   const auto key = [&](int axis) {
     return static_cast<std::uint16_t>(std::clamp(std::floor(voxels[axis]) + kMiddle, 0.0, 65535.0));
   };
-  return TileKey::of_voxel(key(0), key(1), key(2));
+  return mapping::TileKey::of_voxel(key(0), key(1), key(2));
 }
 
 /// The two grids are turned against each other, so a tile's walls may be in the next tile.
-bool meets(const std::set<TileKey>& tiles, const Eigen::Vector3d& voxels) {
+bool meets(const std::set<mapping::TileKey>& tiles, const Eigen::Vector3d& voxels) {
   if (tiles.contains(tile_at(voxels))) return true;
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {-kEdge / 2.0, kEdge / 2.0})
@@ -54,11 +55,11 @@ std::optional<SE3> likely_pose(const TeamView& team, peers::RobotId peer, const 
   return guess->mean;
 }
 
-std::size_t tiles_of_both(const std::set<TileKey>& a, const std::set<TileKey>& b, const SE3& T_a_b,
+std::size_t tiles_of_both(const std::set<mapping::TileKey>& a, const std::set<mapping::TileKey>& b, const SE3& T_a_b,
                           double resolution_m) {
   const std::size_t step = std::max<std::size_t>(1, (b.size() + kSample - 1) / kSample);
   std::size_t common = 0, i = 0;
-  for (const TileKey tile : b) {
+  for (const mapping::TileKey tile : b) {
     if (i++ % step != 0) continue;
     Eigen::Vector3d middle;
     for (unsigned axis = 0; axis < 3; ++axis) middle[axis] = tile.first_voxel(axis) - kMiddle + kEdge / 2.0;
@@ -67,4 +68,4 @@ std::size_t tiles_of_both(const std::set<TileKey>& a, const std::set<TileKey>& b
   return std::min(common, b.size());
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -11,7 +11,7 @@
 #include "hal/se3.hpp"
 #include "onboard/mapping/tree/map_tile.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// What is known of two maps before they are compared.
 struct MatchOutlook {
@@ -31,7 +31,7 @@ struct MatchOutlook {
                                              const matching::PendingHypotheses& places);
 
 /// About how many tiles of b meet tiles of a; T_a_b is where b lies in a. A sample, if b has many.
-[[nodiscard]] std::size_t tiles_of_both(const std::set<TileKey>& a, const std::set<TileKey>& b, const SE3& T_a_b,
-                                        double resolution_m);
+[[nodiscard]] std::size_t tiles_of_both(const std::set<mapping::TileKey>& a, const std::set<mapping::TileKey>& b,
+                                        const SE3& T_a_b, double resolution_m);
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -7,7 +7,7 @@
 #include "fusion/team/comparisons/deployments.hpp"
 #include "fusion/team/comparisons/match_outlook.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 using peers::RobotId;
@@ -96,4 +96,4 @@ std::optional<MatchJob> MatchPlan::of_submaps(const TeamView& team, ComparedPeer
   return std::nullopt;
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -10,7 +10,7 @@
 #include "fusion/team/comparisons/team_view.hpp"
 #include "hal/time.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// Which two maps are compared next. One comparison is out at a time.
 class MatchPlan {
@@ -33,4 +33,4 @@ class MatchPlan {
   bool out_ = false;
 };
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -6,7 +6,7 @@
 #include "fusion/team/comparisons/deployments.hpp"
 #include "fusion/team/comparisons/submap_edge.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 PlaceStanding likeliest_in(const matching::PendingHypotheses& places) {
@@ -57,4 +57,4 @@ std::optional<IndexedEdge> take_result(MatchJob job, const TeamView& team, Compa
   return whole_map_edge(job, team, *peer);
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

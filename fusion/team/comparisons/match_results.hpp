@@ -9,7 +9,7 @@
 #include "fusion/team/graph/indexed_edge.hpp"
 #include "hal/time.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// Takes in a job that has come back, run or not. Returns the edge to be published now, if any: where
 /// the peer is once that is sure, or that it is not sure any more. A job is void, and changes nothing,
@@ -17,4 +17,4 @@ namespace cairn {
 [[nodiscard]] std::optional<IndexedEdge> take_result(MatchJob job, const TeamView& team, ComparedPeers& compared,
                                                      Time now);
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 // Shares of the worth of a comparison that is sure to tell something new. Chosen by hand.
@@ -53,4 +53,4 @@ void MatchWorth::end(bool fruitful, Time now) {
   in_vain_ = fruitful ? 0 : in_vain_ + 1;
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -6,7 +6,7 @@
 #include "fusion/team/comparisons/match_outlook.hpp"
 #include "hal/time.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 struct MatchWorthConfig {
   Duration period = std::chrono::seconds(5);  ///< between two comparisons of one pair, at least
@@ -50,4 +50,4 @@ class MatchWorth {
   MatchOutlook then_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::team

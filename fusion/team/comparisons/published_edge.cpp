@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fusion/team/comparisons/published_edge.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 // An edge that moves by less is not worth a datagram: a tenth of a voxel, and as much at 7 m.
@@ -29,4 +29,4 @@ std::optional<IndexedEdge> PublishedEdge::update(const std::optional<peers::Edge
   return IndexedEdge{index_, *last_};
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

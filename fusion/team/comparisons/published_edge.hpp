@@ -7,7 +7,7 @@
 #include "fusion/peers/items/claim.hpp"
 #include "fusion/team/graph/indexed_edge.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// One edge that this robot publishes, and what was last published of it.
 class PublishedEdge {
@@ -27,4 +27,4 @@ class PublishedEdge {
   std::optional<peers::Edge> last_;  // that was published
 };
 
-}  // namespace cairn
+}  // namespace cairn::team

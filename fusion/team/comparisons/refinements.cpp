@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <vector>
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 constexpr std::size_t kLeastCommon = 25;  // tiles: two walls of a corridor, 10 m long, in voxels of 0.2 m
@@ -18,7 +18,7 @@ struct Ball {
 
 Ball around(const RobotTiles::Tiles& walls, const SE3& T_team_odom, double tile_m) {
   Eigen::AlignedBox3d box;
-  for (const TileKey tile : walls)
+  for (const mapping::TileKey tile : walls)
     box.extend(tile_m * Eigen::Vector3d(tile.first_voxel(0) / 8 - 4096, tile.first_voxel(1) / 8 - 4096,
                                         tile.first_voxel(2) / 8 - 4096));
   return {T_team_odom * box.center(), 0.5 * box.diagonal().norm() + 2 * tile_m};
@@ -100,4 +100,4 @@ void Refinements::forget(peers::RobotId peer) {
     if (pair.peer == peer) comparison = {0, PublishedEdge(comparison.edge.index())};
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

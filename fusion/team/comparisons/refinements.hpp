@@ -12,7 +12,7 @@
 #include "fusion/team/graph/team_graph.hpp"
 #include "fusion/team/tiles/robot_tiles.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// A submap of this robot and one of a peer that overlap.
 struct SubmapPair {
@@ -47,4 +47,4 @@ class Refinements {
   std::map<SubmapPair, Comparison> compared_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fusion/team/comparisons/submap_edge.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 /// Two submaps, and how much of them lies on each other.
@@ -46,4 +46,4 @@ peers::Edge submap_edge(const MatchJob& job, const UncertainPose& T_own_other, c
   return edge;
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -6,7 +6,7 @@
 #include "fusion/team/tiles/team_tiles.hpp"
 #include "onboard/mapping/tree/tile_voxels.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// What a robot knows of its team by now. Everything that decides by it takes one. It refers to what
 /// the robot holds, so it is valid during one call.
@@ -18,7 +18,7 @@ struct TeamView {
   double resolution_m;         ///< edge of a voxel, the same for all robots
 
   [[nodiscard]] peers::RobotId self() const { return exchange.self(); }
-  [[nodiscard]] double tile_m() const { return kTileEdge * resolution_m; }  ///< edge of a tile
+  [[nodiscard]] double tile_m() const { return mapping::kTileEdge * resolution_m; }  ///< edge of a tile
 };
 
-}  // namespace cairn
+}  // namespace cairn::team

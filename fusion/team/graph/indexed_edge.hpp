@@ -6,7 +6,7 @@
 
 #include "fusion/peers/items/claim.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// How a robot came by an edge. The upper two bits of the edge's index say it, so that all robots
 /// can tell. The values are part of the peers' format.
@@ -34,4 +34,4 @@ struct IndexedEdge {
   peers::Edge edge;
 };
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -3,7 +3,7 @@
 
 #include <tuple>
 
-namespace cairn {
+namespace cairn::team {
 bool before(const PairClaim& x, const PairClaim& y) {
   const auto key = [](const PairClaim& c) {
     const Vector6 T = c.T_a_b.mean.log();
@@ -31,4 +31,4 @@ UncertainPose motion(const SubmapChains& chains, peers::RobotId robot, std::size
   return way;
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

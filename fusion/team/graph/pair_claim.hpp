@@ -9,7 +9,7 @@
 #include "fusion/peers/items/item.hpp"
 #include "hal/se3.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// Somebody's finding where a submap of robot b lies in one of robot a's.
 struct PairClaim {
@@ -34,4 +34,4 @@ using SubmapChains = std::map<peers::RobotId, std::vector<UncertainPose>>;
 /// Where one submap of a robot lies in another, by its odometry alone.
 [[nodiscard]] UncertainPose motion(const SubmapChains& chains, peers::RobotId robot, std::size_t from, std::size_t to);
 
-}  // namespace cairn
+}  // namespace cairn::team

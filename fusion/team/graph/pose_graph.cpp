@@ -5,7 +5,7 @@
 #include <array>
 #include <utility>
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 using Sparse = Eigen::SparseMatrix<double>;
@@ -97,4 +97,4 @@ UncertainPose Marginals::between(std::size_t a, std::size_t b) const {
   return T_a_b;
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

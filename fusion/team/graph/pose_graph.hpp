@@ -9,7 +9,7 @@
 
 #include "hal/se3.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// What is known of where one node of a pose graph lies in another. Its covariance is positive definite.
 struct RelativePose {
@@ -39,4 +39,4 @@ class Marginals {
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> factors_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::team

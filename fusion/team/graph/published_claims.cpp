@@ -8,7 +8,7 @@
 #include "fusion/peers/own_submaps.hpp"
 #include "fusion/team/graph/indexed_edge.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 using peers::ItemId;
@@ -68,4 +68,4 @@ SubmapChains published_chains(const peers::Layers& layers) {
   return chains;
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -7,7 +7,7 @@
 #include "fusion/peers/exchange.hpp"
 #include "fusion/team/graph/pair_claim.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// Of one robot's edges of one origin, only the first so many count: each is weighed against all
 /// others, and a faulty robot may publish thousands.
@@ -24,4 +24,4 @@ inline constexpr std::size_t kMostClaimsPerOrigin = 256;
 /// is missing or has a singular covariance. A robot without a chain is not in the result.
 [[nodiscard]] SubmapChains published_chains(const peers::Layers& layers);
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -7,7 +7,7 @@
 
 #include "fusion/matching/belief/team_consistency.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 constexpr int kNear = 8;  // submaps; further apart, odometry explains anything
@@ -77,4 +77,4 @@ std::vector<bool> agreeing_refinements(std::span<const PairClaim> claims, const 
   return kept;
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

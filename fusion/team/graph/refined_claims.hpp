@@ -10,7 +10,7 @@
 #include "fusion/team/graph/pair_claim.hpp"
 #include "fusion/team/graph/pose_graph.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 using SubmapNodes = std::map<merging::SubmapKey, std::size_t>;  ///< of a pose graph
 
@@ -21,4 +21,4 @@ using SubmapNodes = std::map<merging::SubmapKey, std::size_t>;  ///< of a pose g
 [[nodiscard]] std::vector<bool> agreeing_refinements(std::span<const PairClaim> claims, const SubmapChains& chains,
                                                      const Marginals& without, const SubmapNodes& nodes);
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -11,7 +11,7 @@
 #include "fusion/matching/belief/team_consistency.hpp"
 #include "fusion/team/graph/refined_claims.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 using peers::RobotId;
@@ -219,4 +219,4 @@ TeamPoses team_poses(RobotId self, std::span<const PairClaim> claims, const Subm
   return team;
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

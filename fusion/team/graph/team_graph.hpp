@@ -15,7 +15,7 @@
 #include "fusion/team/graph/refined_claims.hpp"
 #include "hal/se3.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// Where the robots of a team lie, by what can be true of all claims together. T_team_odom has the robot
 /// that was asked for, and all robots that are connected with it.
@@ -50,4 +50,4 @@ struct TeamPoses {
 [[nodiscard]] TeamPoses team_poses(peers::RobotId self, std::span<const PairClaim> claims,
                                    const SubmapChains& chains = {});
 
-}  // namespace cairn
+}  // namespace cairn::team

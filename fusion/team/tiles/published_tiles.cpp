@@ -7,21 +7,21 @@
 #include "fusion/merging/team_map.hpp"
 #include "fusion/peers/items/tile_codec.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
-Result<TileState> state_of(const PublishedTiles& published, const PublishedTiles::Tile& tile) {
+Result<mapping::TileState> state_of(const PublishedTiles& published, const PublishedTiles::Tile& tile) {
   return peers::decode_tile(std::span(published.payloads).subspan(tile.begin, tile.bytes));
 }
 
-SemanticOcTree map_in_odom(const PublishedTiles& published) {
-  SemanticOcTree map(published.resolution_m);
+mapping::SemanticOcTree map_in_odom(const PublishedTiles& published) {
+  mapping::SemanticOcTree map(published.resolution_m);
   for (const PublishedTiles::Tile& tile : published.tiles)
-    if (const auto state = state_of(published, tile)) write_tile(map, tile.key, *state);
+    if (const auto state = state_of(published, tile)) mapping::write_tile(map, tile.key, *state);
   return map;
 }
 
-SemanticOcTree map_of_moved_submaps(const PublishedTiles& published) {
+mapping::SemanticOcTree map_of_moved_submaps(const PublishedTiles& published) {
   merging::TeamMap moved(published.resolution_m, merging::Policy::kRelativeEntropy);
   merging::SubmapPoses poses;
   for (const PublishedTiles::Tile& tile : published.tiles) {
@@ -54,8 +54,8 @@ SE3 PublishedTiles::T_map_odom_of(std::uint16_t submap) const {
   return found == T_map_odom.end() ? SE3() : found->second;
 }
 
-SemanticOcTree PublishedTiles::map() const {
+mapping::SemanticOcTree PublishedTiles::map() const {
   return T_map_odom.empty() ? map_in_odom(*this) : map_of_moved_submaps(*this);
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

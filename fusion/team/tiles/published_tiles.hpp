@@ -11,13 +11,13 @@
 #include "hal/se3.hpp"
 #include "onboard/mapping/tree/semantic_octree.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// A copy of a robot's tiles as they were published. It is small enough to be handed to another
 /// thread, which makes a map of it.
 struct PublishedTiles {
   struct Tile {
-    TileKey key;
+    mapping::TileKey key;
     std::uint16_t submap = 0;
     std::size_t begin = 0, bytes = 0;  ///< in `payloads`
   };
@@ -34,7 +34,7 @@ struct PublishedTiles {
 
   [[nodiscard]] SE3 T_map_odom_of(std::uint16_t submap) const;
   /// The map that the tiles make. Tiles that cannot be decoded are left out.
-  [[nodiscard]] SemanticOcTree map() const;
+  [[nodiscard]] mapping::SemanticOcTree map() const;
 };
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -10,15 +10,15 @@
 #include "hal/se3.hpp"
 #include "onboard/mapping/tree/map_tile.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// Which tiles a robot has said in which submap, and which of them hold something occupied.
 class RobotTiles {
  public:
-  using Tiles = std::set<TileKey>;
+  using Tiles = std::set<mapping::TileKey>;
 
   /// The submap that the tile was in until now, where that is another one.
-  std::optional<std::uint16_t> put(TileKey tile, std::uint16_t submap, bool occupied);
+  std::optional<std::uint16_t> put(mapping::TileKey tile, std::uint16_t submap, bool occupied);
 
   /// How many tiles hold something occupied.
   [[nodiscard]] std::size_t walls() const { return count_; }
@@ -27,7 +27,7 @@ class RobotTiles {
   [[nodiscard]] const std::map<std::uint16_t, Tiles>& walls_by_submap() const { return walls_; }
 
  private:
-  std::map<TileKey, std::uint16_t> submap_of_;
+  std::map<mapping::TileKey, std::uint16_t> submap_of_;
   std::map<std::uint16_t, Tiles> walls_;
   std::size_t count_ = 0;
 };
@@ -36,4 +36,4 @@ class RobotTiles {
 [[nodiscard]] std::size_t common_tiles(const RobotTiles::Tiles& a, const RobotTiles::Tiles& b, const SE3& T_b_a,
                                        double tile_m);
 
-}  // namespace cairn
+}  // namespace cairn::team

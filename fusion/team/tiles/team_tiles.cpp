@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fusion/team/tiles/team_tiles.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
-std::optional<std::uint16_t> TeamTiles::put(peers::RobotId robot, TileKey tile, std::uint16_t submap, bool occupied) {
+std::optional<std::uint16_t> TeamTiles::put(peers::RobotId robot, mapping::TileKey tile, std::uint16_t submap,
+                                            bool occupied) {
   ++versions_[robot];
   return tiles_[robot].put(tile, submap, occupied);
 }
@@ -19,4 +20,4 @@ std::uint64_t TeamTiles::version_of(peers::RobotId robot) const {
   return found == versions_.end() ? 0 : found->second;
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

@@ -9,14 +9,14 @@
 #include "fusion/peers/items/item.hpp"
 #include "fusion/team/tiles/robot_tiles.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// Which tiles each robot has published, in which of its submaps.
 class TeamTiles {
  public:
   /// A robot published a tile as part of a submap. `occupied`: the tile holds something occupied.
   /// Returns the submap that the tile was in before, if that is another one.
-  std::optional<std::uint16_t> put(peers::RobotId robot, TileKey tile, std::uint16_t submap, bool occupied);
+  std::optional<std::uint16_t> put(peers::RobotId robot, mapping::TileKey tile, std::uint16_t submap, bool occupied);
   /// The robot has begun anew: its tiles are void. Its version stays.
   void forget(peers::RobotId robot) { tiles_.erase(robot); }
 
@@ -32,4 +32,4 @@ class TeamTiles {
   std::map<peers::RobotId, std::uint64_t> versions_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::team

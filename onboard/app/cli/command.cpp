@@ -6,7 +6,7 @@
 
 #include "onboard/report/json/report_json.hpp"
 
-namespace cairn::cli {
+namespace cairn::app {
 
 int run_program(Commands& commands, int argc, char** argv) {
   try {
@@ -22,9 +22,9 @@ int fail(const Error& error) {
   return error.code == Errc::kInvalidConfig ? kWrongArguments : kFailed;
 }
 
-int print(const Json& object) {
-  std::cout << to_text(object);
+int print(const report::Json& object) {
+  std::cout << report::to_text(object);
   return kDone;
 }
 
-}  // namespace cairn::cli
+}  // namespace cairn::app

@@ -10,7 +10,7 @@ namespace CLI {
 class App;
 }
 
-namespace cairn::cli {
+namespace cairn::app {
 
 /// Exit codes that scripts rely on.
 inline constexpr int kDone = 0, kFailed = 1, kWrongArguments = 2;
@@ -36,4 +36,4 @@ int fail(const Error& error);
 /// One JSON object on stdout and nothing else. Bytes that are not UTF-8 are replaced: a file's name may hold any.
 int print(const nlohmann::ordered_json& object);
 
-}  // namespace cairn::cli
+}  // namespace cairn::app

@@ -10,7 +10,7 @@
 #include "drivers/gpio/gpio_lines.hpp"
 #include "drivers/velodyne/transport/udp_source.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using recording::SensorKind;
@@ -168,4 +168,4 @@ Result<std::vector<Device>> open_devices_of(const RobotProfile& profile, const C
   return devices;
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

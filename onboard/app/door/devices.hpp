@@ -13,7 +13,7 @@
 #include "hal/ports.hpp"
 #include "onboard/app/profile/robot_profile.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// What a device lost or what is doubtful about it, by name: "kernel_drops", 3.
 using Losses = std::vector<std::pair<std::string, std::uint64_t>>;
@@ -36,4 +36,4 @@ struct Device {
 /// All of devices_of().
 [[nodiscard]] Result<std::vector<Device>> open_devices_of(const RobotProfile& profile, const Clock& clock);
 
-}  // namespace cairn
+}  // namespace cairn::app

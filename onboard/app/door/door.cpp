@@ -8,7 +8,7 @@
 #include "drivers/velodyne/lidar.hpp"
 #include "onboard/app/door/played_source.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using recording::Recording;
@@ -160,4 +160,4 @@ Result<Door> play_recording(const std::filesystem::path& folder, RobotProfile& p
   return door;
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -18,17 +18,17 @@
 #include "onboard/app/profile/robot_profile.hpp"
 #include "onboard/scheduler/schedule_log.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// One way in: a device or its recording, and what its bytes mean.
 struct Input {
   recording::SourceEntry entry;
   std::unique_ptr<Source> source;
-  std::unique_ptr<ScanDecoder> scans;  ///< null where it holds no scans
-  drive::CanLink* can = nullptr;       ///< the same source, live: it can be spoken to, too
-  gpio::GpioLines* lines = nullptr;    ///< likewise
-  std::function<Losses()> losses;      ///< live: what the device lost; may be empty
-  peers::PeerPort* peers = nullptr;    ///< the same source, live: it can be spoken to, too
+  std::unique_ptr<ScanDecoder> scans;    ///< null where it holds no scans
+  drive::CanLink* can = nullptr;         ///< the same source, live: it can be spoken to, too
+  gpio::GpioLines* lines = nullptr;      ///< likewise
+  std::function<Losses()> losses;        ///< live: what the device lost; may be empty
+  peer_link::PeerPort* peers = nullptr;  ///< the same source, live: it can be spoken to, too
 };
 
 /// The one door through which everything from outside enters. The index of an input is its SourceId.
@@ -51,4 +51,4 @@ Result<Door> open_recording(const std::filesystem::path& folder, RobotProfile& p
 Result<Door> play_recording(const std::filesystem::path& folder, RobotProfile& profile, const Clock& clock,
                             Monitor& monitor);
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -4,18 +4,21 @@
 #include <algorithm>
 #include <array>
 
-namespace cairn {
+namespace cairn::app {
 
 namespace {
 
 struct WatchedRow {
   recording::SensorKind kind;
-  std::optional<Watched> watched;
+  std::optional<safety::Watched> watched;
 };
 constexpr std::array kWatchedAs{
-    WatchedRow{recording::kVelodyne, Watched::kLidar}, WatchedRow{recording::kScans, Watched::kLidar},
-    WatchedRow{recording::kCamera, Watched::kCamera},  WatchedRow{recording::kThermal, Watched::kThermal},
-    WatchedRow{recording::kDepth, Watched::kDepth},    WatchedRow{recording::kDrive, Watched::kFeedback},
+    WatchedRow{recording::kVelodyne, safety::Watched::kLidar},
+    WatchedRow{recording::kScans, safety::Watched::kLidar},
+    WatchedRow{recording::kCamera, safety::Watched::kCamera},
+    WatchedRow{recording::kThermal, safety::Watched::kThermal},
+    WatchedRow{recording::kDepth, safety::Watched::kDepth},
+    WatchedRow{recording::kDrive, safety::Watched::kFeedback},
     WatchedRow{recording::kGpio, std::nullopt},  // the e-stop has rules of its own
     WatchedRow{recording::kPeers, std::nullopt},
 };
@@ -27,10 +30,12 @@ bool has_kind(std::span<const recording::SourceEntry> sources, recording::Sensor
   return std::ranges::find(sources, kind, &recording::SourceEntry::kind) != sources.end();
 }
 
-std::optional<Watched> watched_as(recording::SensorKind kind) { return recording::row_of(kind, kWatchedAs).watched; }
+std::optional<safety::Watched> watched_as(recording::SensorKind kind) {
+  return recording::row_of(kind, kWatchedAs).watched;
+}
 
-Fitted fitted_with(std::span<const recording::SourceEntry> sources, const RobotProfile& profile) {
-  Fitted fitted;
+safety::Fitted fitted_with(std::span<const recording::SourceEntry> sources, const RobotProfile& profile) {
+  safety::Fitted fitted;
   for (const recording::SourceEntry& entry : sources)
     if (const auto watched = watched_as(entry.kind)) fitted.watched[static_cast<std::size_t>(*watched)] = true;
   fitted.drive = has_kind(sources, recording::kDrive);
@@ -38,4 +43,4 @@ Fitted fitted_with(std::span<const recording::SourceEntry> sources, const RobotP
   return fitted;
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

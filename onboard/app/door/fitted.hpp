@@ -8,15 +8,15 @@
 #include "onboard/app/profile/robot_profile.hpp"
 #include "onboard/safety/failsafe.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 [[nodiscard]] bool has_kind(std::span<const recording::SourceEntry> sources, recording::SensorKind kind);
 
 /// As what the failsafe watches a sensor for silence; none: it is not watched.
-[[nodiscard]] std::optional<Watched> watched_as(recording::SensorKind kind);
+[[nodiscard]] std::optional<safety::Watched> watched_as(recording::SensorKind kind);
 
 /// What the robot carries, as far as the failsafe watches it. An e-stop counts when the profile names its line: a GPIO
 /// chip may serve the camera trigger alone.
-[[nodiscard]] Fitted fitted_with(std::span<const recording::SourceEntry> sources, const RobotProfile& profile);
+[[nodiscard]] safety::Fitted fitted_with(std::span<const recording::SourceEntry> sources, const RobotProfile& profile);
 
-}  // namespace cairn
+}  // namespace cairn::app

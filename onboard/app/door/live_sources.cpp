@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cairn {
+namespace cairn::app {
 
 Result<Poll> LiveSources::look(Packet& packet, Duration timeout) {
   for (std::size_t tried = 0; tried < sources_.size();) {
@@ -31,4 +31,4 @@ Result<Poll> LiveSources::next(Packet& packet, Duration timeout) {
   return poll;
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -7,7 +7,7 @@
 #include "hal/clock.hpp"
 #include "hal/ports.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// Several live devices as one source: whichever has a packet is next, in turn, so that none starves another. Packets
 /// of one device keep their order; those of different devices come in no particular order.
@@ -31,4 +31,4 @@ class LiveSources final : public Source {
   std::size_t turn_ = 0;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

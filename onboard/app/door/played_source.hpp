@@ -7,7 +7,7 @@
 #include "hal/clock.hpp"
 #include "hal/ports.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// A recorded source that behaves like a device: each packet arrives again, as much later than it once did as shift()
 /// says, and not before the clock says so. Never waits.
@@ -45,4 +45,4 @@ class PlayedSource final : public Source {
   bool has_ahead_ = false;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

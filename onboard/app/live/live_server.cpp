@@ -12,7 +12,7 @@
 #include <system_error>
 #include <utility>
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 Error socket_error(std::string_view cause, const std::filesystem::path& path) {
@@ -92,4 +92,4 @@ void LiveServer::publish(std::string_view line) {
   clients_.resize(kept);
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

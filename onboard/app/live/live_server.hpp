@@ -8,7 +8,7 @@
 
 #include "hal/result.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// A local socket that tells whoever listens how the run goes. Served by the watch task, never by a real-time thread;
 /// no call blocks. A client that cannot take a whole line at once is dropped, and so is one beyond kMaxClients.
@@ -40,4 +40,4 @@ class LiveServer {
   std::uint64_t dropped_ = 0;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

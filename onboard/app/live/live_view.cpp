@@ -4,7 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using LiveJson = nlohmann::ordered_json;
@@ -187,4 +187,4 @@ Result<LiveView> parse_line(std::string_view line) {
   return v;
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

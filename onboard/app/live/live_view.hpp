@@ -9,7 +9,7 @@
 
 #include "hal/result.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// What `cairn top` shows of a running core; once per second one line of JSON on a local socket. Text is cut at
 /// kMaxText bytes, lists at kMaxItems, on both sides.
@@ -59,4 +59,4 @@ struct LiveView {
 /// kMaxLine), kMalformed (no JSON object).
 [[nodiscard]] Result<LiveView> parse_line(std::string_view line);
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -11,7 +11,7 @@
 #include <cstring>
 #include <system_error>
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 template <class T>
@@ -61,4 +61,4 @@ std::optional<Duration> watchdog_timeout(std::string_view usec, std::string_view
   return std::chrono::microseconds(*timeout);
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

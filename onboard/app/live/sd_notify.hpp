@@ -8,7 +8,7 @@
 #include "hal/result.hpp"
 #include "hal/time.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// Tells the service manager how this process is (sd_notify(3)): datagrams to a local socket, without libsystemd.
 class SdNotify {
@@ -36,4 +36,4 @@ class SdNotify {
 /// of life. None: no watchdog.
 [[nodiscard]] std::optional<Duration> watchdog_timeout(std::string_view usec, std::string_view pid, int own_pid);
 
-}  // namespace cairn
+}  // namespace cairn::app

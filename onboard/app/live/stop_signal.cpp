@@ -5,7 +5,7 @@
 
 #include "hal/clock.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 volatile std::sig_atomic_t requested = 0;
@@ -39,4 +39,4 @@ void catch_stop_signals(Duration patience) {
 
 bool stop_requested() { return requested != 0; }
 
-}  // namespace cairn
+}  // namespace cairn::app

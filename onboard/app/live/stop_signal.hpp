@@ -3,7 +3,7 @@
 
 #include "hal/time.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// From now on SIGINT and SIGTERM ask for an orderly end instead of killing the program. One that comes `patience`
 /// after the first kills it. Sooner ones do nothing: timeout(1) and supervisors signal a program and then its whole
@@ -11,4 +11,4 @@ namespace cairn {
 void catch_stop_signals(Duration patience = std::chrono::seconds(1));
 [[nodiscard]] bool stop_requested();
 
-}  // namespace cairn
+}  // namespace cairn::app

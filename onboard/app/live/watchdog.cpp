@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <cstdio>
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 /// One line, whatever the text holds.
@@ -32,8 +32,8 @@ bool Watchdog::step(Time now, std::string_view status) {
   return true;
 }
 
-void Watchdog::accuse(Time now, const Supervisor::Finding& finding) {
-  const Pulse& pulse = supervisor_.pulses()[finding.pulse];
+void Watchdog::accuse(Time now, const safety::Supervisor::Finding& finding) {
+  const safety::Pulse& pulse = supervisor_.pulses()[finding.pulse];
   if (!hung_.empty() && accused_ == finding.pulse) return;
   accused_ = finding.pulse;
   hung_ = "task " + pulse.task + " hangs: no tick for " +
@@ -50,4 +50,4 @@ void Watchdog::tell(Time now, const std::string& lines) {
   if (const auto told = notify_.notify(lines); !told) monitor_.event(now, "watchdog", to_string(told.error()));
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

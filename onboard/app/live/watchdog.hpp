@@ -9,7 +9,7 @@
 #include "onboard/app/live/sd_notify.hpp"
 #include "onboard/safety/health.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// The chain from the tasks to the service manager: it hears a sign of life only while every task is within its limit,
 /// and otherwise the name of the one that is not, before it ends the process. Stepped by the watch task, every 100 ms
@@ -17,7 +17,7 @@ namespace cairn {
 class Watchdog {
  public:
   /// `timeout`: as of watchdog_timeout(); none: only events and status. `monitor` must outlive the watchdog.
-  Watchdog(std::vector<Pulse> pulses, SdNotify notify, std::optional<Duration> timeout, Monitor& monitor)
+  Watchdog(std::vector<safety::Pulse> pulses, SdNotify notify, std::optional<Duration> timeout, Monitor& monitor)
       : supervisor_(std::move(pulses)), notify_(std::move(notify)), timeout_(timeout), monitor_(monitor) {}
 
   /// Once, when all tasks run: "READY=1".
@@ -28,10 +28,10 @@ class Watchdog {
   [[nodiscard]] const std::string& hung() const { return hung_; }
 
  private:
-  void accuse(Time now, const Supervisor::Finding& finding);
+  void accuse(Time now, const safety::Supervisor::Finding& finding);
   void tell(Time now, const std::string& lines);
 
-  Supervisor supervisor_;
+  safety::Supervisor supervisor_;
   SdNotify notify_;
   std::optional<Duration> timeout_;
   Monitor& monitor_;
@@ -40,4 +40,4 @@ class Watchdog {
   std::optional<Time> told_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

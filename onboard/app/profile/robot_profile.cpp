@@ -3,7 +3,7 @@
 
 #include <Eigen/Core>
 
-namespace cairn {
+namespace cairn::app {
 
 RobotConfig RobotProfile::robot() const {
   return {SE3::from_xyz_rpy(Eigen::Map<const Vector6>(lidar.base_xyz_rpy.data())), odometry, mapping};
@@ -51,4 +51,4 @@ std::string to_yaml(RobotProfile profile) {
   return config::to_yaml(section);
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

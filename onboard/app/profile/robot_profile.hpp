@@ -14,7 +14,7 @@
 #include "onboard/safety/failsafe_config.hpp"
 #include "onboard/safety/overload.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// Everything that is said about one robot: config/husky.yaml and its like.
 struct RobotProfile {
@@ -25,10 +25,10 @@ struct RobotProfile {
   DepthProfile depth;
   DriveProfile drive;
   GpioProfile gpio;
-  OdometryConfig odometry;
-  MappingConfig mapping;
-  FailsafeConfig failsafe;
-  OverloadConfig overload;
+  odometry::OdometryConfig odometry;
+  mapping::MappingConfig mapping;
+  safety::FailsafeConfig failsafe;
+  safety::OverloadConfig overload;
   RestartProfile restart;
   TeamProfile team;
   double odometry_deadline_s = 0.08;  ///< live: no further refinement of a pose this long after its last packet
@@ -45,4 +45,4 @@ Result<RobotProfile> load_profile(const std::filesystem::path& path);
 /// The effective values as YAML, as they are kept with every run.
 [[nodiscard]] std::string to_yaml(RobotProfile profile);
 
-}  // namespace cairn
+}  // namespace cairn::app

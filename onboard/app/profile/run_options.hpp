@@ -8,7 +8,7 @@
 
 #include "hal/time.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// Where time comes from and how packets are waited for.
 enum class Pace {
@@ -39,4 +39,4 @@ struct RunOptions {
   [[nodiscard]] bool live() const { return recording.empty() || peers; }
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/profile/schedule_profile.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 void declare(config::Section& s, ScheduleProfile& p) {
   s.group("safety", p.safety, "e-stop, time-outs and mode");
@@ -23,4 +23,4 @@ void declare_stages(const ScheduleProfile& profile, Monitor& monitor) {
   monitor.stage("packet_to_map", profile.mapping.deadline());
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -5,7 +5,7 @@
 #include "hal/monitor.hpp"
 #include "onboard/scheduler/task_spec.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// The tasks of a robot, in the order in which they run when they are released together. The defaults are for the NUC
 /// of a Husky with a VLP-16 at 10 Hz. Odometry and mapping look for work a hundred times a second, so that a scan does
@@ -52,4 +52,4 @@ void declare(config::Section& section, ScheduleProfile& profile);
 /// from a scan's last byte their deadline. To be called before the tasks are made. Other stages have no budget.
 void declare_stages(const ScheduleProfile& profile, Monitor& monitor);
 
-}  // namespace cairn
+}  // namespace cairn::app

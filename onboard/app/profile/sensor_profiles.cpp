@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/profile/sensor_profiles.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 void declare_mount(config::Section& s, std::vector<double>& mount, const char* key, const char* whose) {
@@ -35,4 +35,4 @@ void declare(config::Section& s, DepthProfile& p) {
 void declare(config::Section& s, DriveProfile& p) { declare(s, p.driver); }
 void declare(config::Section& s, GpioProfile& p) { declare(s, p.driver); }
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -12,7 +12,7 @@
 #include "drivers/velodyne/config.hpp"
 #include "hal/config/config.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// How a LiDAR is mounted and spoken to.
 struct LidarProfile {
@@ -57,4 +57,4 @@ void declare(config::Section& section, DriveProfile& profile);
 void declare(config::Section& section, GpioProfile& profile);
 /// \endcond
 
-}  // namespace cairn
+}  // namespace cairn::app

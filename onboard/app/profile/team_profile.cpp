@@ -6,7 +6,7 @@
 #include <numbers>
 #include <random>
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180, kMostLeanDeg = 1.7, kLeastSigmaM = 0.001;
@@ -59,8 +59,9 @@ Result<void> check(const TeamProfile& profile) {
   return Error{Errc::kInvalidConfig, "faults in the section team", {}, {}, faults};
 }
 
-TeamConfig team_config(const TeamProfile& profile, peers::RobotId id, const std::string& name, double resolution_m) {
-  TeamConfig config;
+team::TeamConfig team_config(const TeamProfile& profile, peers::RobotId id, const std::string& name,
+                             double resolution_m) {
+  team::TeamConfig config;
   config.id = id;
   config.name = name;
   config.resolution_m = resolution_m;
@@ -75,4 +76,4 @@ peers::Epoch new_epoch(Time now_utc) {
   return seconds << kRandomBits | std::random_device{}() >> (32U - kRandomBits);
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

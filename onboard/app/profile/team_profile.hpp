@@ -9,7 +9,7 @@
 #include "fusion/team/team.hpp"
 #include "hal/config/config.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// Where a robot is put down: its odom frame in a metric frame, x and y level, z up, that all robots of a team share.
 struct DeploymentProfile {
@@ -41,8 +41,8 @@ void declare(config::Section& section, TeamProfile& profile);
 [[nodiscard]] Result<void> check(const TeamProfile& profile);
 
 /// What the library wants to know. `name`: of the robot.
-[[nodiscard]] TeamConfig team_config(const TeamProfile& profile, peers::RobotId id, const std::string& name,
-                                     double resolution_m);
+[[nodiscard]] team::TeamConfig team_config(const TeamProfile& profile, peers::RobotId id, const std::string& name,
+                                           double resolution_m);
 
 inline constexpr unsigned kRandomBits = 30;
 /// A number that no earlier beginning of this robot had: the time of day in seconds, and random bits for a clock that
@@ -51,4 +51,4 @@ inline constexpr unsigned kRandomBits = 30;
 /// The next beginning of the same run.
 [[nodiscard]] constexpr peers::Epoch after(peers::Epoch epoch) { return epoch + (peers::Epoch{1} << kRandomBits); }
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -11,7 +11,7 @@
 #include "hal/files/file.hpp"
 #include "onboard/mapping/files/cairn_file.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -44,7 +44,7 @@ Generations::Generations(fs::path folder, Monitor& monitor, FileCalls& calls)
   fs::create_directories(folder_, ignored);
 }
 
-std::optional<Generation> Generations::load_file(std::size_t slot, Time now, const MapLimits& limits) {
+std::optional<Generation> Generations::load_file(std::size_t slot, Time now, const mapping::MapLimits& limits) {
   const fs::path path = folder_ / kMapFiles[slot];
   const auto refuse = [&](Error error) {
     if (error.code == Errc::kNotFound) return std::nullopt;
@@ -54,18 +54,18 @@ std::optional<Generation> Generations::load_file(std::size_t slot, Time now, con
   };
   const auto bytes = read_file(path, limits.max_file_bytes);
   if (!bytes) return refuse(bytes.error());
-  const auto metadata = decode_cairn_metadata(*bytes);
+  const auto metadata = mapping::decode_cairn_metadata(*bytes);
   if (!metadata) return refuse(metadata.error());
   auto state = parse_state(*metadata);
   if (!state) return refuse(state.error());
-  auto map = decode_cairn(*bytes, limits);
+  auto map = mapping::decode_cairn(*bytes, limits);
   if (!map) return refuse(map.error());
   const Time stamp = state->stamp;
   const std::uint32_t epoch = state->epoch;
   return Generation{std::move(*state), std::move(*map), stamp, epoch, {}};
 }
 
-std::optional<Generation> Generations::load(Time now, const MapLimits& limits) {
+std::optional<Generation> Generations::load(Time now, const mapping::MapLimits& limits) {
   std::optional<Generation> newest;
   for (std::size_t slot = 0; slot < kMapFiles.size(); ++slot) {
     auto found = load_file(slot, now, limits);
@@ -101,9 +101,9 @@ void Generations::take_scans(Generation& generation, Time now) {
   if (saved->epoch == generation.state.epoch) generation.scans = std::move(saved->scans);
 }
 
-std::vector<std::byte> Generations::encode(const SemanticOcTree& map, SavedState state) const {
+std::vector<std::byte> Generations::encode(const mapping::SemanticOcTree& map, SavedState state) const {
   state.sequence = sequence_ + 1;
-  return encode_cairn(map, to_text(state));
+  return mapping::encode_cairn(map, to_text(state));
 }
 
 Result<void> Generations::store(std::span<const std::byte> generation) {
@@ -113,7 +113,7 @@ Result<void> Generations::store(std::span<const std::byte> generation) {
   return {};
 }
 
-Result<void> Generations::save(const SemanticOcTree& map, const SavedState& state) try {
+Result<void> Generations::save(const mapping::SemanticOcTree& map, const SavedState& state) try {
   return store(encode(map, state));
 } catch (const std::bad_alloc&) {
   return Error{Errc::kLimit, "no memory to save the map"};
@@ -127,9 +127,9 @@ Result<void> Generations::save_state(SavedState state) {
 }
 
 Result<void> Generations::save_scans(const SavedScans& scans) try {
-  return replace_file(folder_ / kScansFile, cairn::encode(scans), calls_);
+  return replace_file(folder_ / kScansFile, cairn::app::encode(scans), calls_);
 } catch (const std::bad_alloc&) {
   return Error{Errc::kLimit, "no memory to save the scans"};
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -18,15 +18,15 @@
 #include "onboard/mapping/tree/semantic_octree.hpp"
 #include "onboard/mapping/tree/tree_builder.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// A map, where the robot was in it, and what it saw there last.
 struct Generation {
   SavedState state;
-  std::unique_ptr<SemanticOcTree> map;
+  std::unique_ptr<mapping::SemanticOcTree> map;
   Time map_stamp{};                ///< what was seen later is not in the map
   std::uint32_t newest_epoch = 0;  ///< that was begun; larger than the map's if that one's map was not saved yet
-  std::vector<PlacedScan> scans;   ///< empty: none were saved, or they are damaged
+  std::vector<odometry::PlacedScan> scans;  ///< empty: none were saved, or they are damaged
 };
 
 /// The map on disk, in a folder of its own: two generations, map.a.cairn and map.b.cairn, of which the older one is
@@ -44,16 +44,16 @@ class Generations {
 
   /// The newest generation that is whole, with the newest pose and scans of its epoch; none when there is none. One
   /// event for each file that is not what it should be. To be called once, before the first save.
-  [[nodiscard]] std::optional<Generation> load(Time now, const MapLimits& limits = {});
+  [[nodiscard]] std::optional<Generation> load(Time now, const mapping::MapLimits& limits = {});
   /// After load(): a map file was there that could not be read.
   [[nodiscard]] bool damaged() const { return damaged_; }
 
   /// The bytes of the next generation. `state.sequence` is set here.
-  [[nodiscard]] std::vector<std::byte> encode(const SemanticOcTree& map, SavedState state) const;
+  [[nodiscard]] std::vector<std::byte> encode(const mapping::SemanticOcTree& map, SavedState state) const;
   /// On an error the generation before is as it was, and the next call tries the same place again.
   Result<void> store(std::span<const std::byte> generation);
   /// Both. Error kLimit also where there is no memory for the bytes.
-  Result<void> save(const SemanticOcTree& map, const SavedState& state);
+  Result<void> save(const mapping::SemanticOcTree& map, const SavedState& state);
   /// Errors as of store(); what is in the generations stays as it is.
   Result<void> save_state(SavedState state);
   Result<void> save_scans(const SavedScans& scans);
@@ -63,7 +63,7 @@ class Generations {
   static constexpr const char* kScansFile = "scans.bin";
 
  private:
-  [[nodiscard]] std::optional<Generation> load_file(std::size_t slot, Time now, const MapLimits& limits);
+  [[nodiscard]] std::optional<Generation> load_file(std::size_t slot, Time now, const mapping::MapLimits& limits);
   void take_newer_pose(Generation& generation, Time now);
   void take_scans(Generation& generation, Time now);
 
@@ -75,4 +75,4 @@ class Generations {
   bool damaged_ = false;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

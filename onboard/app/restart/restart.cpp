@@ -6,7 +6,7 @@
 
 #include "hal/files/file.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 constexpr std::uint64_t kMaxBootId = 128;
@@ -82,4 +82,4 @@ std::optional<Generation> resumed_in_recording(const std::filesystem::path& reco
   return saved;
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

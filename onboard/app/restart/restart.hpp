@@ -10,7 +10,7 @@
 #include "onboard/app/restart/generations.hpp"
 #include "onboard/robot.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// When a core that starts again goes on in the map that is there, and how often that map is saved.
 struct RestartProfile {
@@ -47,4 +47,4 @@ Result<void> keep_with_recording(const std::filesystem::path& recording, const G
 /// None: the run began anew.
 [[nodiscard]] std::optional<Generation> resumed_in_recording(const std::filesystem::path& recording, Monitor& monitor);
 
-}  // namespace cairn
+}  // namespace cairn::app

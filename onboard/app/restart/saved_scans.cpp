@@ -10,7 +10,7 @@
 
 #include "hal/bytes.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 constexpr std::array<char, 8> kMagic{'C', 'A', 'I', 'R', 'N', 'S', 'C', 'N'};
@@ -34,7 +34,7 @@ std::optional<SE3> pose_of(const Pose& p) {
   return SE3(q, t);
 }
 
-void append(std::vector<std::byte>& out, const PlacedScan& scan) {
+void append(std::vector<std::byte>& out, const odometry::PlacedScan& scan) {
   append_le<std::int64_t>(out, scan.stamp.time_since_epoch().count());
   append_le(out, numbers_of(scan.T_odom_base));
   append_le(out, static_cast<std::uint32_t>(scan.points_base.size()));
@@ -42,7 +42,7 @@ void append(std::vector<std::byte>& out, const PlacedScan& scan) {
   out.insert(out.end(), points.begin(), points.end());
 }
 
-std::optional<PlacedScan> read_scan(ByteReader& in) {
+std::optional<odometry::PlacedScan> read_scan(ByteReader& in) {
   const auto stamp = in.read<std::int64_t>();
   const auto numbers = in.read<Pose>();
   const auto count = in.read<std::uint32_t>();
@@ -50,7 +50,7 @@ std::optional<PlacedScan> read_scan(ByteReader& in) {
   const auto pose = pose_of(*numbers);
   const auto bytes = in.read_bytes(std::uint64_t{*count} * sizeof(Eigen::Vector3f));
   if (!pose || !bytes) return std::nullopt;
-  PlacedScan scan{Time{Duration{*stamp}}, *pose, std::vector<Eigen::Vector3f>(*count)};
+  odometry::PlacedScan scan{Time{Duration{*stamp}}, *pose, std::vector<Eigen::Vector3f>(*count)};
   if (*count > 0) std::memcpy(scan.points_base.data()->data(), bytes->data(), bytes->size());
   for (const Eigen::Vector3f& p : scan.points_base)
     if (!p.allFinite()) return std::nullopt;
@@ -65,7 +65,7 @@ std::vector<std::byte> encode(const SavedScans& saved) {
   append_le(out, kVersion);
   append_le(out, saved.epoch);
   append_le(out, static_cast<std::uint32_t>(saved.scans.size()));
-  for (const PlacedScan& scan : saved.scans) append(out, scan);
+  for (const odometry::PlacedScan& scan : saved.scans) append(out, scan);
   append_le(out, hash(out));
   return out;
 }
@@ -79,7 +79,7 @@ Result<SavedScans> decode_scans(std::span<const std::byte> bytes) {
   const auto magic = in.read<std::array<char, 8>>();
   const auto version = in.read<std::uint32_t>(), epoch = in.read<std::uint32_t>(), count = in.read<std::uint32_t>();
   if (!magic || *magic != kMagic || !version || *version != kVersion || !epoch || !count) return damaged;
-  if (*count > RecentScans::kScans) return Error{Errc::kLimit, "too many saved scans"};
+  if (*count > odometry::RecentScans::kScans) return Error{Errc::kLimit, "too many saved scans"};
   SavedScans saved{*epoch, {}};
   for (std::uint32_t i = 0; i < *count; ++i) {
     auto scan = read_scan(in);
@@ -90,4 +90,4 @@ Result<SavedScans> decode_scans(std::span<const std::byte> bytes) {
   return saved;
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -9,12 +9,12 @@
 #include "hal/result.hpp"
 #include "onboard/odometry/recent_scans.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// The scans of one epoch of a map, for odometry to start again with.
 struct SavedScans {
   std::uint32_t epoch = 0;
-  std::vector<PlacedScan> scans;
+  std::vector<odometry::PlacedScan> scans;
 };
 
 /// "CAIRNSCN", version, epoch, number of scans; for each scan stamp, pose (x y z qx qy qz qw), number of points and the
@@ -24,4 +24,4 @@ struct SavedScans {
 /// quaternions of unit length.
 Result<SavedScans> decode_scans(std::span<const std::byte> bytes);
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -8,7 +8,7 @@
 #include <optional>
 #include <span>
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 constexpr std::size_t kMaxBoot = 64;
@@ -121,4 +121,4 @@ Result<SavedState> parse_state(std::string_view text) {
   return s;
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

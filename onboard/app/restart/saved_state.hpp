@@ -9,7 +9,7 @@
 #include "hal/se3.hpp"
 #include "hal/time.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// What a core that starts again needs besides its map. As text it is 1 KB at most, a line each:
 ///
@@ -35,4 +35,4 @@ struct SavedState {
 /// Errors: kMalformed with the line's name; every number is finite and the quaternion of unit length.
 [[nodiscard]] Result<SavedState> parse_state(std::string_view text);
 
-}  // namespace cairn
+}  // namespace cairn::app

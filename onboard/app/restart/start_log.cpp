@@ -8,7 +8,7 @@
 
 #include "hal/files/file.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 constexpr std::uint64_t kMaxBytes = 4096;
@@ -48,4 +48,4 @@ bool StartLog::begin(Time now, std::string_view boot) {
 
 void StartLog::end() { calls_.unlink(file_.c_str()); }
 
-}  // namespace cairn
+}  // namespace cairn::app

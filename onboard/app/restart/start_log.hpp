@@ -7,7 +7,7 @@
 #include "hal/files/file_calls.hpp"
 #include "hal/time.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// Remembers across restarts when the program began, to see a crash loop: in a file of a few lines, one per start
 /// ("boot stamp_ns"), of which the last ten are kept.
@@ -30,4 +30,4 @@ class StartLog {
   FileCalls& calls_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

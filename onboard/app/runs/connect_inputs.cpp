@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 // Packets that may wait for the disk: two seconds of a LiDAR, and edges of an e-stop.
@@ -25,7 +25,7 @@ Result<void> connect(RobotTasks& tasks, const RunContext& context, Input& input,
     return tasks.drive.attach(profile.drive.driver, *input.source, id, input.can,
                               tap(recorder, kWaitingPackets, scheduler::Feed::kSmall));
   if (input.entry.kind == recording::kPeers)
-    tasks.team->team().attach(*input.source, id, input.peers, tap(recorder, kWaitingPackets, peers::kMaxPacket));
+    tasks.team->team().attach(*input.source, id, input.peers, tap(recorder, kWaitingPackets, peer_link::kMaxPacket));
   else if (!tasks.receive.add(input, id, received))
     context.monitor.event({}, "input", "more sources than are read: " + input.entry.id + " is left out");
   return {};
@@ -51,4 +51,4 @@ std::uint64_t missing_packets(const RobotTasks& tasks) {
          (tasks.team ? tasks.team->team().missing_packets() : 0);
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

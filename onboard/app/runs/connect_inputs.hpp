@@ -5,7 +5,7 @@
 #include "onboard/app/tasks/recorder.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// Gives every input of the door to the task that reads it: the e-stop to safety, the CAN bus to drive, peers to the
 /// team, and all others to receive. An input beyond ReceiveTask::kMaxInputs is left out, with an event. `recorder` gets
@@ -18,4 +18,4 @@ Result<void> connect_inputs(RobotTasks& tasks, const RunContext& context, Record
 /// Packets that the live run had and the recording lacks.
 [[nodiscard]] std::uint64_t missing_packets(const RobotTasks& tasks);
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -8,7 +8,7 @@
 #include "onboard/app/tasks/allocations.hpp"
 #include "onboard/scheduler/execution/executive.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 // A large map takes half a second to encode, and the disk its time.
@@ -56,7 +56,7 @@ void LiveRun::add_live_only_tasks(Generations* generations) {
   Recorder* recorder = recorder_ ? &*recorder_ : nullptr;
   housekeeping_.emplace(tasks_.graph, (recorder != nullptr ? options.record : options.out) / "schedule.log", recorder);
   const auto& keeping = add_live_only(schedule.housekeeping, *housekeeping_);
-  std::vector<Pulse> writers{
+  std::vector<safety::Pulse> writers{
       {.task = keeping.spec.name, .limit = WatchTask::kDiskLimit, .beats = &keeping.stats.ticks}};
   if (generations != nullptr) writers.push_back(add_saving(*generations));
   watch_.emplace(std::move(writers), recorder);
@@ -67,16 +67,16 @@ void LiveRun::add_live_only_tasks(Generations* generations) {
   watch_->add([this](Time now) { publish_status(now); });
 }
 
-Pulse LiveRun::add_saving(Generations& generations) {
+safety::Pulse LiveRun::add_saving(Generations& generations) {
   const RobotProfile& profile = context_.profile;
   const PreviousRun& previous = context_.previous;
   saving_.emplace(generations, to_save_, previous.epoch, boot_id(), context_.monitor);
   const auto& scheduled = add_live_only(profile.schedule.saving, *saving_);
   tasks_.odometry.publish_to(to_save_.pose);
-  ScanSelection selection;
+  odometry::ScanSelection selection;
   if (previous.resumed) {
     saving_->go_on_with(previous.resumed->scans);
-    selection = ScanSelection(previous.resumed->scans.back().T_odom_base);
+    selection = odometry::ScanSelection(previous.resumed->scans.back().T_odom_base);
   }
   tasks_.mapping.keep_copies({profile.odometry, from_seconds(profile.restart.save_map_every_s), selection, to_save_});
   return {.task = scheduled.spec.name, .limit = kSavingLimit, .beats = &scheduled.stats.ticks};
@@ -108,19 +108,19 @@ void LiveRun::publish_status(Time now) {
   publisher_->set_shed(tasks_.mapping.shed());
   publisher_->set_scans(tasks_.receive.figures().scans);
   if (tasks_.team && tasks_.team->team().view().refresh()) publisher_->set_peers(tasks_.team->team().view().value());
-  FaultSet faults = faults_of_machine() | schedule_faults_.look();
-  faults.set(Fault::kTaskHung, !publisher_->tick(now));
+  safety::FaultSet faults = faults_of_machine() | schedule_faults_.look();
+  faults.set(safety::Fault::kTaskHung, !publisher_->tick(now));
   tasks_.safety.report(faults);
 }
 
-FaultSet LiveRun::faults_of_machine() const {
-  FaultSet faults = watch_->faults();
-  if (saving_ && saving_->failing()) faults.set(Fault::kDiskFailing);
-  faults.set(Fault::kBestEffort, best_effort_);
-  faults.set(Fault::kCrashLoop, context_.previous.crash_loop);
-  faults.set(Fault::kStateLost, context_.previous.state_lost);
-  faults.set(Fault::kOverload, tasks_.mapping.shed() != Shed::kNothing);
-  faults.set(Fault::kMemoryShort, tasks_.mapping.memory_short());
+safety::FaultSet LiveRun::faults_of_machine() const {
+  safety::FaultSet faults = watch_->faults();
+  if (saving_ && saving_->failing()) faults.set(safety::Fault::kDiskFailing);
+  faults.set(safety::Fault::kBestEffort, best_effort_);
+  faults.set(safety::Fault::kCrashLoop, context_.previous.crash_loop);
+  faults.set(safety::Fault::kStateLost, context_.previous.state_lost);
+  faults.set(safety::Fault::kOverload, tasks_.mapping.shed() != safety::Shed::kNothing);
+  faults.set(safety::Fault::kMemoryShort, tasks_.mapping.memory_short());
   return faults;
 }
 
@@ -131,4 +131,4 @@ void LiveRun::report_unlogged_ticks() {
                              task.spec.name + ": ticks are missing in the log: not to be replayed to the bit");
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -15,7 +15,7 @@
 #include "onboard/app/tasks/saving_task.hpp"
 #include "onboard/app/tasks/watch_task.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// Runs the tasks of a robot on the machine's clock, beside those that only a live run has: housekeeping, saving and
 /// watching.
@@ -32,12 +32,12 @@ class LiveRun {
  private:
   Result<void> open_recorder();
   void add_live_only_tasks(Generations* generations);
-  [[nodiscard]] Pulse add_saving(Generations& generations);
+  [[nodiscard]] safety::Pulse add_saving(Generations& generations);
   scheduler::ScheduledTask& add_live_only(const scheduler::TaskSpec& spec, scheduler::Task& task);
   void execute();
   [[nodiscard]] bool played_out(Time now) const;
   void publish_status(Time now);
-  [[nodiscard]] FaultSet faults_of_machine() const;
+  [[nodiscard]] safety::FaultSet faults_of_machine() const;
   void report_unlogged_ticks();
 
   RobotTasks& tasks_;
@@ -54,4 +54,4 @@ class LiveRun {
   bool best_effort_ = false;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

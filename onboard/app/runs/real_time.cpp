@@ -6,7 +6,7 @@
 
 #include "onboard/scheduler/threads.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 bool become_real_time(const scheduler::TaskGraph& graph, Monitor& monitor) {
   int highest = 0;
@@ -17,4 +17,4 @@ bool become_real_time(const scheduler::TaskGraph& graph, Monitor& monitor) {
   return missing.empty();
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -7,7 +7,7 @@
 #include "onboard/app/tasks/allocations.hpp"
 #include "onboard/scheduler/execution/executive.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 Result<void> replay_recording(RobotTasks& tasks, const RunContext& context) {
   if (const auto connected = connect_inputs(tasks, context, nullptr); !connected) return connected.error();
@@ -28,4 +28,4 @@ Result<void> replay_recording(RobotTasks& tasks, const RunContext& context) {
   return {};
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -4,11 +4,11 @@
 #include "onboard/app/runs/run_context.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// Runs the tasks on the recording behind the door, at the pace of the options: with the schedule log of the live run
 /// where there is one, otherwise in virtual time. An event says when the recording lacks packets that the live run had.
 /// Errors: the inputs cannot be connected; the log is of another schedule.
 Result<void> replay_recording(RobotTasks& tasks, const RunContext& context);
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -7,7 +7,7 @@
 #include "onboard/app/profile/run_options.hpp"
 #include "onboard/app/restart/restart.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// What every part of a run works with. All must outlive the run.
 struct RunContext {
@@ -18,4 +18,4 @@ struct RunContext {
   Monitor& monitor;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -3,11 +3,11 @@
 
 #include <string>
 
-namespace cairn {
+namespace cairn::app {
 
 void SafetyEvents::read() {
   for (; const SafetyTask::Change* change = safety_.changes().front(); safety_.changes().pop()) {
-    for (const FaultRow& row : fault_table()) {
+    for (const safety::FaultRow& row : safety::fault_table()) {
       if (change->raised.has(row.fault)) monitor_.event(change->at, "safety", "fault: " + std::string(row.code));
       if (change->ended.has(row.fault)) monitor_.event(change->at, "safety", "ended: " + std::string(row.code));
     }
@@ -19,4 +19,4 @@ void SafetyEvents::read() {
   }
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

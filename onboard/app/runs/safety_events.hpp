@@ -4,7 +4,7 @@
 #include "hal/monitor.hpp"
 #include "onboard/app/tasks/safety_task.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// Makes events of the changes that the safety task leaves: the safety task itself may neither lock nor allocate.
 class SafetyEvents {
@@ -15,12 +15,12 @@ class SafetyEvents {
   /// Takes every change that is there.
   void read();
   /// Mode, cause, active faults and epoch after the last change that was read.
-  [[nodiscard]] const FailsafeDecision& decision() const { return decision_; }
+  [[nodiscard]] const safety::FailsafeDecision& decision() const { return decision_; }
 
  private:
   SafetyTask& safety_;
   Monitor& monitor_;
-  FailsafeDecision decision_;
+  safety::FailsafeDecision decision_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

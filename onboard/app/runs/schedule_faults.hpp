@@ -4,7 +4,7 @@
 #include "onboard/safety/fault.hpp"
 #include "onboard/scheduler/task_graph.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// The faults that the figures of a live schedule show. Part of the watch task.
 class ScheduleFaults {
@@ -15,13 +15,13 @@ class ScheduleFaults {
 
   /// kSafetyMissed: the safety task missed a deadline since the last look. kStageDemoted: a task runs at half its rate
   /// because it kept overrunning its hard budget.
-  FaultSet look() {
-    FaultSet faults;
+  safety::FaultSet look() {
+    safety::FaultSet faults;
     const std::uint64_t misses = safety_.stats.misses;
-    faults.set(Fault::kSafetyMissed, misses != misses_);
+    faults.set(safety::Fault::kSafetyMissed, misses != misses_);
     misses_ = misses;
     for (const scheduler::ScheduledTask& task : graph_.tasks())
-      if (!task.live_only() && task.stats.demoted != 0) faults.set(Fault::kStageDemoted);
+      if (!task.live_only() && task.stats.demoted != 0) faults.set(safety::Fault::kStageDemoted);
     return faults;
   }
 
@@ -31,4 +31,4 @@ class ScheduleFaults {
   std::uint64_t misses_ = 0;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

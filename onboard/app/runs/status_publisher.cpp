@@ -8,7 +8,7 @@
 
 #include "onboard/report/figures/run_report.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 constexpr Duration kViewPeriod = std::chrono::seconds(1);  // of the live view
@@ -26,8 +26,8 @@ Duration limit_of(const scheduler::TaskSpec& spec) {
   return std::max({kShortestLimit, 5 * spec.period(), 3 * spec.hard(), 2 * spec.deadline()});
 }
 
-std::vector<Pulse> pulses_of(const scheduler::TaskGraph& graph) {
-  std::vector<Pulse> pulses;
+std::vector<safety::Pulse> pulses_of(const scheduler::TaskGraph& graph) {
+  std::vector<safety::Pulse> pulses;
   for (const scheduler::ScheduledTask& task : graph.tasks())
     if (!task.live_only()) pulses.push_back({task.spec.name, limit_of(task.spec), &task.stats.ticks});
   return pulses;
@@ -89,8 +89,8 @@ LiveView StatusPublisher::view(Time now) const {
   v.shed = to_string(shed_);
   v.epoch = decision_.epoch;
   v.scans = scans_;
-  v.rss_mb = peak_rss_mb();
-  for (const FaultRow& row : fault_table())
+  v.rss_mb = report::peak_rss_mb();
+  for (const safety::FaultRow& row : safety::fault_table())
     if (decision_.active.has(row.fault)) v.faults.emplace_back(row.code);
   for (const scheduler::ScheduledTask& task : graph_.tasks()) v.stages.push_back(stage_of(task));
   const auto events = monitor_.events_now();
@@ -110,4 +110,4 @@ bool StatusPublisher::tick(Time now) {
   return well;
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

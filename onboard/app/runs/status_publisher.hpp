@@ -13,7 +13,7 @@
 #include "onboard/safety/overload.hpp"
 #include "onboard/scheduler/task_graph.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// Publishes how a live run goes: signs of life to the service manager, and the live view to its clients. Part of the
 /// watch task. It reads figures that other tasks write without a lock.
@@ -32,8 +32,8 @@ class StatusPublisher {
   StatusPublisher(const scheduler::TaskGraph& graph, Monitor& monitor, const Options& options, Time now);
 
   /// The newest values, on the thread of tick().
-  void set_decision(const FailsafeDecision& decision) { decision_ = decision; }
-  void set_shed(Shed level) { shed_ = in_force(level); }
+  void set_decision(const safety::FailsafeDecision& decision) { decision_ = decision; }
+  void set_shed(safety::Shed level) { shed_ = safety::in_force(level); }
   void set_scans(std::uint64_t scans) { scans_ = scans; }
   void set_peers(const std::vector<LiveView::Peer>& peers) { peers_ = peers; }
   /// Publishes what is due. False while a task hangs: Fault::kTaskHung.
@@ -45,8 +45,8 @@ class StatusPublisher {
   const scheduler::TaskGraph& graph_;
   Monitor& monitor_;
   std::string robot_;
-  FailsafeDecision decision_;
-  Shed shed_ = Shed::kNothing;
+  safety::FailsafeDecision decision_;
+  safety::Shed shed_ = safety::Shed::kNothing;
   std::uint64_t scans_ = 0;
   std::vector<LiveView::Peer> peers_;
   std::optional<LiveServer> server_;
@@ -54,4 +54,4 @@ class StatusPublisher {
   std::optional<Time> published_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

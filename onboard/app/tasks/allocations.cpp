@@ -46,8 +46,8 @@ void operator delete[](void* memory, std::align_val_t) noexcept { std::free(memo
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 void operator delete[](void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
 
-namespace cairn {
+namespace cairn::app {
 
 std::uint64_t allocations_of_this_thread() { return count; }
 
-}  // namespace cairn
+}  // namespace cairn::app

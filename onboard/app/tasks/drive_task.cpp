@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/tasks/drive_task.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 using drive::SendResult;
 using scheduler::Regime;
@@ -77,7 +77,7 @@ void DriveTask::tick(Tick& tick) {
 
 void DriveTask::obey(Tick& tick) {
   bool arm = false;
-  while (const FailsafeDecision* decision = decisions.take(tick)) {
+  while (const safety::FailsafeDecision* decision = decisions.take(tick)) {
     decision_ = *decision;
     arm = arm || decision_.arm;
   }
@@ -85,8 +85,9 @@ void DriveTask::obey(Tick& tick) {
   if (arm) {
     const auto epoch = drive_->arm(now);
     epoch_ = epoch ? std::optional(*epoch) : std::nullopt;
-  } else if (decision_.mode == Mode::kStop && !decision_.arm && drive_->status().level != DriveLevel::kStop) {
-    drive_->stop(decision_.cause == Fault::kEStopOpen ? DriveCause::kEmergencyStop : DriveCause::kRequested, now);
+  } else if (decision_.mode == safety::Mode::kStop && !decision_.arm && drive_->status().level != DriveLevel::kStop) {
+    drive_->stop(decision_.cause == safety::Fault::kEStopOpen ? DriveCause::kEmergencyStop : DriveCause::kRequested,
+                 now);
   }
 }
 
@@ -95,7 +96,7 @@ void DriveTask::command(Time now) {
   auto wanted = planner_(now);
   if (!wanted) return;
   wanted->epoch = *epoch_;
-  (void)drive_->command(limited(*wanted, decision_), now);  // the drive's status says what became of it
+  (void)drive_->command(safety::limited(*wanted, decision_), now);  // the drive's status says what became of it
 }
 
 void DriveTask::publish(Tick& tick) {
@@ -111,4 +112,4 @@ void DriveTask::publish(Tick& tick) {
   status.push(tick);
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

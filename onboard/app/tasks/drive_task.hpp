@@ -10,7 +10,7 @@
 #include "onboard/scheduler/feed.hpp"
 #include "onboard/scheduler/ports.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// A CAN bus whose answers a replay repeats: frames come as the feed says, and sends end as they did then.
 class ReplayableCanLink final : public drive::CanLink {
@@ -46,7 +46,7 @@ class DriveTask final : public scheduler::Task {
  public:
   // Slots in schedule.log, in this order.
   const ReplayableCanLink::Slots can_slots{take_slots(), take_slots(), take_slots(), take_slots()};
-  scheduler::InputPort<FailsafeDecision> decisions{*this, "decisions"};
+  scheduler::InputPort<safety::FailsafeDecision> decisions{*this, "decisions"};
   scheduler::OutputPort<DriveNews> status{*this, "status"};
 
   /// Says where the robot is to move, at a time; none: nowhere. The task sets the epoch of the command. Called in every
@@ -75,10 +75,10 @@ class DriveTask final : public scheduler::Task {
   Planner planner_;
   std::unique_ptr<ReplayableCanLink> link_;
   std::unique_ptr<drive::CanDrive> drive_;
-  FailsafeDecision decision_;
+  safety::FailsafeDecision decision_;
   std::optional<std::uint32_t> epoch_;  // of the last arming
   std::optional<DriveState> state_;
   DriveNews published_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/tasks/housekeeping_task.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 void HousekeepingTask::tick(scheduler::Tick& tick) {
   write_log();
@@ -37,4 +37,4 @@ Result<void> HousekeepingTask::close(Time now) {
   return log_.close();
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

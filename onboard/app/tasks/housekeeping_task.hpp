@@ -9,7 +9,7 @@
 #include "onboard/scheduler/schedule_log.hpp"
 #include "onboard/scheduler/task_graph.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// Writes the schedule log and the recording, and runs the chores that were add()ed: everything that may wait for a
 /// disk. On a thread of its own, live only.
@@ -37,4 +37,4 @@ class HousekeepingTask final : public scheduler::Task {
   std::vector<Chore> chores_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/tasks/map_copier.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 // Some 50 ns each: a millisecond.
@@ -28,7 +28,7 @@ void MapCopier::mapped(const LocatedScan& scan) {
   out_.scans.push();
 }
 
-void MapCopier::idle(Time now, const SemanticOcTree& map) {
+void MapCopier::idle(Time now, const mapping::SemanticOcTree& map) {
   if (!copy_) {
     if ((begun_ && now - *begun_ < every_) || out_.maps.back() == nullptr || newest_.stamp == Time{}) return;
     begun_ = now;
@@ -40,4 +40,4 @@ void MapCopier::idle(Time now, const SemanticOcTree& map) {
   copy_.reset();
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -10,16 +10,16 @@
 #include "onboard/mapping/tree/tree_copy.hpp"
 #include "onboard/robot.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// What odometry and mapping hand to the task that saves; neither ever waits for it.
 struct ToSave {
   struct Map {
-    std::unique_ptr<SemanticOcTree> tree;
+    std::unique_ptr<mapping::SemanticOcTree> tree;
     TrackPoint newest;  ///< where the last scan in it was
   };
   struct Scan {
-    PlacedScan scan;
+    odometry::PlacedScan scan;
     std::uint32_t epoch = 0;
   };
   LatestValue<TrackPoint> pose;  ///< from odometry
@@ -31,22 +31,23 @@ struct ToSave {
 class MapCopier {
  public:
   /// `out` must outlive the copier. `selection`: of the scans in epoch 0, which is that of a run that goes on.
-  MapCopier(const OdometryConfig& odometry, Duration every, const ScanSelection& selection, ToSave& out)
+  MapCopier(const odometry::OdometryConfig& odometry, Duration every, const odometry::ScanSelection& selection,
+            ToSave& out)
       : every_(every), out_(out), thin_(odometry), selection_(selection) {}
 
   /// After every scan that is in the map.
   void mapped(const LocatedScan& scan);
   /// When there is no scan to be mapped: a millisecond of copying, if a copy is due and the one before was taken.
-  void idle(Time now, const SemanticOcTree& map);
+  void idle(Time now, const mapping::SemanticOcTree& map);
 
  private:
   Duration every_;
   ToSave& out_;
-  ScanThinning thin_;
-  ScanSelection selection_;
-  std::optional<TreeCopy> copy_;
+  odometry::ScanThinning thin_;
+  odometry::ScanSelection selection_;
+  std::optional<mapping::TreeCopy> copy_;
   std::optional<Time> begun_;  // the last copy
   TrackPoint newest_;          // scan in the map
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -9,7 +9,7 @@
 #include "onboard/robot.hpp"
 #include "onboard/safety/failsafe.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 // What the ports of the tasks carry.
 
@@ -27,8 +27,8 @@ struct ArrivedMotion {
 
 /// When each kind of sensor last gave good data, and the faults in its data. From receive to safety.
 struct SensorsSeen {
-  std::array<Seen, kWatched> seen{};
-  FaultSet faults;
+  std::array<safety::Seen, safety::kWatched> seen{};
+  safety::FaultSet faults;
 };
 
 /// The state of odometry. To safety, with every change.
@@ -39,7 +39,7 @@ struct OdometryNews {
 /// The state of the drive. To safety, with every change.
 struct DriveNews {
   DriveStatus status;
-  Seen feedback;  ///< the last set of wheel readings
+  safety::Seen feedback;  ///< the last set of wheel readings
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <limits>
 
-namespace cairn {
+namespace cairn::app {
 
 using scheduler::Regime;
 using scheduler::Tick;
@@ -62,7 +62,7 @@ void OdometryTask::publish_status(Tick& tick) {
   status.push(tick);
 }
 
-MappingTask::MappingTask(const OverloadConfig& overload, Duration deadline, Robot& robot, Monitor& monitor)
+MappingTask::MappingTask(const safety::OverloadConfig& overload, Duration deadline, Robot& robot, Monitor& monitor)
     : deadline_(deadline),
       overload_(overload),
       robot_(robot),
@@ -80,11 +80,12 @@ void MappingTask::tick(Tick& tick) {
 }
 
 void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
-  const Shed level = decide(motion, tick);
-  if (const Shed now = in_force(level); now != in_force(level_.exchange(level, std::memory_order_relaxed)))
+  const safety::Shed level = decide(motion, tick);
+  if (const safety::Shed now = safety::in_force(level);
+      now != safety::in_force(level_.exchange(level, std::memory_order_relaxed)))
     monitor_.event(motion.scan.stamp, "overload", "shed: " + std::string(to_string(now)));
   ++scans_at_[static_cast<std::size_t>(level)];
-  const ShedPlan plan = plan_of(level);
+  const safety::ShedPlan plan = safety::plan_of(level);
   if (count_++ % static_cast<std::uint64_t>(plan.scan_stride) != 0) return;
   const auto extended = robot_.extend_map(motion.scan, {plan.point_stride});
   if (!extended)
@@ -97,7 +98,7 @@ void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
 }
 
 void MappingTask::share_resumed_tiles() {
-  resumed_tiles_ = known_tiles(robot_.map(), std::numeric_limits<std::size_t>::max());
+  resumed_tiles_ = mapping::known_tiles(robot_.map(), std::numeric_limits<std::size_t>::max());
 }
 
 /// Scans change the same tiles again and again. Reading them with each scan would be a quarter of the work in a forest.
@@ -115,7 +116,9 @@ void MappingTask::hand_on_tiles(Tick& tick) {
   out->epoch = changes_->epoch;
   out->T_odom_base = changes_->T_odom_base;
   out->tiles.clear();
-  const auto add = [&](TileKey tile) { out->tiles.emplace_back(tile, read_tile(robot_.map(), tile)); };
+  const auto add = [&](mapping::TileKey tile) {
+    out->tiles.emplace_back(tile, mapping::read_tile(robot_.map(), tile));
+  };
   if (changes_->epoch == 0) std::ranges::for_each(resumed_tiles_, add);
   resumed_tiles_.clear();
   std::ranges::for_each(robot_.take_changed_tiles(), add);
@@ -125,14 +128,14 @@ void MappingTask::hand_on_tiles(Tick& tick) {
 
 /// By how late this scan is already and how many wait behind it. A replay of a log sheds what was shed then; virtual
 /// time knows no overload.
-Shed MappingTask::decide(const ArrivedMotion& motion, Tick& tick) {
+safety::Shed MappingTask::decide(const ArrivedMotion& motion, Tick& tick) {
   const auto measure = [&] {
-    Load load;
+    safety::Load load;
     load.utilisation = to_seconds(tick.figure_now() - motion.arrival) / to_seconds(deadline_);
     load.queue_fill = static_cast<double>(motions.size() - 1) / static_cast<double>(motions.capacity());
     return static_cast<std::int32_t>(overload_.step(tick.release(), load));
   };
-  return static_cast<Shed>(std::clamp(tick.decide(shed_slot, measure, 0), 0, kShedLevels - 1));
+  return static_cast<safety::Shed>(std::clamp(tick.decide(shed_slot, measure, 0), 0, safety::kShedLevels - 1));
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

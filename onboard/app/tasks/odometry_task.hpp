@@ -14,7 +14,7 @@
 #include "onboard/safety/overload.hpp"
 #include "onboard/scheduler/ports.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// Scan in, pose out, one in a tick.
 class OdometryTask final : public scheduler::Task {
@@ -61,7 +61,7 @@ class MappingTask final : public scheduler::Task {
   scheduler::OutputPort<TileBatch> tiles{*this, "tiles"};
 
   /// All must outlive the task. `deadline`: from the last byte of a scan until the scan is in the map.
-  MappingTask(const OverloadConfig& overload, Duration deadline, Robot& robot, Monitor& monitor);
+  MappingTask(const safety::OverloadConfig& overload, Duration deadline, Robot& robot, Monitor& monitor);
 
   /// Live: hands on copies of the map and scans. To be called before the run.
   void keep_copies(MapCopier copier) { copier_.emplace(std::move(copier)); }
@@ -72,29 +72,29 @@ class MappingTask final : public scheduler::Task {
   void tick(scheduler::Tick& tick) override;
 
   /// Any thread.
-  [[nodiscard]] Shed shed() const { return level_.load(std::memory_order_relaxed); }
+  [[nodiscard]] safety::Shed shed() const { return level_.load(std::memory_order_relaxed); }
   /// Any thread: the last scan found no memory in the map.
   [[nodiscard]] bool memory_short() const { return memory_short_.load(std::memory_order_relaxed); }
   /// Scans that were mapped at each level.
-  [[nodiscard]] const std::array<RelaxedCounter, kShedLevels>& scans_at() const { return scans_at_; }
+  [[nodiscard]] const std::array<RelaxedCounter, safety::kShedLevels>& scans_at() const { return scans_at_; }
 
  private:
   void extend(const ArrivedMotion& motion, scheduler::Tick& tick);
-  Shed decide(const ArrivedMotion& motion, scheduler::Tick& tick);
+  safety::Shed decide(const ArrivedMotion& motion, scheduler::Tick& tick);
   void note_changes(const LocatedScan& scan, scheduler::Tick& tick);
   void hand_on_tiles(scheduler::Tick& tick);
 
   Duration deadline_;
-  OverloadController overload_;
-  std::atomic<Shed> level_{Shed::kNothing};
+  safety::OverloadController overload_;
+  std::atomic<safety::Shed> level_{safety::Shed::kNothing};
   std::atomic<bool> memory_short_{false};
-  std::array<RelaxedCounter, kShedLevels> scans_at_{};
+  std::array<RelaxedCounter, safety::kShedLevels> scans_at_{};
   std::uint64_t count_ = 0;
   Robot& robot_;
   Monitor& monitor_;
   StageStats& latency_;
   std::optional<MapCopier> copier_;
-  std::vector<TileKey> resumed_tiles_;  // not handed on yet; of epoch 0
+  std::vector<mapping::TileKey> resumed_tiles_;  // not handed on yet; of epoch 0
   struct Changes {
     std::uint32_t epoch;
     UncertainPose T_odom_base;
@@ -103,4 +103,4 @@ class MappingTask final : public scheduler::Task {
   Time next_batch_{};
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

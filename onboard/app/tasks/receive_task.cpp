@@ -5,7 +5,7 @@
 
 #include "onboard/app/door/fitted.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 using scheduler::Tick;
 
@@ -66,11 +66,11 @@ void ReceiveTask::decode(const Packet& packet, Sensor& sensor, Tick& tick) {
 }
 
 void ReceiveTask::judge(Time now) {
-  FaultSet faults;
+  safety::FaultSet faults;
   for (Sensor& sensor : sensors_) {
     if (sensor.decoder == nullptr) continue;
-    if (sensor.stuck.stuck()) faults.set(Fault::kLidarStuck);
-    if (sensor.rejection.step(now, sensor.accepted, sensor.refused)) faults.set(Fault::kLidarRejected);
+    if (sensor.stuck.stuck()) faults.set(safety::Fault::kLidarStuck);
+    if (sensor.rejection.step(now, sensor.accepted, sensor.refused)) faults.set(safety::Fault::kLidarRejected);
   }
   unpublished_ = unpublished_ || faults != seen_.faults;
   seen_.faults = faults;
@@ -80,7 +80,7 @@ void ReceiveTask::hand_on(const Scan* scan, Tick& tick, bool at_the_end) {
   if (scan == nullptr) return;
   ++figures_.scans;
   figures_.lost_packets += scan->lost_packets;
-  if (!scan->partial) note(Watched::kLidar, figures_.end);
+  if (!scan->partial) note(safety::Watched::kLidar, figures_.end);
   // Where the data begins and ends, the first and the last revolution are cut. The sensor is not at fault.
   if (scan->incomplete && figures_.scans > 1 && !at_the_end)
     monitor_.event(scan->valid.end, "lidar", "incomplete scan: packets were lost or late, or the motor stood");
@@ -96,8 +96,8 @@ void ReceiveTask::hand_on(const Scan* scan, Tick& tick, bool at_the_end) {
   scans.push(tick);
 }
 
-void ReceiveTask::note(Watched what, Time when) {
-  Seen& last = seen_.seen[static_cast<std::size_t>(what)];
+void ReceiveTask::note(safety::Watched what, Time when) {
+  safety::Seen& last = seen_.seen[static_cast<std::size_t>(what)];
   last = {when, last.count + 1};
   unpublished_ = true;
 }
@@ -123,4 +123,4 @@ std::uint64_t ReceiveTask::missing_packets() const {
   return missing;
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -15,7 +15,7 @@
 #include "onboard/scheduler/ports.hpp"
 #include "onboard/scheduler/tick.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// Reads what the sensors sent, hands on every whole scan, and finds the faults of a LiDAR.
 class ReceiveTask final : public scheduler::Task {
@@ -49,17 +49,17 @@ class ReceiveTask final : public scheduler::Task {
  private:
   struct Sensor {
     scheduler::Feed feed;
-    ScanDecoder* decoder;            // null: its packets are only counted and recorded
-    std::optional<Watched> watched;  // without a decoder: every packet is good data of this kind
-    StuckWatch stuck{};
-    RejectionWatch rejection{};
+    ScanDecoder* decoder;                    // null: its packets are only counted and recorded
+    std::optional<safety::Watched> watched;  // without a decoder: every packet is good data of this kind
+    safety::StuckWatch stuck{};
+    safety::RejectionWatch rejection{};
     std::uint64_t accepted = 0, refused = 0;  // packets of a decoder
   };
   void receive(const Packet& packet, Sensor& sensor, scheduler::Tick& tick);
   void decode(const Packet& packet, Sensor& sensor, scheduler::Tick& tick);
   void judge(Time now);
   void hand_on(const Scan* scan, scheduler::Tick& tick, bool at_the_end);
-  void note(Watched what, Time when);
+  void note(safety::Watched what, Time when);
   void publish(scheduler::Tick& tick);
 
   Monitor& monitor_;
@@ -70,4 +70,4 @@ class ReceiveTask final : public scheduler::Task {
   bool unpublished_ = false;  // seen_ has changed
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

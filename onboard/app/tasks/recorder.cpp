@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/tasks/recorder.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 Recorder::Queue::Queue(std::size_t capacity, std::size_t bytes) : packets(capacity) {
   for (std::size_t place = 0; place <= capacity; ++place) {  // one more than it holds
@@ -54,4 +54,4 @@ std::uint64_t Recorder::lost() const {
   return lost;
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

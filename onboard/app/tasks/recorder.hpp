@@ -9,7 +9,7 @@
 #include "hal/spsc_queue.hpp"
 #include "onboard/scheduler/feed.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// Writes what a live run receives, without making anyone wait: tasks put copies of their packets into queues, and
 /// housekeeping empties them onto the disk. What finds its queue full is lost to the recording, counted and said.
@@ -44,4 +44,4 @@ class Recorder {
   RelaxedCounter failures_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

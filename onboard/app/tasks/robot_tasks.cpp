@@ -7,7 +7,7 @@
 #include "onboard/app/door/fitted.hpp"
 #include "onboard/scheduler/threads.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 // A scan may wait while the one before is located; more than a few would only be older when their turn comes.
@@ -82,4 +82,4 @@ void RobotTasks::connect_map(bool live) {
   graph.connect(odometry.motions, mapping.motions, {.capacity = kWaitingScans, .reserve = reserve});
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

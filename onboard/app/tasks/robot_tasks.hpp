@@ -15,7 +15,7 @@
 #include "onboard/scheduler/idle_task.hpp"
 #include "onboard/scheduler/task_graph.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// The tasks of one robot and the graph that connects them. What a live run adds (recording, saving, publishing) is
 /// not in it; see LiveRun.
@@ -29,7 +29,7 @@ class RobotTasks {
   RobotTasks& operator=(const RobotTasks&) = delete;
   ~RobotTasks() = default;
 
-  const Fitted fitted;
+  const safety::Fitted fitted;
   Workers odometry_workers, mapping_workers;
   Robot robot;
   SafetyTask safety;
@@ -47,4 +47,4 @@ class RobotTasks {
   void connect_map(bool live);
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

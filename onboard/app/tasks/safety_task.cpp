@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/tasks/safety_task.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using scheduler::Tick;
@@ -12,7 +12,7 @@ constexpr Duration kArming = std::chrono::milliseconds(20);
 // What the level slot of a tick may hold. 0: as the edges said.
 constexpr std::int32_t kOpen = 1, kClosed = 2, kLost = 3;
 
-bool same(const FailsafeDecision& a, const FailsafeDecision& b) {
+bool same(const safety::FailsafeDecision& a, const safety::FailsafeDecision& b) {
   return a.mode == b.mode && a.cause == b.cause && a.active == b.active && a.epoch == b.epoch && !a.arm && !b.arm;
 }
 
@@ -38,9 +38,9 @@ void SafetyTask::tick(Tick& tick) {
   inputs_.rearm = rearm > 0 ? std::optional(static_cast<std::uint32_t>(rearm - 1)) : std::nullopt;
   const std::int32_t reported = tick.decide(
       faults_slot, [this] { return faults_.load(); }, 0);
-  inputs_.faults = FaultSet(static_cast<std::uint32_t>(reported)) | sensor_faults_ | odometry_faults_;
+  inputs_.faults = safety::FaultSet(static_cast<std::uint32_t>(reported)) | sensor_faults_ | odometry_faults_;
 
-  const FailsafeDecision before = failsafe_.decision();
+  const safety::FailsafeDecision before = failsafe_.decision();
   if (failsafe_.step(inputs_).arm) {
     arming_until_ = tick.release() + kArming;
     if (estop_) (void)estop_->rearm(tick.release());
@@ -51,16 +51,16 @@ void SafetyTask::tick(Tick& tick) {
 
 void SafetyTask::read_news(Tick& tick) {
   while (const SensorsSeen* news = sensors.take(tick)) {
-    for (std::size_t i = 0; i < kWatched; ++i)
-      if (i != static_cast<std::size_t>(Watched::kFeedback)) inputs_.seen[i] = news->seen[i];
+    for (std::size_t i = 0; i < safety::kWatched; ++i)
+      if (i != static_cast<std::size_t>(safety::Watched::kFeedback)) inputs_.seen[i] = news->seen[i];
     sensor_faults_ = news->faults;
   }
   while (const DriveNews* news = drive.take(tick)) {
     inputs_.drive = news->status;
     arming_until_ = {};
-    inputs_.seen[static_cast<std::size_t>(Watched::kFeedback)] = news->feedback;
+    inputs_.seen[static_cast<std::size_t>(safety::Watched::kFeedback)] = news->feedback;
   }
-  while (const OdometryNews* news = odometry.take(tick)) odometry_faults_.set(Fault::kOdometryLost, news->lost);
+  while (const OdometryNews* news = odometry.take(tick)) odometry_faults_.set(safety::Fault::kOdometryLost, news->lost);
 }
 
 void SafetyTask::read_estop(Tick& tick) {
@@ -95,9 +95,9 @@ void SafetyTask::read_level(Tick& tick) {
     estop_->level(tick.release(), level == kClosed);
 }
 
-void SafetyTask::publish(const FailsafeDecision& before, Tick& tick) {
-  const FailsafeDecision& now = failsafe_.decision();
-  if (FailsafeDecision* out = decisions.back(tick)) {
+void SafetyTask::publish(const safety::FailsafeDecision& before, Tick& tick) {
+  const safety::FailsafeDecision& now = failsafe_.decision();
+  if (safety::FailsafeDecision* out = decisions.back(tick)) {
     *out = now;
     decisions.push(tick);
   }
@@ -110,4 +110,4 @@ void SafetyTask::publish(const FailsafeDecision& before, Tick& tick) {
   }
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -11,7 +11,7 @@
 #include "onboard/scheduler/feed.hpp"
 #include "onboard/scheduler/ports.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// The safety task reads the e-stop, knows which sensor was heard last, and decides what the robot may do. It allocates
 /// nothing, locks nothing and never waits.
@@ -22,7 +22,7 @@ class SafetyTask final : public scheduler::Task {
   const std::size_t level_slot = take_slots();  ///< the e-stop's level, where the edges did not tell it
   scheduler::InputPort<SensorsSeen> sensors{*this, "sensors"};
   scheduler::InputPort<DriveNews> drive{*this, "drive"};
-  scheduler::OutputPort<FailsafeDecision> decisions{*this, "decisions"};
+  scheduler::OutputPort<safety::FailsafeDecision> decisions{*this, "decisions"};
   const std::size_t rearm_slot = take_slots();   ///< the re-arm request
   const std::size_t faults_slot = take_slots();  ///< faults that only the machine shows
   scheduler::InputPort<OdometryNews> odometry{*this, "odometry"};
@@ -30,14 +30,14 @@ class SafetyTask final : public scheduler::Task {
   /// What changed, for a task that may lock and allocate.
   struct Change {
     Time at{};
-    Mode mode{};
-    std::optional<Fault> cause;
-    FaultSet raised, ended, active;
+    safety::Mode mode{};
+    std::optional<safety::Fault> cause;
+    safety::FaultSet raised, ended, active;
     std::uint32_t epoch = 0;
   };
   static constexpr std::size_t kMaxChanges = 1024;  ///< that wait to be read
 
-  SafetyTask(const FailsafeConfig& config, const Fitted& fitted) : failsafe_(config, fitted) {}
+  SafetyTask(const safety::FailsafeConfig& config, const safety::Fitted& fitted) : failsafe_(config, fitted) {}
   /// The line of the e-stop. `source` and `lines` (null in a replay) must outlive the task.
   void watch_estop(const gpio::Config& config, Source& source, SourceId id, gpio::GpioLines* lines,
                    scheduler::Feed::Tap tap);
@@ -47,12 +47,12 @@ class SafetyTask final : public scheduler::Task {
   /// Any thread: the operator wants to move again. `epoch` is that of the stop which the operator saw.
   void request_rearm(std::uint32_t epoch) { rearm_.store(static_cast<std::int32_t>(epoch) + 1); }
   /// Any one thread: faults that the machine shows and the data does not, such as a hung task.
-  void report(FaultSet faults) { faults_.store(static_cast<std::int32_t>(faults.bits())); }
+  void report(safety::FaultSet faults) { faults_.store(static_cast<std::int32_t>(faults.bits())); }
 
   /// To be read by one other thread.
   [[nodiscard]] SpscQueue<Change>& changes() { return changes_; }
   /// Of the task's thread, or of a run that has ended.
-  [[nodiscard]] const FailsafeDecision& decision() const { return failsafe_.decision(); }
+  [[nodiscard]] const safety::FailsafeDecision& decision() const { return failsafe_.decision(); }
   [[nodiscard]] Time first_arrival() { return edges_ ? edges_->first_arrival() : Time::max(); }
   [[nodiscard]] std::uint64_t lost_changes() const { return lost_changes_; }
   [[nodiscard]] bool input_ended() const { return !edges_ || edges_->ended(); }
@@ -61,11 +61,11 @@ class SafetyTask final : public scheduler::Task {
   void read_news(scheduler::Tick& tick);
   void read_estop(scheduler::Tick& tick);
   void read_level(scheduler::Tick& tick);
-  void publish(const FailsafeDecision& before, scheduler::Tick& tick);
+  void publish(const safety::FailsafeDecision& before, scheduler::Tick& tick);
 
-  Failsafe failsafe_;
-  FailsafeInputs inputs_;
-  FaultSet sensor_faults_, odometry_faults_;
+  safety::Failsafe failsafe_;
+  safety::FailsafeInputs inputs_;
+  safety::FaultSet sensor_faults_, odometry_faults_;
   Time arming_until_{};
   std::optional<gpio::EStop> estop_;
   std::optional<scheduler::Feed> edges_;
@@ -76,4 +76,4 @@ class SafetyTask final : public scheduler::Task {
   RelaxedCounter lost_changes_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cairn {
+namespace cairn::app {
 
 /// The pose first: it grows old fastest.
 void SavingTask::save(Time now) {
@@ -62,10 +62,10 @@ void SavingTask::save_copy(Time now) {
   in_.maps.pop();
 }
 
-void SavingTask::save_map(Time now, const SemanticOcTree& map, const TrackPoint& newest) {
+void SavingTask::save_map(Time now, const mapping::SemanticOcTree& map, const TrackPoint& newest) {
   const auto saved = generations_.save(map, state_at(newest));
   note(now, saved);
   if (saved) ++maps_saved_;
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -10,7 +10,7 @@
 #include "onboard/app/tasks/map_copier.hpp"
 #include "onboard/scheduler/tick.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// Keeps on disk what a core that starts again needs: the pose with every tick, the scans when there are new ones, the
 /// map when a copy of it is there. Live only; a slow or full disk holds up nobody but this task.
@@ -21,8 +21,8 @@ class SavingTask final : public scheduler::Task {
       : generations_(generations), in_(in), first_epoch_(first_epoch), boot_(std::move(boot)), monitor_(monitor) {}
 
   /// The scans that the run goes on with: they are of its epoch 0.
-  void go_on_with(std::span<const PlacedScan> scans) {
-    for (const PlacedScan& scan : scans) scans_.add(scan);
+  void go_on_with(std::span<const odometry::PlacedScan> scans) {
+    for (const odometry::PlacedScan& scan : scans) scans_.add(scan);
   }
 
   void tick(scheduler::Tick& tick) override { save(tick.release()); }
@@ -39,7 +39,7 @@ class SavingTask final : public scheduler::Task {
   void save_pose(Time now);
   void save_scans(Time now);
   void save_copy(Time now);
-  void save_map(Time now, const SemanticOcTree& map, const TrackPoint& newest);
+  void save_map(Time now, const mapping::SemanticOcTree& map, const TrackPoint& newest);
   [[nodiscard]] SavedState state_at(const TrackPoint& point) const;
   void note(Time now, const Result<void>& saved);
 
@@ -48,10 +48,10 @@ class SavingTask final : public scheduler::Task {
   std::uint32_t first_epoch_;
   std::string boot_;
   Monitor& monitor_;
-  RecentScans scans_;
+  odometry::RecentScans scans_;
   std::uint32_t scans_epoch_ = 0;
   std::uint64_t maps_saved_ = 0;
   std::atomic<bool> failing_{false};
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -10,7 +10,7 @@
 #include "onboard/safety/health.hpp"
 #include "onboard/scheduler/tick.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// Looks after the others and tells of them: what may lock and allocate, but waits for no disk. Live only, on a thread
 /// of its own: a disk that takes its time must not look like a core that hangs.
@@ -21,24 +21,25 @@ class WatchTask final : public scheduler::Task {
   using Chore = std::function<void(Time now)>;
 
   /// `writers`: the tasks that wait for disks, each with its limit. `recorder` must outlive the task; may be null.
-  WatchTask(std::vector<Pulse> writers, const Recorder* recorder) : disk_(std::move(writers)), recorder_(recorder) {}
+  WatchTask(std::vector<safety::Pulse> writers, const Recorder* recorder)
+      : disk_(std::move(writers)), recorder_(recorder) {}
 
   /// A chore is done in every tick, after those added before it.
   void add(Chore chore) { chores_.push_back(std::move(chore)); }
 
   void tick(scheduler::Tick& tick) override {
-    faults_.set(Fault::kDiskFailing,
+    faults_.set(safety::Fault::kDiskFailing,
                 disk_.step(tick.release()).has_value() || (recorder_ != nullptr && recorder_->failed()));
     for (const Chore& chore : chores_) chore(tick.release());
   }
   /// Of the task's thread: what it has seen itself.
-  [[nodiscard]] FaultSet faults() const { return faults_; }
+  [[nodiscard]] safety::FaultSet faults() const { return faults_; }
 
  private:
-  Supervisor disk_;
+  safety::Supervisor disk_;
   const Recorder* recorder_;
-  FaultSet faults_;
+  safety::FaultSet faults_;
   std::vector<Chore> chores_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -5,7 +5,7 @@
 
 #include "drivers/peers/peer_port.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 /// Peers say other things now than when the recording was made.
@@ -42,8 +42,8 @@ Result<void> join_team(const RobotProfile& profile, const Clock& clock, Door& do
   const recording::SourceEntry entry = peers_entry();
   const auto id = static_cast<SourceId>(door.inputs.size());
   const Time utc = clock.now() + Duration{LiveClock::realtime_offset()};
-  const peers::Beginning beginning{static_cast<peers::RobotId>(profile.team.id), new_epoch(utc)};
-  auto port = peers::PeerPort::open(profile.team.socket, beginning, id, clock);
+  const peer_link::Beginning beginning{static_cast<peers::RobotId>(profile.team.id), new_epoch(utc)};
+  auto port = peer_link::PeerPort::open(profile.team.socket, beginning, id, clock);
   if (!port) return at(entry.id, port.error());
   Input input{entry, nullptr, {}, nullptr, nullptr, {}};
   input.peers = port->get();
@@ -53,4 +53,4 @@ Result<void> join_team(const RobotProfile& profile, const Clock& clock, Door& do
   return {};
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -6,7 +6,7 @@
 #include "onboard/app/door/door.hpp"
 #include "onboard/app/profile/robot_profile.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// Error kInvalidConfig: the profile gives the robot no place in a team.
 [[nodiscard]] Result<void> check_team_place(const RobotProfile& profile);
@@ -18,4 +18,4 @@ namespace cairn {
 /// Errors: those of check_team_place() and of the socket.
 Result<void> join_team(const RobotProfile& profile, const Clock& clock, Door& door);
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -8,13 +8,13 @@
 #include "fusion/team/team.hpp"
 #include "onboard/mapping/tree/tile_state.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// The tiles of the robot's own map that some scans changed, as they were after the last of these scans.
 struct TileBatch {
   std::uint32_t epoch = 0;    ///< see TrackPoint
   UncertainPose T_odom_base;  ///< at the scan
-  std::vector<std::pair<TileKey, TileState>> tiles;
+  std::vector<std::pair<mapping::TileKey, mapping::TileState>> tiles;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -6,31 +6,31 @@
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 /// Where a peer's odom frame lies in this robot's by now, by all that the team knows.
-UncertainPose pose_of(const Team& team, peers::RobotId peer) {
-  const TeamPoses& poses = team.poses();
+UncertainPose pose_of(const team::Team& team, peers::RobotId peer) {
+  const team::TeamPoses& poses = team.poses();
   const peers::RobotId self = team.exchange().self();
   UncertainPose pose;
   if (!poses.T_team_odom.contains(self) || !poses.T_team_odom.contains(peer)) return pose;
   pose.mean = poses.T_team_odom.at(self).inverse() * poses.T_team_odom.at(peer);
   const auto newest = [&](peers::RobotId robot) { return std::prev(poses.nodes.upper_bound({robot, 0xFFFF})); };
   const auto own = newest(self), other = newest(peer);
-  const Matrix6 covariance = Marginals(poses.graph).between(own->second, other->second).covariance;
+  const Matrix6 covariance = team::Marginals(poses.graph).between(own->second, other->second).covariance;
   const Matrix6 at_odom = (poses.T_team_odom.at(peer).inverse() * poses.graph.poses[other->second]).adjoint();
   pose.covariance = at_odom * covariance * at_odom.transpose();
   return pose;
 }
 
-std::string name_of(const Team& team, peers::RobotId robot) {
+std::string name_of(const team::Team& team, peers::RobotId robot) {
   const auto link = team.exchange().links().find(robot);
   const bool named = link != team.exchange().links().end() && !link->second.name.empty();
   return named ? link->second.name : "robot " + std::to_string(robot);
 }
 
-std::size_t tiles_of(const Team& team, peers::RobotId robot) {
+std::size_t tiles_of(const team::Team& team, peers::RobotId robot) {
   const auto layer = team.exchange().layers().find(robot);
   if (layer == team.exchange().layers().end()) return 0;
   std::size_t tiles = 0;
@@ -38,16 +38,16 @@ std::size_t tiles_of(const Team& team, peers::RobotId robot) {
   return tiles;
 }
 
-PeerStats stats_of(const TeamTask& task, peers::RobotId robot) {
-  const Team& team = *task.team();
-  PeerStats stats;
+report::PeerStats stats_of(const TeamTask& task, peers::RobotId robot) {
+  const team::Team& team = *task.team();
+  report::PeerStats stats;
   if (const auto link = team.exchange().links().find(robot); link != team.exchange().links().end()) {
     stats.tx_bytes = link->second.sent_bytes;
     stats.rx_bytes = link->second.received_bytes;
   }
   if (const auto lag = task.lags().find(robot); lag != task.lags().end())
     stats.age_p99_s = to_seconds(lag->second.percentile(0.99));
-  const PeerStanding standing = team.standing(robot, task.last_step());
+  const team::PeerStanding standing = team.standing(robot, task.last_step());
   stats.tiles = tiles_of(team, robot);
   stats.accepted = standing.merged();
   stats.state = to_string(standing.state);
@@ -59,11 +59,11 @@ PeerStats stats_of(const TeamTask& task, peers::RobotId robot) {
 
 }  // namespace
 
-void add_team(const TeamTask& task, RunReport& report) {
+void add_team(const TeamTask& task, report::RunReport& report) {
   if (!task.team()) return;
-  const Team& team = *task.team();
+  const team::Team& team = *task.team();
   const peers::RobotId self = team.exchange().self();
-  TeamStats stats;
+  report::TeamStats stats;
   stats.id = self;
   stats.anchor = team.poses().anchor;
   stats.T_team_odom = team.poses().T_team_odom;
@@ -78,15 +78,15 @@ void add_team(const TeamTask& task, RunReport& report) {
   report.team = std::move(stats);
 }
 
-Result<std::vector<std::filesystem::path>> write_team(const Team& team, const std::filesystem::path& out) {
+Result<std::vector<std::filesystem::path>> write_team(const team::Team& team, const std::filesystem::path& out) {
   const std::vector<std::filesystem::path> same{out / "team.cairn", out / "team.tum"};
   std::vector<recording::StampedPose> poses;
   for (const auto& [robot, T_team_odom] : team.poses().T_team_odom)
     poses.push_back({Time{} + std::chrono::seconds(static_cast<std::int64_t>(robot)), T_team_odom});
-  if (const auto saved = save_cairn(team.map().map(), same[0]); !saved) return saved.error();
+  if (const auto saved = mapping::save_cairn(team.map().map(), same[0]); !saved) return saved.error();
   if (const auto saved = recording::write_tum(same[1], poses); !saved) return saved.error();
-  if (const auto saved = save_ot(team.map().map(), out / "team.ot"); !saved) return saved.error();
+  if (const auto saved = mapping::save_ot(team.map().map(), out / "team.ot"); !saved) return saved.error();
   return same;
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

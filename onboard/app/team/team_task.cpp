@@ -7,7 +7,7 @@
 #include "drivers/peers/peer_packet.hpp"
 #include "fusion/matching/matcher.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 using scheduler::Regime;
 using scheduler::Tick;
@@ -29,7 +29,7 @@ TeamTask::TeamTask(const TeamProfile& profile, std::string name, double resoluti
       monitor_(monitor),
       fusion_(monitor.stage("fusion")) {}
 
-void TeamTask::attach(Source& source, SourceId id, peers::PeerPort* port, scheduler::Feed::Tap tap) {
+void TeamTask::attach(Source& source, SourceId id, peer_link::PeerPort* port, scheduler::Feed::Tap tap) {
   const auto complain = [this](Time now, const Error& error) { monitor_.event(now, "team", to_string(error)); };
   feed_.emplace(source, id, datagrams_slot, complain, std::move(tap));
   port_ = port;
@@ -51,7 +51,7 @@ void TeamTask::hear(Tick& tick) {
 }
 
 void TeamTask::take(const Packet& packet, Time now) {
-  if (packet.channel == static_cast<std::uint16_t>(peers::PacketKind::kBeginning)) return begin(packet, now);
+  if (packet.channel == static_cast<std::uint16_t>(peer_link::PacketKind::kBeginning)) return begin(packet, now);
   if (!team_) return;
   // The cause alone: offsets, of which there are as many as a liar likes, would crowd out all other events.
   if (const auto taken = team_->receive(packet.payload(), now); !taken)
@@ -59,7 +59,7 @@ void TeamTask::take(const Packet& packet, Time now) {
 }
 
 void TeamTask::begin(const Packet& packet, Time now) {
-  const auto beginning = peers::decode_beginning(packet.payload());
+  const auto beginning = peer_link::decode_beginning(packet.payload());
   if (!beginning || team_) return monitor_.event(now, "team", "a beginning that cannot be was passed over");
   team_.emplace(team_config(profile_, beginning->robot, name_, resolution_m_), beginning->epoch);
 }
@@ -74,7 +74,7 @@ void TeamTask::observe(Tick& tick) {
 }
 
 void TeamTask::learn(Tick& tick) {
-  while (MatchJob* job = results.take(tick)) team_->matched(std::move(*job), tick.release());
+  while (team::MatchJob* job = results.take(tick)) team_->matched(std::move(*job), tick.release());
 }
 
 void TeamTask::speak(Tick& tick) {
@@ -93,7 +93,7 @@ void TeamTask::speak(Tick& tick) {
 void TeamTask::hand_out_a_job(Tick& tick) {
   auto job = team_->next_match(tick.release());
   if (!job) return;
-  if (MatchJob* place = jobs.back(tick)) {
+  if (team::MatchJob* place = jobs.back(tick)) {
     *place = std::move(*job);
     jobs.push(tick);
   } else {
@@ -139,7 +139,7 @@ void TeamTask::publish_peers(Time now) {
   auto& peers = view_.back();
   peers.clear();
   for (const auto& [robot, link] : team_->exchange().links()) {
-    const PeerStanding standing = team_->standing(robot, now);
+    const team::PeerStanding standing = team_->standing(robot, now);
     const auto layer = team_->exchange().layers().find(robot);
     const bool known = layer != team_->exchange().layers().end();
     const std::string name = link.name.empty() ? "robot " + std::to_string(robot) : link.name;
@@ -163,12 +163,12 @@ void TeamTask::publish_peers(Time now) {
 
 void MatchTask::tick(Tick& tick) {
   if (tick.regime() == Regime::kDrain) return;
-  if (MatchJob* job = jobs.take(tick)) {
+  if (team::MatchJob* job = jobs.take(tick)) {
     const StageTimer timing(stage_);
     Budget budget = tick.budget(steps_slot, tick.figure_now() + limit_, matching::kAmpleSteps);
-    run(*job, budget);
+    team::run(*job, budget);
     tick.settle(steps_slot, budget);
-    if (MatchJob* place = results.back(tick)) {
+    if (team::MatchJob* place = results.back(tick)) {
       *place = std::move(*job);
       results.push(tick);
     }
@@ -176,4 +176,4 @@ void MatchTask::tick(Tick& tick) {
   jobs.give_back(tick);
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

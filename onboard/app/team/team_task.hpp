@@ -16,7 +16,7 @@
 #include "onboard/scheduler/feed.hpp"
 #include "onboard/scheduler/ports.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 /// The robot's part in its team, several times a second: tiles and datagrams of peers in, datagrams out, and a slice of
 /// work on the map of the team.
@@ -26,20 +26,20 @@ class TeamTask final : public scheduler::Task {
   scheduler::InputPort<TileBatch> tiles{*this, "tiles"};
   const std::size_t datagrams_slot = take_slots();  ///< datagrams taken
   const std::size_t fuse_slot = take_slots();       ///< tiles fused
-  scheduler::OutputPort<MatchJob> jobs{*this, "jobs"};
-  scheduler::InputPort<MatchJob> results{*this, "results"};
+  scheduler::OutputPort<team::MatchJob> jobs{*this, "jobs"};
+  scheduler::InputPort<team::MatchJob> results{*this, "results"};
 
   /// `monitor` must outlive the task. `name` and `resolution_m` are those of the robot.
   TeamTask(const TeamProfile& profile, std::string name, double resolution_m, Monitor& monitor);
   /// Before the run: the run goes on in the map of the previous run.
   void go_on() { epoch_ = 0; }
   /// Before the run. `source` must outlive the task. `port` is the same source, to send through; null in a replay.
-  void attach(Source& source, SourceId id, peers::PeerPort* port, scheduler::Feed::Tap tap);
+  void attach(Source& source, SourceId id, peer_link::PeerPort* port, scheduler::Feed::Tap tap);
 
   void tick(scheduler::Tick& tick) override;
 
   /// None before the robot's beginning has come. Of the task's thread, or after the run.
-  [[nodiscard]] const std::optional<Team>& team() const { return team_; }
+  [[nodiscard]] const std::optional<team::Team>& team() const { return team_; }
   /// How long it took from hearing that a peer has new versions until all of them were here.
   [[nodiscard]] const std::map<peers::RobotId, Histogram>& lags() const { return lags_; }
   [[nodiscard]] std::uint64_t missing_packets() const { return feed_ ? feed_->missing() : 0; }
@@ -68,8 +68,8 @@ class TeamTask final : public scheduler::Task {
   Monitor& monitor_;
   StageStats& fusion_;
   std::optional<scheduler::Feed> feed_;
-  peers::PeerPort* port_ = nullptr;
-  std::optional<Team> team_;
+  peer_link::PeerPort* port_ = nullptr;
+  std::optional<team::Team> team_;
   std::uint32_t epoch_ = kFirstEpoch;  // of the tiles
   std::vector<peers::Outgoing> out_;
   Time last_step_ = Time::min(), last_published_ = Time::min();
@@ -88,9 +88,9 @@ class TeamTask final : public scheduler::Task {
 class MatchTask final : public scheduler::Task {
  public:
   // Slots in schedule.log, in this order.
-  scheduler::InputPort<MatchJob> jobs{*this, "jobs"};
+  scheduler::InputPort<team::MatchJob> jobs{*this, "jobs"};
   const std::size_t steps_slot = take_slots();  ///< steps granted
-  scheduler::OutputPort<MatchJob> results{*this, "results"};
+  scheduler::OutputPort<team::MatchJob> results{*this, "results"};
 
   /// `limit`: how long one comparison may take. `monitor` must outlive the task.
   MatchTask(Duration limit, Monitor& monitor) : limit_(limit), stage_(monitor.stage("matching")) {}
@@ -101,4 +101,4 @@ class MatchTask final : public scheduler::Task {
   StageStats& stage_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

@@ -3,7 +3,7 @@
 
 #include "onboard/app/profile/robot_profile.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 // Tiles that find no place stay with mapping and go with the next batch.
@@ -25,4 +25,4 @@ TeamTasks::TeamTasks(scheduler::TaskGraph& graph, const RobotProfile& profile, s
                 {.capacity = kWaitingJobs, .reserve = kWaitingJobs, .lag = from_seconds(profile.team.match_s)});
 }
 
-}  // namespace cairn
+}  // namespace cairn::app

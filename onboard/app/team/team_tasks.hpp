@@ -4,7 +4,7 @@
 #include "onboard/app/team/team_task.hpp"
 #include "onboard/scheduler/task_graph.hpp"
 
-namespace cairn {
+namespace cairn::app {
 
 struct RobotProfile;
 
@@ -25,4 +25,4 @@ class TeamTasks {
   MatchTask matching_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::app

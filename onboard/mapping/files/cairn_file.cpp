@@ -13,7 +13,7 @@
 #include "hal/bytes.hpp"
 #include "onboard/mapping/files/cairn_format.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 using cairn_format::Chunk;
@@ -116,7 +116,7 @@ class ChunkReader {
     chunk_offset_ = offset_;
     if (next_ == header_.chunks.size()) return Error{Errc::kMalformed, "nodes are missing", {}, chunk_offset_, {}};
     const Chunk& chunk = header_.chunks[next_++];
-    raw_.resize(chunk.raw_bytes);  // bounded by cairn_format::parse()
+    raw_.resize(chunk.raw_bytes);  // bounded by mapping::cairn_format::parse()
     const auto frame = bytes_.subspan(offset_, chunk.stored_bytes);
     offset_ += chunk.stored_bytes;
     if (ZSTD_decompress(raw_.data(), raw_.size(), frame.data(), frame.size()) != raw_.size())
@@ -225,4 +225,4 @@ bool is_cairn(std::span<const std::byte> bytes) {
   return text.starts_with(cairn_format::kMagic);
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -12,7 +12,7 @@
 #include "onboard/mapping/tree/semantic_octree.hpp"
 #include "onboard/mapping/tree/tree_builder.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 // The .cairn container, little-endian:
 //
@@ -40,4 +40,4 @@ Result<std::string> decode_cairn_metadata(std::span<const std::byte> bytes);
 
 [[nodiscard]] bool is_cairn(std::span<const std::byte> bytes);
 
-}  // namespace cairn
+}  // namespace cairn::mapping

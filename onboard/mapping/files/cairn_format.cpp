@@ -10,7 +10,7 @@
 
 #include "hal/bytes.hpp"
 
-namespace cairn::cairn_format {
+namespace cairn::mapping::cairn_format {
 namespace {
 
 constexpr std::size_t kFixedBytes = 72;  // up to the metadata
@@ -147,4 +147,4 @@ Result<Header> parse(std::span<const std::byte> bytes) {
   return header;
 }
 
-}  // namespace cairn::cairn_format
+}  // namespace cairn::mapping::cairn_format

@@ -11,7 +11,7 @@
 #include "onboard/mapping/tree/sensor_model.hpp"
 
 // Header, chunk table and checksums of a .cairn file; cairn_file.hpp describes the layout.
-namespace cairn::cairn_format {
+namespace cairn::mapping::cairn_format {
 
 inline constexpr std::string_view kMagic = "CAIRNMAP";
 inline constexpr std::uint32_t kVersion = 1;
@@ -46,4 +46,4 @@ struct Header {
 /// into `bytes`.
 Result<Header> parse(std::span<const std::byte> bytes);
 
-}  // namespace cairn::cairn_format
+}  // namespace cairn::mapping::cairn_format

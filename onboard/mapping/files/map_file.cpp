@@ -3,7 +3,7 @@
 
 #include "hal/files/file.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 using Tree = Result<std::unique_ptr<SemanticOcTree>>;
@@ -53,4 +53,4 @@ Result<void> save_pcd(const SemanticOcTree& tree, const std::filesystem::path& p
   return save_points(tree, path, encode_pcd);
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

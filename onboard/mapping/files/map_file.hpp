@@ -11,7 +11,7 @@
 #include "onboard/mapping/files/point_file.hpp"
 #include "onboard/mapping/tree/semantic_octree.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// Reads .cairn, .ot or .bt; the content decides, not the name. Safe on hostile files.
 Result<std::unique_ptr<SemanticOcTree>> load_map(const std::filesystem::path& path, const MapLimits& limits = {});
@@ -24,4 +24,4 @@ Result<void> save_bt(const SemanticOcTree& tree, const std::filesystem::path& pa
 Result<void> save_ply(const SemanticOcTree& tree, const std::filesystem::path& path);
 Result<void> save_pcd(const SemanticOcTree& tree, const std::filesystem::path& path);
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -10,7 +10,7 @@
 
 #include "hal/bytes.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 using Tree = Result<std::unique_ptr<SemanticOcTree>>;
@@ -212,4 +212,4 @@ std::vector<std::byte> encode_bt(const SemanticOcTree& tree) {
 bool is_ot(std::span<const std::byte> bytes) { return starts_with_line(bytes, kFirstLineOt); }
 bool is_bt(std::span<const std::byte> bytes) { return starts_with_line(bytes, kFirstLineBt); }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -10,7 +10,7 @@
 #include "onboard/mapping/tree/semantic_octree.hpp"
 #include "onboard/mapping/tree/tree_builder.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 // OctoMap's two formats. The readers are ours, because OctoMap's recurse without a limit on hostile bytes; they return
 // the canonical tree with the leaves of the file (inner nodes are computed, whatever the file says), and default sensor
@@ -30,4 +30,4 @@ Result<std::unique_ptr<SemanticOcTree>> decode_bt(std::span<const std::byte> byt
 [[nodiscard]] bool is_ot(std::span<const std::byte> bytes);
 [[nodiscard]] bool is_bt(std::span<const std::byte> bytes);
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string>
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 std::vector<std::byte> join(const std::string& header, std::span<const Eigen::Vector3f> points) {
@@ -59,4 +59,4 @@ std::vector<std::byte> encode_pcd(std::span<const Eigen::Vector3f> points) {
       points);
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -9,7 +9,7 @@
 #include "hal/result.hpp"
 #include "onboard/mapping/tree/semantic_octree.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// Centres of all occupied voxels, in metres in the map frame, in depth-first order; a pruned leaf gives every voxel it
 /// stands for. Errc::kLimit above `max_points`.
@@ -21,4 +21,4 @@ Result<std::vector<Eigen::Vector3f>> occupied_voxel_centres(const SemanticOcTree
 /// Binary PCD v0.7 with x, y, z as floats (Point Cloud Library).
 [[nodiscard]] std::vector<std::byte> encode_pcd(std::span<const Eigen::Vector3f> points);
 
-}  // namespace cairn
+}  // namespace cairn::mapping

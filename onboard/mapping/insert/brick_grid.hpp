@@ -5,7 +5,7 @@
 #include <bit>
 #include <cstdint>
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// Voxel keys along x, y, z: 0…65535 inside the tree.
 using VoxelKey = std::array<int, 3>;
@@ -79,4 +79,4 @@ class BrickGrid {
   unsigned brick_bits_ = 0;
 };
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -5,7 +5,7 @@
 #include <array>
 #include <bit>
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 constexpr std::uint64_t kAll = ~std::uint64_t{0};
@@ -189,4 +189,4 @@ BrickUpdater::Leaf BrickUpdater::update_leaf(SemanticNode* leaf, bool any_occupi
   return Leaf::kExpanded;
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -7,7 +7,7 @@
 #include "onboard/mapping/tree/node_writer.hpp"
 #include "onboard/mapping/tree/sensor_model.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// Updates the subtree of one brick (a node at depth 12) with the voxels that a scan touched, visiting each node once.
 ///
@@ -54,4 +54,4 @@ class BrickUpdater {
   bool state_changed_ = false;  // in the tile at hand
 };
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cairn {
+namespace cairn::mapping {
 
 void Footprint::reset(const BrickGrid& grid) {
   for (std::size_t slot = 1; slot < bricks_.size() && flat_; ++slot) table_[bricks_[slot]] = 0;
@@ -97,4 +97,4 @@ void Footprint::rehash(std::size_t places) {
     table_[hash_place(bricks_[slot])] = slot * static_cast<std::uint32_t>(kWords);
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -9,7 +9,7 @@
 
 #include "onboard/mapping/insert/brick_grid.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// One bit per voxel of a brick, in the order of BrickGrid: word = 4³ voxels, byte = 2³ voxels.
 using BrickBits = std::array<std::uint64_t, 64>;
@@ -92,4 +92,4 @@ class Footprint {
   std::vector<BrickRef> refs_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -5,7 +5,7 @@
 
 #include "onboard/mapping/insert/brick_updater.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 constexpr unsigned kBrickDepth = 12;
@@ -118,4 +118,4 @@ void FootprintApplier::list_changed(std::vector<TileKey>& changed) const {
       if ((job.changed_octants >> i & 1) != 0) changed.push_back({job.path << 3 | i});
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

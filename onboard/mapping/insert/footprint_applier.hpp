@@ -11,7 +11,7 @@
 #include "onboard/mapping/tree/map_tile.hpp"
 #include "onboard/mapping/tree/semantic_octree.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// Writes footprints into a tree: down to the bricks by one thread, the bricks by all, back up by one.
 class FootprintApplier {
@@ -43,4 +43,4 @@ class FootprintApplier {
   std::vector<Job> jobs_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -7,7 +7,7 @@
 
 #include "onboard/mapping/tree/semantic_node.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// Fetches nodes into the cache before BrickUpdater comes to them. Updating a map is waiting for
 /// memory: a scan touches some 20 MB of nodes, in an order that no processor foresees but the
@@ -83,4 +83,4 @@ class LookAhead {
   std::size_t step_ = 0;
 };
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 std::uint64_t all_ones_if(bool condition) { return std::uint64_t{0} - static_cast<std::uint64_t>(condition); }
@@ -50,4 +50,4 @@ MarchRays best_march(const Footprint& footprint) {
   return simd != nullptr && footprint.flat() ? simd : march_rays_scalar;
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

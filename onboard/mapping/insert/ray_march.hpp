@@ -7,7 +7,7 @@
 
 #include "onboard/mapping/insert/footprint.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// A ray ready to march from the voxel of the sensor: what OctoMap's computeRayKeys() has computed when its loop
 /// starts.
@@ -34,4 +34,4 @@ void march_rays_scalar(std::span<const Ray> rays, std::uint64_t origin, Footprin
 /// The fastest one for this machine and footprint.
 [[nodiscard]] MarchRays best_march(const Footprint& footprint);
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -10,7 +10,7 @@
 
 #define CAIRN_AVX2 __attribute__((target("avx2,bmi,bmi2")))
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 constexpr int kLanes = 4;
@@ -170,14 +170,14 @@ MarchRays march_rays_avx2() {
   return supported ? march : nullptr;
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping
 
 #else
 
-namespace cairn {
+namespace cairn::mapping {
 
 MarchRays march_rays_avx2() { return nullptr; }
 
-}  // namespace cairn
+}  // namespace cairn::mapping
 
 #endif

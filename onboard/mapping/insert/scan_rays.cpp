@@ -10,7 +10,7 @@
 #include <limits>
 #include <string>
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 constexpr int kKeys = 65536;         // per axis: OctoMap's keys have 16 bits
@@ -132,4 +132,4 @@ Ray ScanRays::ray_to(const Target& target, const BrickGrid& grid) const {
   return ray;
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

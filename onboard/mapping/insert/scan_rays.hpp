@@ -14,7 +14,7 @@
 #include "onboard/mapping/insert/ray_march.hpp"
 #include "onboard/mapping/tree/semantic_octree.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// Turns a scan into hits and rays, exactly as OctoMap's computeDiscreteUpdate() does: points
 /// become the centres of their voxels, each voxel counts once, and beams longer than the maximal
@@ -67,4 +67,4 @@ class ScanRays {
   std::vector<Target> targets_;  // of the rays to march
 };
 
-}  // namespace cairn
+}  // namespace cairn::mapping

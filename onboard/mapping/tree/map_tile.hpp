@@ -4,7 +4,7 @@
 #include <compare>
 #include <cstdint>
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// A cube of 8×8×8 voxels: a node at depth 13 of the tree. Tiles are what robots exchange.
 struct TileKey {
@@ -34,4 +34,4 @@ struct TileKey {
   friend constexpr auto operator<=>(const TileKey&, const TileKey&) = default;
 };
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -7,7 +7,7 @@
 #include <new>
 #include <utility>
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 constexpr std::size_t kSmallestChunk = std::size_t{64} << 10;  // bytes: eight batches
@@ -96,4 +96,4 @@ void BlockCache::spill() {
   count_ = 0;
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

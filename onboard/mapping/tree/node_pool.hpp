@@ -7,7 +7,7 @@
 
 #include "onboard/mapping/tree/semantic_node.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// The memory of one tree: blocks of eight nodes, cut from large chunks that never move, so node
 /// pointers stay valid. Memory goes back to the system only with the pool. Threads do not come here
@@ -93,4 +93,4 @@ class BlockCache {
   SemanticNode* spare_ = nullptr;  // one whole batch, so that take and give in turns do not run to the pool
 };
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -5,7 +5,7 @@
 
 #include "onboard/mapping/tree/node_pool.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// Edits the structure below nodes on behalf of one thread: own stock of blocks, own count of nodes. Several writers
 /// may work at the same time on disjoint subtrees of one tree.
@@ -102,4 +102,4 @@ class NodeWriter {
   std::ptrdiff_t added_ = 0;
 };
 
-}  // namespace cairn
+}  // namespace cairn::mapping

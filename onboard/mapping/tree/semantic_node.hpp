@@ -7,7 +7,7 @@
 #include <cstdint>
 #include <limits>
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// A node of the map: 16 bytes, exactly as large as OctoMap's own. Its eight children stand side by side in one block
 /// of 128 bytes from the tree's NodePool, instead of behind eight pointers; a child that does not exist has the
@@ -63,4 +63,4 @@ class SemanticNode : public octomap::OcTreeNode {
 };
 static_assert(sizeof(SemanticNode) == 16);
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 /// Whether `node` is what NodeWriter::refresh() would leave, and everything below it too.
@@ -118,40 +118,42 @@ void SemanticOcTree::copy_below(const SemanticNode* from, SemanticNode* to) {
   for (unsigned i = 0; i < SemanticNode::kChildren; ++i) copy_below(from->block() + i, to->block() + i);
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping
 
 namespace octomap {
 namespace {
 
-cairn::SemanticOcTree& self(CairnTreeBase* base) { return *static_cast<cairn::SemanticOcTree*>(base); }
+cairn::mapping::SemanticOcTree& self(CairnTreeBase* base) {
+  return *static_cast<cairn::mapping::SemanticOcTree*>(base);
+}
 
 }  // namespace
 
 template <>
-cairn::SemanticNode* CairnTreeBase::createNodeChild(cairn::SemanticNode* node, unsigned i) {
+cairn::mapping::SemanticNode* CairnTreeBase::createNodeChild(cairn::mapping::SemanticNode* node, unsigned i) {
   bool made = false;
-  cairn::SemanticNode* child = self(this).writer(0).child(node, i, made);
+  cairn::mapping::SemanticNode* child = self(this).writer(0).child(node, i, made);
   self(this).settle_count();
   return child;
 }
 
 template <>
-void CairnTreeBase::deleteNodeChild(cairn::SemanticNode* node, unsigned i) {
-  cairn::NodeWriter& writer = self(this).writer(0);
-  cairn::SemanticNode* child = node->block() + i;
+void CairnTreeBase::deleteNodeChild(cairn::mapping::SemanticNode* node, unsigned i) {
+  cairn::mapping::NodeWriter& writer = self(this).writer(0);
+  cairn::mapping::SemanticNode* child = node->block() + i;
   writer.free_below(child);
   child->set_label_id(0);
-  child->setLogOdds(cairn::SemanticNode::kAbsent);
+  child->setLogOdds(cairn::mapping::SemanticNode::kAbsent);
   --tree_size;
   size_changed = true;
-  const cairn::SemanticNode* block = node->block();
-  if (std::none_of(block, block + cairn::SemanticNode::kChildren, [](const auto& c) { return c.present(); }))
+  const cairn::mapping::SemanticNode* block = node->block();
+  if (std::none_of(block, block + cairn::mapping::SemanticNode::kChildren, [](const auto& c) { return c.present(); }))
     writer.drop_block(node);
 }
 
 // Only ever called for the root, by clear().
 template <>
-void CairnTreeBase::deleteNodeRecurs(cairn::SemanticNode* node) {
+void CairnTreeBase::deleteNodeRecurs(cairn::mapping::SemanticNode* node) {
   self(this).writer(0).free_below(node);
   delete node;
 }

@@ -19,26 +19,27 @@
 // castRay, updateNode, readers, writers) goes through them. They must be declared before anything instantiates them.
 /// \cond OCTOMAP
 namespace octomap {
-using CairnTreeBase = OcTreeBaseImpl<cairn::SemanticNode, AbstractOccupancyOcTree>;
+using CairnTreeBase = OcTreeBaseImpl<cairn::mapping::SemanticNode, AbstractOccupancyOcTree>;
 
 template <>
-bool CairnTreeBase::nodeChildExists(const cairn::SemanticNode* node, unsigned i) const;
+bool CairnTreeBase::nodeChildExists(const cairn::mapping::SemanticNode* node, unsigned i) const;
 template <>
-bool CairnTreeBase::nodeHasChildren(const cairn::SemanticNode* node) const;
+bool CairnTreeBase::nodeHasChildren(const cairn::mapping::SemanticNode* node) const;
 template <>
-cairn::SemanticNode* CairnTreeBase::getNodeChild(cairn::SemanticNode* node, unsigned i) const;
+cairn::mapping::SemanticNode* CairnTreeBase::getNodeChild(cairn::mapping::SemanticNode* node, unsigned i) const;
 template <>
-const cairn::SemanticNode* CairnTreeBase::getNodeChild(const cairn::SemanticNode* node, unsigned i) const;
+const cairn::mapping::SemanticNode* CairnTreeBase::getNodeChild(const cairn::mapping::SemanticNode* node,
+                                                                unsigned i) const;
 template <>
-cairn::SemanticNode* CairnTreeBase::createNodeChild(cairn::SemanticNode* node, unsigned i);
+cairn::mapping::SemanticNode* CairnTreeBase::createNodeChild(cairn::mapping::SemanticNode* node, unsigned i);
 template <>
-void CairnTreeBase::deleteNodeChild(cairn::SemanticNode* node, unsigned i);
+void CairnTreeBase::deleteNodeChild(cairn::mapping::SemanticNode* node, unsigned i);
 template <>
-void CairnTreeBase::deleteNodeRecurs(cairn::SemanticNode* node);
+void CairnTreeBase::deleteNodeRecurs(cairn::mapping::SemanticNode* node);
 }  // namespace octomap
 /// \endcond
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// Owns the pool; a base class of its own, so that the pool outlives OctoMap's part of the tree.
 class NodePoolHolder {
@@ -106,25 +107,26 @@ class SemanticOcTree : private NodePoolHolder, public octomap::OccupancyOcTreeBa
   std::vector<NodeWriter> writers_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::mapping
 
 /// \cond OCTOMAP
 namespace octomap {
 
 template <>
-inline bool CairnTreeBase::nodeChildExists(const cairn::SemanticNode* node, unsigned i) const {
+inline bool CairnTreeBase::nodeChildExists(const cairn::mapping::SemanticNode* node, unsigned i) const {
   return node->block() != nullptr && node->block()[i].present();
 }
 template <>
-inline bool CairnTreeBase::nodeHasChildren(const cairn::SemanticNode* node) const {
+inline bool CairnTreeBase::nodeHasChildren(const cairn::mapping::SemanticNode* node) const {
   return node->block() != nullptr;
 }
 template <>
-inline cairn::SemanticNode* CairnTreeBase::getNodeChild(cairn::SemanticNode* node, unsigned i) const {
+inline cairn::mapping::SemanticNode* CairnTreeBase::getNodeChild(cairn::mapping::SemanticNode* node, unsigned i) const {
   return node->block() + i;
 }
 template <>
-inline const cairn::SemanticNode* CairnTreeBase::getNodeChild(const cairn::SemanticNode* node, unsigned i) const {
+inline const cairn::mapping::SemanticNode* CairnTreeBase::getNodeChild(const cairn::mapping::SemanticNode* node,
+                                                                       unsigned i) const {
   return node->block() + i;
 }
 

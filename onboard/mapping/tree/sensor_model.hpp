@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// How one observation moves the log-odds of a voxel; floats, and rules, as in OctoMap.
 struct SensorModel {
@@ -22,4 +22,4 @@ struct SensorModel {
   friend bool operator==(const SensorModel&, const SensorModel&) = default;
 };
 
-}  // namespace cairn
+}  // namespace cairn::mapping

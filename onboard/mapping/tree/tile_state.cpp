@@ -6,7 +6,7 @@
 #include <span>
 #include <utility>
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 constexpr unsigned kTileDepth = SemanticOcTree::kDepth - TileKey::kVoxelBits;
@@ -192,4 +192,4 @@ std::vector<TileKey> known_tiles(const SemanticOcTree& map, std::size_t most) {
   return tiles;
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

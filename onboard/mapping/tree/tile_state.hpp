@@ -10,7 +10,7 @@
 #include "onboard/mapping/tree/semantic_octree.hpp"
 #include "onboard/mapping/tree/tile_voxels.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// What a robot knows of the 512 voxels of a tile, in the coarse form that robots exchange:
 /// unknown, free in two grades or occupied in four. Bit planes: element z, byte y, bit x.
@@ -70,4 +70,4 @@ void write_tile(SemanticOcTree& map, TileKey tile, const TileVoxels& voxels, con
 /// Every tile in which the map knows something, in canonical order; not more than `most`.
 [[nodiscard]] std::vector<TileKey> known_tiles(const SemanticOcTree& map, std::size_t most);
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 bool nothing_known(const float* voxels, int count) {
@@ -73,4 +73,4 @@ bool write_voxels(const TileVoxels& voxels, NodeWriter& writer, SemanticNode* le
   return true;
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -6,7 +6,7 @@
 #include "onboard/mapping/tree/semantic_octree.hpp"
 #include "onboard/mapping/tree/voxel_label.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// Log-odds of all voxels of a tile, that is, of a node three levels above them, SemanticNode::kAbsent where nothing is
 /// known; in the order of the tree: the voxels of the first child before those of the second, on each level.
@@ -28,4 +28,4 @@ bool read_labels(const SemanticNode& node, TileLabels& labels);
 /// then it stays as it is. `labels`: of those that are known; null: none has one.
 bool write_voxels(const TileVoxels& voxels, NodeWriter& writer, SemanticNode* leaf, const TileLabels* labels = nullptr);
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-namespace cairn {
+namespace cairn::mapping {
 
 Result<void> TreeBuilder::leaf(float log_odds, VoxelLabel label) {
   if (!std::isfinite(log_odds)) return Error{Errc::kMalformed, "a log-odds value is not finite"};
@@ -46,4 +46,4 @@ void TreeBuilder::close_complete() {
   if (done_) tree_.settle_count();
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -9,7 +9,7 @@
 #include "onboard/mapping/tree/semantic_octree.hpp"
 #include "onboard/mapping/tree/voxel_label.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// What a map from outside may cost. A larger one is refused with kLimit.
 struct MapLimits {
@@ -59,4 +59,4 @@ class TreeBuilder {
   bool done_ = false;
 };
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cairn {
+namespace cairn::mapping {
 
 TreeCopy::TreeCopy(const SemanticOcTree& from) : copy_(std::make_unique<SemanticOcTree>(from.getResolution())) {
   copy_->set_sensor_model(from.sensor_model());
@@ -54,4 +54,4 @@ void TreeCopy::copy_whole(const SemanticNode* from, SemanticNode* to) {
   }
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -7,7 +7,7 @@
 
 #include "onboard/mapping/tree/semantic_octree.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// A copy of a map that goes on growing, made a slice at a time between two scans. Each cube of 32
 /// voxels is copied whole; it shows the map as it was when its turn came, so that one cube may know
@@ -43,4 +43,4 @@ class TreeCopy {
   std::size_t left_ = 0;    // nodes that this step may still copy
 };
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -5,7 +5,7 @@
 #include <compare>
 #include <cstdint>
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// What an occupied voxel most probably is, as robots exchange it: one of the 19 classes of Cityscapes (trainIds), and
 /// how probable that is, in four grades. 0 is no label; ids of SemanticNode::label_id() up to kCodes are such labels.
@@ -30,4 +30,4 @@ struct VoxelLabel {
   friend constexpr auto operator<=>(const VoxelLabel&, const VoxelLabel&) = default;
 };
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 // sin² of 5.7°. The normals of patches are noisy by max_tilt_rad = 1.7° and by curved surfaces;
@@ -64,4 +64,4 @@ NormalEquations without_degenerate(const NormalEquations& n, const Degeneracy& d
   return out;
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -7,7 +7,7 @@
 #include "hal/se3.hpp"
 #include "onboard/odometry/estimation/normal_equations.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// Which motions the matched patches do not determine.
 struct Degeneracy {
@@ -35,4 +35,4 @@ struct Degeneracy {
 /// The equations without what they say about the undetermined directions.
 [[nodiscard]] NormalEquations without_degenerate(const NormalEquations& n, const Degeneracy& d);
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/odometry/estimation/deskew.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 Deskew::Deskew(const Vector6& twist, const SE3& T_base_lidar, double duration_s) {
   const double step = duration_s / static_cast<double>(kSegments);
@@ -14,4 +14,4 @@ Deskew::Deskew(const Vector6& twist, const SE3& T_base_lidar, double duration_s)
   knots_per_second_ = duration_s > 0 ? static_cast<float>(1.0 / step) : 0.0F;
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

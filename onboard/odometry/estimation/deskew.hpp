@@ -8,7 +8,7 @@
 
 #include "hal/se3.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// Takes points measured at different times of one scan into base_link at the scan's stamp, for a
 /// base that moved with a constant twist: p_base(stamp) = exp(−τ·twist)·T_base_lidar·p_lidar, τ =
@@ -46,4 +46,4 @@ class Deskew {
   float knots_per_second_ = 0;
 };
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -3,7 +3,7 @@
 
 #include <Eigen/Cholesky>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 /// Hessian of ½·Σ w r² over (δ, ν), see NormalEquations.
@@ -129,4 +129,4 @@ void MotionFilter::follow_motion() {
   correction_ = kCorrectedShare * gap_;
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

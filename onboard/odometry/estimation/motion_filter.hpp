@@ -7,7 +7,7 @@
 #include "onboard/odometry/estimation/degeneracy.hpp"
 #include "onboard/odometry/estimation/normal_equations.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 using Vector12 = Eigen::Matrix<double, 12, 1>;
 using Matrix12 = Eigen::Matrix<double, 12, 12>;
@@ -91,4 +91,4 @@ class MotionFilter {
 
 [[nodiscard]] MotionState operator+(const MotionState& x, const Vector12& step);
 
-}  // namespace cairn
+}  // namespace cairn::odometry

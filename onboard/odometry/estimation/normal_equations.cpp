@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 // Squared standard deviations. A point within 3 σ of its patch is an inlier.
@@ -123,4 +123,4 @@ NormalEquations Linearise::operator()(std::span<const Keypoint> keypoints, const
   return total;
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

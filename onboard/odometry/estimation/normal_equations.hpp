@@ -11,7 +11,7 @@
 #include "onboard/odometry/estimation/deskew.hpp"
 #include "onboard/odometry/local_map/patch_map.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// A point chosen for registration.
 struct Keypoint {
@@ -84,4 +84,4 @@ class Linearise {
   std::vector<ResidualRow> rows_;  // two per keypoint
 };
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 // In edges. Along each axis one of the two staggered grids has any point within a quarter edge of
@@ -102,4 +102,4 @@ Patch fit_patch(const Moments& m, float edge, const PatchCriteria& criteria, con
   return patch;
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -4,7 +4,7 @@
 #include <Eigen/Core>
 #include <cstdint>
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// Sums over the points of one block, relative to the block's centre. Enough to fit a patch at any
 /// time, and never growing: the points themselves are not kept.
@@ -86,4 +86,4 @@ struct Viewpoint {
 /// of it: the staggered grid has the same patch in the middle of its block.
 [[nodiscard]] Patch fit_patch(const Moments& m, float edge, const PatchCriteria& criteria, const Viewpoint& from);
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -6,7 +6,7 @@
 
 #include "onboard/odometry/local_map/voxel_key.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 // A block is fitted again when its points have grown by this factor. A fit costs as much as forty
@@ -112,4 +112,4 @@ std::size_t PatchGrid::patches() const {
       std::count_if(patches_.begin(), patches_.end(), [](const Patch& p) { return p.kind != Patch::Kind::kNone; }));
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

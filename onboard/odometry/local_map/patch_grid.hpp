@@ -8,7 +8,7 @@
 
 #include "onboard/odometry/local_map/patch.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// Integer coordinates of a block.
 struct BlockIndex {
@@ -99,4 +99,4 @@ class PatchGrid {
   std::vector<std::uint32_t> grown_;  // blocks to be fitted
 };
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -5,7 +5,7 @@
 
 #include "onboard/odometry/local_map/voxel_key.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 // In edges. Rings of a VLP-16 are 2° = 0.035 rad apart (data sheet), so at this range they are 1.4
@@ -123,4 +123,4 @@ std::size_t PatchMap::blocks() const {
   return n;
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

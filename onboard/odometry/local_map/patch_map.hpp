@@ -10,7 +10,7 @@
 #include "hal/workers.hpp"
 #include "onboard/odometry/local_map/patch_grid.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// What the map knows about one point.
 struct PatchMatch {
@@ -57,4 +57,4 @@ class PatchMap {
   std::vector<PatchGrid> grids_;  // 2·level + (1 if staggered), level 0 the finest
 };
 
-}  // namespace cairn
+}  // namespace cairn::odometry

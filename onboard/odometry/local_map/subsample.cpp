@@ -5,7 +5,7 @@
 
 #include "onboard/odometry/local_map/voxel_key.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 void Subsample::reserve(std::size_t n) {
   if (slots_.size() < 2 * n) {
@@ -37,4 +37,4 @@ std::span<const std::uint32_t> Subsample::operator()(std::span<const Eigen::Vect
   return kept_;
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// Thins a cloud: of the points that fall into one cube of a grid, the first in scan order is kept. Structure survives
 /// because dense regions are thinned and sparse ones are not. Keeps its memory between calls.
@@ -29,4 +29,4 @@ class Subsample {
   std::uint32_t call_ = 0;
 };
 
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -3,7 +3,7 @@
 
 #include <cstdint>
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// Integer cube coordinates packed into 63 bits, 21 per axis; coordinates wrap beyond ±2²⁰ cubes.
 [[nodiscard]] constexpr std::uint64_t voxel_key(std::int32_t x, std::int32_t y, std::int32_t z) {
@@ -26,4 +26,4 @@ template <class Real>
   return i - static_cast<std::int32_t>(static_cast<Real>(i) > x);
 }
 
-}  // namespace cairn
+}  // namespace cairn::odometry

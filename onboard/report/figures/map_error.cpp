@@ -7,12 +7,12 @@
 
 #include "onboard/mapping/files/point_file.hpp"
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 /// A node and the cube it stands for.
 struct Cube {
-  const SemanticNode* node;
+  const mapping::SemanticNode* node;
   Eigen::Vector3d centre;
   double half;
 };
@@ -35,7 +35,7 @@ std::optional<double> ratio(std::uint64_t part, std::uint64_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-void measure_accuracy(const SemanticOcTree& truth, const std::vector<Eigen::Vector3f>& voxels,
+void measure_accuracy(const mapping::SemanticOcTree& truth, const std::vector<Eigen::Vector3f>& voxels,
                       const MapErrorOptions& options, MapError& error) {
   double sum = 0, sum2 = 0;
   for (const Eigen::Vector3f& v : voxels) {
@@ -51,7 +51,7 @@ void measure_accuracy(const SemanticOcTree& truth, const std::vector<Eigen::Vect
   error.rmse_m = std::sqrt(sum2 / static_cast<double>(voxels.size()));
 }
 
-void measure_completeness(const SemanticOcTree& map, const std::vector<Eigen::Vector3f>& voxels,
+void measure_completeness(const mapping::SemanticOcTree& map, const std::vector<Eigen::Vector3f>& voxels,
                           const MapErrorOptions& options, MapError& error) {
   const SE3 T_map_truth = options.T_truth_map.inverse();
   for (const Eigen::Vector3f& v : voxels) {
@@ -67,14 +67,14 @@ void measure_completeness(const SemanticOcTree& map, const std::vector<Eigen::Ve
 
 }  // namespace
 
-std::optional<double> distance_to_occupied(const SemanticOcTree& map, const Eigen::Vector3d& point,
+std::optional<double> distance_to_occupied(const mapping::SemanticOcTree& map, const Eigen::Vector3d& point,
                                            double max_distance_m) {
   const double voxel = map.getResolution();
   double best = max_distance_m;
   bool found = false;
   std::vector<Cube> open;
   if (map.getRoot() != nullptr)
-    open.push_back({map.getRoot(), Eigen::Vector3d::Zero(), voxel * (1 << (SemanticOcTree::kDepth - 1))});
+    open.push_back({map.getRoot(), Eigen::Vector3d::Zero(), voxel * (1 << (mapping::SemanticOcTree::kDepth - 1))});
   while (!open.empty()) {
     const Cube cube = open.back();
     open.pop_back();
@@ -86,7 +86,7 @@ std::optional<double> distance_to_occupied(const SemanticOcTree& map, const Eige
       continue;
     }
     const std::size_t first = open.size();
-    for (unsigned i = 0; i < SemanticNode::kChildren; ++i)
+    for (unsigned i = 0; i < mapping::SemanticNode::kChildren; ++i)
       if (cube.node->block()[i].present()) open.push_back(child_of(cube, i));
     // The nearest child comes last and so is taken first.
     std::sort(open.begin() + static_cast<std::ptrdiff_t>(first), open.end(),
@@ -98,11 +98,12 @@ std::optional<double> distance_to_occupied(const SemanticOcTree& map, const Eige
 std::optional<double> MapError::precision() const { return ratio(correct, occupied); }
 std::optional<double> MapError::recall() const { return ratio(found, found + contradicted); }
 
-Result<MapError> map_error(const SemanticOcTree& map, const SemanticOcTree& truth, const MapErrorOptions& asked) {
+Result<MapError> map_error(const mapping::SemanticOcTree& map, const mapping::SemanticOcTree& truth,
+                           const MapErrorOptions& asked) {
   MapErrorOptions options = asked;
   if (options.tolerance_m <= 0) options.tolerance_m = std::sqrt(3.0) * map.getResolution();
   options.max_distance_m = std::max(options.max_distance_m, options.tolerance_m);
-  const auto voxels = occupied_voxel_centres(map), true_voxels = occupied_voxel_centres(truth);
+  const auto voxels = mapping::occupied_voxel_centres(map), true_voxels = mapping::occupied_voxel_centres(truth);
   if (!voxels) return voxels.error();
   if (!true_voxels) return true_voxels.error();
   MapError error;
@@ -111,4 +112,4 @@ Result<MapError> map_error(const SemanticOcTree& map, const SemanticOcTree& trut
   return error;
 }
 
-}  // namespace cairn
+}  // namespace cairn::report

@@ -8,12 +8,12 @@
 #include "hal/se3.hpp"
 #include "onboard/mapping/tree/semantic_octree.hpp"
 
-namespace cairn {
+namespace cairn::report {
 
 /// Distance from a point to the nearest centre of an occupied voxel, in metres; none beyond `max_distance_m`.
 /// Branch and bound: relies on inner nodes being the maximum of their children (is_canonical()).
-[[nodiscard]] std::optional<double> distance_to_occupied(const SemanticOcTree& map, const Eigen::Vector3d& point,
-                                                         double max_distance_m);
+[[nodiscard]] std::optional<double> distance_to_occupied(const mapping::SemanticOcTree& map,
+                                                         const Eigen::Vector3d& point, double max_distance_m);
 
 struct MapErrorOptions {
   SE3 T_truth_map;            ///< the map's frame in the true map's frame
@@ -36,7 +36,7 @@ struct MapError {
   [[nodiscard]] std::optional<double> recall() const;
 };
 /// Error: more occupied voxels than can be listed.
-[[nodiscard]] Result<MapError> map_error(const SemanticOcTree& map, const SemanticOcTree& truth,
+[[nodiscard]] Result<MapError> map_error(const mapping::SemanticOcTree& map, const mapping::SemanticOcTree& truth,
                                          const MapErrorOptions& options);
 
-}  // namespace cairn
+}  // namespace cairn::report

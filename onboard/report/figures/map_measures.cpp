@@ -7,30 +7,32 @@
 #include <cmath>
 #include <vector>
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
-std::uint64_t voxels_below(unsigned depth) { return std::uint64_t{1} << (3 * (SemanticOcTree::kDepth - depth)); }
+std::uint64_t voxels_below(unsigned depth) {
+  return std::uint64_t{1} << (3 * (mapping::SemanticOcTree::kDepth - depth));
+}
 
 /// The same cube in both trees; null where a tree knows nothing of it. A leaf stands for its whole cube, so it is
 /// handed down unchanged while the other tree is still finer.
 struct Pair {
-  const SemanticNode* a;
-  const SemanticNode* b;
+  const mapping::SemanticNode* a;
+  const mapping::SemanticNode* b;
   unsigned depth;
 };
 
-const SemanticNode* part_of(const SemanticNode* node, unsigned child) {
+const mapping::SemanticNode* part_of(const mapping::SemanticNode* node, unsigned child) {
   if (node == nullptr || node->block() == nullptr) return node;
-  const SemanticNode* part = node->block() + child;
+  const mapping::SemanticNode* part = node->block() + child;
   return part->present() ? part : nullptr;
 }
 
-bool is_uniform(const SemanticNode* node) { return node == nullptr || node->block() == nullptr; }
+bool is_uniform(const mapping::SemanticNode* node) { return node == nullptr || node->block() == nullptr; }
 
 class Comparer {
  public:
-  Comparer(const SemanticOcTree& a, const SemanticOcTree& b) : a_(a), b_(b) {}
+  Comparer(const mapping::SemanticOcTree& a, const mapping::SemanticOcTree& b) : a_(a), b_(b) {}
 
   MapComparison run() {
     std::vector<Pair> open;
@@ -43,7 +45,7 @@ class Comparer {
         count(pair);
         continue;
       }
-      for (unsigned i = 0; i < SemanticNode::kChildren; ++i)
+      for (unsigned i = 0; i < mapping::SemanticNode::kChildren; ++i)
         open.push_back({part_of(pair.a, i), part_of(pair.b, i), pair.depth + 1});
     }
     return result_;
@@ -67,8 +69,8 @@ class Comparer {
     }
   }
 
-  const SemanticOcTree& a_;
-  const SemanticOcTree& b_;
+  const mapping::SemanticOcTree& a_;
+  const mapping::SemanticOcTree& b_;
   MapComparison result_;
 };
 
@@ -84,7 +86,7 @@ std::optional<double> mean(double sum, std::uint64_t count) {
 double binary_entropy(double p) { return -plog2p(p) - plog2p(1 - p); }
 double book_entropy(double p) { return -plog2p(p); }
 
-MapSummary summarise(const SemanticOcTree& map) {
+MapSummary summarise(const mapping::SemanticOcTree& map) {
   MapSummary s;
   s.resolution_m = map.getResolution();
   s.nodes = map.size();
@@ -115,7 +117,7 @@ std::optional<double> MapComparison::iou_occupied() const {
   return mean(static_cast<double>(occupied_both), occupied_a + occupied_b - occupied_both);
 }
 
-Result<MapComparison> compare(const SemanticOcTree& a, const SemanticOcTree& b) {
+Result<MapComparison> compare(const mapping::SemanticOcTree& a, const mapping::SemanticOcTree& b) {
   if (a.getResolution() != b.getResolution())
     return Error{
         Errc::kUnsupported,
@@ -126,4 +128,4 @@ Result<MapComparison> compare(const SemanticOcTree& a, const SemanticOcTree& b) 
   return Comparer(a, b).run();
 }
 
-}  // namespace cairn
+}  // namespace cairn::report

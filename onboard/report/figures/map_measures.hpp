@@ -8,7 +8,7 @@
 #include "hal/result.hpp"
 #include "onboard/mapping/tree/semantic_octree.hpp"
 
-namespace cairn {
+namespace cairn::report {
 
 /// Entropy of a voxel that is occupied with probability p, in bits: −p log2 p − (1−p) log2(1−p).
 [[nodiscard]] double binary_entropy(double p);
@@ -29,7 +29,7 @@ struct MapSummary {
   [[nodiscard]] double voxel_volume_m3() const { return resolution_m * resolution_m * resolution_m; }
   [[nodiscard]] double known_volume_m3() const { return static_cast<double>(occupied + free) * voxel_volume_m3(); }
 };
-[[nodiscard]] MapSummary summarise(const SemanticOcTree& map);
+[[nodiscard]] MapSummary summarise(const mapping::SemanticOcTree& map);
 
 /// How two maps differ, voxel by voxel in the same place; counted at the finest resolution.
 struct MapComparison {
@@ -45,6 +45,6 @@ struct MapComparison {
 };
 /// Both trees are walked side by side and a cube that is one leaf in both is counted as a whole: time grows with the
 /// number of nodes, memory does not grow. Error: the resolutions differ.
-[[nodiscard]] Result<MapComparison> compare(const SemanticOcTree& a, const SemanticOcTree& b);
+[[nodiscard]] Result<MapComparison> compare(const mapping::SemanticOcTree& a, const mapping::SemanticOcTree& b);
 
-}  // namespace cairn
+}  // namespace cairn::report

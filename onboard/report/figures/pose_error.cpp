@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 /// The estimate that a matched pose came from: both lists run in the same order.
@@ -48,4 +48,4 @@ std::array<std::optional<double>, 6> share_inside_3_sigma(std::span<const PoseEr
   return shares;
 }
 
-}  // namespace cairn
+}  // namespace cairn::report

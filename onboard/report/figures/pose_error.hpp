@@ -8,7 +8,7 @@
 
 #include "onboard/report/figures/run_report.hpp"
 
-namespace cairn {
+namespace cairn::report {
 
 /// Error of one estimate, with what the estimate itself claims about it.
 struct PoseError {
@@ -26,4 +26,4 @@ struct PoseError {
 /// Share (0…1) of the errors within 3 σ per axis; none where no covariance was claimed.
 [[nodiscard]] std::array<std::optional<double>, 6> share_inside_3_sigma(std::span<const PoseError> errors);
 
-}  // namespace cairn
+}  // namespace cairn::report

@@ -17,7 +17,7 @@
 #include "onboard/scheduler/task_spec.hpp"
 #include "onboard/scheduler/task_stats.hpp"
 
-namespace cairn {
+namespace cairn::report {
 
 /// An estimated pose. The covariance is that of the right perturbation of T_odom_base (hal/se3.hpp),
 /// accumulated since the first pose; zero if the estimate claims none.
@@ -103,4 +103,4 @@ struct RunReport {
 /// Highest resident set size of this process so far, in MiB (getrusage).
 [[nodiscard]] double peak_rss_mb();
 
-}  // namespace cairn
+}  // namespace cairn::report

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <vector>
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 // OpenSSL refuses here only when memory is exhausted or its own installation is broken.
@@ -59,4 +59,4 @@ Result<std::string> sha256_of_files(std::span<const std::filesystem::path> files
   return sum.finish();
 }
 
-}  // namespace cairn
+}  // namespace cairn::report

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <string>
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 constexpr double kDegrees = 180.0 / std::numbers::pi;
@@ -191,4 +191,4 @@ Result<TrajectoryError> trajectory_error(std::span<const StampedPose> estimate, 
   return e;
 }
 
-}  // namespace cairn
+}  // namespace cairn::report

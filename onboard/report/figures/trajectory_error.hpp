@@ -11,7 +11,7 @@
 #include "hal/result.hpp"
 #include "hal/se3.hpp"
 
-namespace cairn {
+namespace cairn::report {
 
 using recording::StampedPose;
 
@@ -84,4 +84,4 @@ struct TrajectoryError {
                                                        std::span<const StampedPose> truth,
                                                        const TrajectoryErrorOptions& options);
 
-}  // namespace cairn
+}  // namespace cairn::report

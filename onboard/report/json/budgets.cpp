@@ -10,7 +10,7 @@
 #include "hal/config/yaml_document.hpp"
 #include "hal/files/file.hpp"
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 constexpr std::uint64_t kMaxBytes = 1U << 20U;
@@ -117,4 +117,4 @@ bool all_kept(const std::vector<BudgetVerdict>& verdicts) {
   return std::all_of(verdicts.begin(), verdicts.end(), [](const BudgetVerdict& v) { return v.kept(); });
 }
 
-}  // namespace cairn
+}  // namespace cairn::report

@@ -9,7 +9,7 @@
 
 #include "hal/result.hpp"
 
-namespace cairn {
+namespace cairn::report {
 
 /// One line of a budget file: a field of report.json and how large it may be.
 struct BudgetLimit {
@@ -38,4 +38,4 @@ struct BudgetVerdict {
 [[nodiscard]] std::string to_table(const std::vector<BudgetVerdict>& verdicts);
 [[nodiscard]] bool all_kept(const std::vector<BudgetVerdict>& verdicts);
 
-}  // namespace cairn
+}  // namespace cairn::report

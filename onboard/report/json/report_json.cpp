@@ -5,7 +5,7 @@
 
 #include "onboard/report/figures/pose_error.hpp"
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 template <class T>
@@ -260,4 +260,4 @@ Json to_json(const RunReport& report) {
 
 std::string to_text(const Json& json) { return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
-}  // namespace cairn
+}  // namespace cairn::report

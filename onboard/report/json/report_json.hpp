@@ -7,7 +7,7 @@
 #include "onboard/report/figures/map_error.hpp"
 #include "onboard/report/figures/run_report.hpp"
 
-namespace cairn {
+namespace cairn::report {
 
 /// Objects with their members in the order they are written down, so that a report reads from general to particular.
 using Json = nlohmann::ordered_json;
@@ -23,4 +23,4 @@ using Json = nlohmann::ordered_json;
 /// Text of a JSON value. Bytes that are not UTF-8 are replaced: file names and messages may hold any.
 [[nodiscard]] std::string to_text(const Json& json);
 
-}  // namespace cairn
+}  // namespace cairn::report

@@ -10,7 +10,7 @@
 #include "onboard/report/page/html_text.hpp"
 #include "onboard/report/page/svg_chart.hpp"
 
-namespace cairn::html {
+namespace cairn::report::html {
 namespace {
 
 constexpr double kDegrees = 180 / std::numbers::pi;
@@ -180,4 +180,4 @@ std::string details_section(const RunReport& report) {
   return s;
 }
 
-}  // namespace cairn::html
+}  // namespace cairn::report::html

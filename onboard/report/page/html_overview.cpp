@@ -8,7 +8,7 @@
 #include "onboard/report/page/html_text.hpp"
 #include "onboard/report/pictures/map_paint.hpp"
 
-namespace cairn::html {
+namespace cairn::report::html {
 namespace {
 
 /// `grade` is "", "good", "warn" or "bad".
@@ -173,4 +173,4 @@ std::string map_section(const RunReport& report, const std::string& svg) {
   return s + "</div></section>\n";
 }
 
-}  // namespace cairn::html
+}  // namespace cairn::report::html

@@ -7,7 +7,7 @@
 #include "onboard/report/page/html_sections.hpp"
 #include "onboard/report/page/html_text.hpp"
 
-namespace cairn::html {
+namespace cairn::report::html {
 namespace {
 
 std::string cell(const std::string& value, const char* grade = "") {
@@ -85,4 +85,4 @@ std::string schedule_section(const RunReport& report) {
   return s + "</table></section>\n";
 }
 
-}  // namespace cairn::html
+}  // namespace cairn::report::html

@@ -9,7 +9,7 @@
 #include "onboard/report/figures/pose_error.hpp"
 #include "onboard/report/figures/run_report.hpp"
 
-namespace cairn::html {
+namespace cairn::report::html {
 
 /// What more than one section needs.
 struct Figures {
@@ -30,4 +30,4 @@ struct Figures {
 [[nodiscard]] std::string peers_section(const RunReport& report);
 [[nodiscard]] std::string details_section(const RunReport& report);
 
-}  // namespace cairn::html
+}  // namespace cairn::report::html

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace cairn::html {
+namespace cairn::report::html {
 
 std::string escape(std::string_view text) {
   std::string out;
@@ -95,4 +95,4 @@ std::string duration(double seconds) {
   return fmt::format("{}:{:02}:{:02} h", s / 3600, s / 60 % 60, s % 60);
 }
 
-}  // namespace cairn::html
+}  // namespace cairn::report::html

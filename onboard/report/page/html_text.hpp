@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-namespace cairn::html {
+namespace cairn::report::html {
 
 /// Text that cannot leave its place in HTML, be it content or a quoted attribute. Control characters other than tab and
 /// newline become U+FFFD.
@@ -27,4 +27,4 @@ namespace cairn::html {
 /// 35 s, 2:05 min, 1:02:03 h.
 [[nodiscard]] std::string duration(double seconds);
 
-}  // namespace cairn::html
+}  // namespace cairn::report::html

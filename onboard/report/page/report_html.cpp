@@ -6,7 +6,7 @@
 #include "onboard/report/page/report_style.hpp"
 #include "onboard/report/page/svg_map.hpp"
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 html::Figures figures_of(const RunReport& report) {
@@ -47,4 +47,4 @@ Result<std::string> to_html(const RunReport& report) {
          html::details_section(report) + foot(report);
 }
 
-}  // namespace cairn
+}  // namespace cairn::report

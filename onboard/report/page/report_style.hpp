@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-namespace cairn::html {
+namespace cairn::report::html {
 
 /// The style sheet of report.html. Light and dark follow the reader's system.
 inline constexpr const char* kStyle = R"css(
@@ -70,4 +70,4 @@ footer { color: var(--soft); font-size: 13px; overflow-wrap: anywhere; margin-to
 @media print { section, .tile { break-inside: avoid; } body { background: #fff; } }
 )css";
 
-}  // namespace cairn::html
+}  // namespace cairn::report::html

@@ -9,7 +9,7 @@
 
 #include "onboard/report/page/html_text.hpp"
 
-namespace cairn::html {
+namespace cairn::report::html {
 namespace {
 
 // One size for all charts; the page scales them. Small enough to be read on a phone.
@@ -217,4 +217,4 @@ std::string svg_histogram(const StageStats& stage, const Decades& decades) {
   return figure(stage.name, "runs over ms", body);
 }
 
-}  // namespace cairn::html
+}  // namespace cairn::report::html

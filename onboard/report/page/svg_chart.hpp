@@ -6,7 +6,7 @@
 
 #include "hal/monitor.hpp"
 
-namespace cairn::html {
+namespace cairn::report::html {
 
 /// One curve. `css` is the class that colours it (report_style.hpp).
 struct Curve {
@@ -41,4 +41,4 @@ struct Decades {
 /// 1, 2 or 5 times a power of ten that cuts `span` into at most `most` steps.
 [[nodiscard]] double round_step(double span, int most);
 
-}  // namespace cairn::html
+}  // namespace cairn::report::html

@@ -9,7 +9,7 @@
 #include "onboard/report/page/html_text.hpp"
 #include "onboard/report/pictures/map_paint.hpp"
 
-namespace cairn::html {
+namespace cairn::report::html {
 namespace {
 
 constexpr double kWidth = 960, kTallest = 1100, kMargin_m = 0.5;
@@ -132,4 +132,4 @@ Result<std::string> svg_map(const RunReport& report) {
   return s + scale_bar(frame) + "</svg>\n";
 }
 
-}  // namespace cairn::html
+}  // namespace cairn::report::html

@@ -6,7 +6,7 @@
 
 #include "onboard/report/pictures/font.hpp"
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 // Pieces beyond this many pixels lie mostly outside of any picture: they are not worth cutting into dashes.
@@ -113,4 +113,4 @@ int text_width(std::string_view text, int scale) {
   return text.empty() ? 0 : (static_cast<int>(text.size()) * kGlyphWidth - 1) * scale;
 }
 
-}  // namespace cairn
+}  // namespace cairn::report

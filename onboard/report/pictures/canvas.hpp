@@ -7,7 +7,7 @@
 
 #include "onboard/report/pictures/raster.hpp"
 
-namespace cairn {
+namespace cairn::report {
 
 /// Pixel coordinates: x to the right, y down, (0, 0) the upper left corner of the upper left pixel. Whatever lies
 /// outside of the image is cut off.
@@ -30,4 +30,4 @@ inline constexpr int kGlyphWidth = 6, kGlyphHeight = 7;  ///< pixels per charact
 void draw_text(Raster& image, int x, int y, std::string_view text, int scale, Rgba colour);
 [[nodiscard]] int text_width(std::string_view text, int scale);
 
-}  // namespace cairn
+}  // namespace cairn::report

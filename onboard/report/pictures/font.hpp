@@ -4,7 +4,7 @@
 #include <array>
 #include <cstdint>
 
-namespace cairn {
+namespace cairn::report {
 
 /// Rows from top to bottom; bit 4 is the left pixel of a row.
 struct Glyph {
@@ -60,4 +60,4 @@ inline constexpr std::array kFont{
     Glyph{'z', {0b00000, 0b00000, 0b11111, 0b00010, 0b00100, 0b01000, 0b11111}},
 };
 
-}  // namespace cairn
+}  // namespace cairn::report

@@ -7,7 +7,7 @@
 #include <array>
 #include <cmath>
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 constexpr Rgba kUnknown{0xd5, 0xda, 0xe1, 255}, kFree{0xfb, 0xfc, 0xfd, 255}, kInk{0x1b, 0x23, 0x2e, 255};
@@ -207,4 +207,4 @@ Result<Raster> draw_map(const MapPicture& picture, const MapDrawing& drawing) {
   return image;
 }
 
-}  // namespace cairn
+}  // namespace cairn::report

@@ -9,7 +9,7 @@
 #include "onboard/report/pictures/map_picture.hpp"
 #include "onboard/report/pictures/raster.hpp"
 
-namespace cairn {
+namespace cairn::report {
 
 /// Colour of a height: share 0 is the lowest, 1 the highest. Readable on light and on dark ground.
 [[nodiscard]] Rgba height_colour(double share);
@@ -40,4 +40,4 @@ struct MapDrawing {
 /// 1, 2 or 5 times a power of ten, at most `limit` (> 0): lengths of scale bars and distances of grid lines.
 [[nodiscard]] double round_below(double limit);
 
-}  // namespace cairn
+}  // namespace cairn::report

@@ -6,10 +6,10 @@
 #include <cmath>
 #include <limits>
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
-constexpr int kKeys = 1 << SemanticOcTree::kDepth;
+constexpr int kKeys = 1 << mapping::SemanticOcTree::kDepth;
 constexpr int kZeroKey = kKeys / 2;  // the voxel whose lower corner is the origin
 
 /// A leaf as a cube of voxels: keys from `low`, `edge` of them along each axis.
@@ -32,11 +32,11 @@ struct Heights {
 };
 
 template <class Visit>
-void for_each_cube(const SemanticOcTree& map, const Heights& heights, Visit&& visit) {
+void for_each_cube(const mapping::SemanticOcTree& map, const Heights& heights, Visit&& visit) {
   for (auto leaf = map.begin_leafs(), end = map.end_leafs(); leaf != end; ++leaf) {
     const octomap::OcTreeKey key = leaf.getIndexKey();
     const Cube cube{
-        {key[0], key[1], key[2]}, 1 << (SemanticOcTree::kDepth - leaf.getDepth()), map.isNodeOccupied(*leaf)};
+        {key[0], key[1], key[2]}, 1 << (mapping::SemanticOcTree::kDepth - leaf.getDepth()), map.isNodeOccupied(*leaf)};
     if (cube.low[2] <= heights.high && cube.low[2] + cube.edge > heights.low) visit(cube);
   }
 }
@@ -89,7 +89,7 @@ class AreaCounter {
 
 class Projector {
  public:
-  Projector(const SemanticOcTree& map, const MapPictureOptions& options)
+  Projector(const mapping::SemanticOcTree& map, const MapPictureOptions& options)
       : map_(map), options_(options), axes_(axes_of(options.view)), heights_(asked_for(options, map.getResolution())) {
     picture_.view = options.view;
     picture_.voxel_m = map.getResolution();
@@ -226,7 +226,7 @@ class Projector {
     picture_.high_m = std::max(seen[seen.size() - 1 - seen.size() / 50], picture_.low_m + picture_.voxel_m);
   }
 
-  const SemanticOcTree& map_;
+  const mapping::SemanticOcTree& map_;
   const MapPictureOptions& options_;
   const Axes& axes_;
   Heights heights_;
@@ -258,8 +258,8 @@ double MapPicture::height_of(int column, int row) const {
                                : corner_m.y() + (row + 0.5) * cell_m;
 }
 
-Result<MapPicture> look_at(const SemanticOcTree& map, const MapPictureOptions& options) {
+Result<MapPicture> look_at(const mapping::SemanticOcTree& map, const MapPictureOptions& options) {
   return Projector(map, options).run();
 }
 
-}  // namespace cairn
+}  // namespace cairn::report

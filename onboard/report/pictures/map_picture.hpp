@@ -10,7 +10,7 @@
 #include "hal/result.hpp"
 #include "onboard/mapping/tree/semantic_octree.hpp"
 
-namespace cairn {
+namespace cairn::report {
 
 /// Parallel projection. Every picture has z or y upwards and is seen, not mirrored.
 enum class MapView {
@@ -54,6 +54,6 @@ struct MapPicture {
 };
 
 /// Error: nothing in the map lies between the heights asked for.
-[[nodiscard]] Result<MapPicture> look_at(const SemanticOcTree& map, const MapPictureOptions& options);
+[[nodiscard]] Result<MapPicture> look_at(const mapping::SemanticOcTree& map, const MapPictureOptions& options);
 
-}  // namespace cairn
+}  // namespace cairn::report

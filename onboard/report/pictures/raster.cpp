@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 std::uint8_t to_byte(double v) { return static_cast<std::uint8_t>(std::lround(v)); }
@@ -39,4 +39,4 @@ Result<std::vector<std::byte>> encode_png(const Raster& image) {
   return bytes;
 }
 
-}  // namespace cairn
+}  // namespace cairn::report

@@ -7,7 +7,7 @@
 
 #include "hal/result.hpp"
 
-namespace cairn {
+namespace cairn::report {
 
 /// sRGB with straight (not premultiplied) alpha.
 struct Rgba {
@@ -44,4 +44,4 @@ class Raster {
 /// The same picture gives the same bytes.
 Result<std::vector<std::byte>> encode_png(const Raster& image);
 
-}  // namespace cairn
+}  // namespace cairn::report

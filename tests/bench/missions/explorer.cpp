@@ -30,8 +30,8 @@ simulator::Path stops_along(const simulator::Path& path, double every) {
   return stops;
 }
 
-MappingConfig mapping(double resolution_m) {
-  MappingConfig config;
+mapping::MappingConfig mapping(double resolution_m) {
+  mapping::MappingConfig config;
   config.resolution_m = resolution_m;
   config.max_range_m = Explorer::kRange_m;
   return config;
@@ -54,7 +54,7 @@ Explorer::Explorer(const Site& site, std::uint64_t seed, double drive_m, double 
       seed_(seed),
       resolution_m_(resolution_m),
       workers_(1),
-      mapper_(std::make_unique<Mapper>(mapping(resolution_m), workers_)) {
+      mapper_(std::make_unique<mapping::Mapper>(mapping(resolution_m), workers_)) {
   const simulator::RoutePlanner planner(site.world, site.plan, seed);
   const auto paths = planner.plan(1, drive_m);
   if (paths) stops_ = stops_along(paths->front(), kStop_m);
@@ -68,9 +68,9 @@ Explorer::Explorer(const Site& site, std::uint64_t seed, double drive_m, double 
   features_ = std::make_unique<matching::MapFeatures>(*matching::MapFeatures::build(mapper_->tree()));
 }
 
-std::unique_ptr<SemanticOcTree> Explorer::next_map(const SE3& slip) {
-  auto map = std::make_unique<SemanticOcTree>(mapper_->tree());
-  mapper_ = std::make_unique<Mapper>(mapping(resolution_m_), workers_);
+std::unique_ptr<mapping::SemanticOcTree> Explorer::next_map(const SE3& slip) {
+  auto map = std::make_unique<mapping::SemanticOcTree>(mapper_->tree());
+  mapper_ = std::make_unique<mapping::Mapper>(mapping(resolution_m_), workers_);
   features_ = std::make_unique<matching::MapFeatures>(*matching::MapFeatures::build(mapper_->tree()));
   T_map_world_ = slip * T_map_world_;
   return map;

@@ -45,7 +45,7 @@ class Explorer {
   [[nodiscard]] Eigen::Vector2d at() const { return stops_[next_ == 0 ? 0 : next_ - 1]; }
   /// Gives the map until now and begins an empty one in the same frame. From now on the robot's
   /// pose is wrong by `slip` in that frame.
-  std::unique_ptr<SemanticOcTree> next_map(const SE3& slip);
+  std::unique_ptr<mapping::SemanticOcTree> next_map(const SE3& slip);
 
  private:
   void scan_at(const Eigen::Vector2d& at);
@@ -57,7 +57,7 @@ class Explorer {
   std::size_t next_ = 0;
   SE3 T_map_world_;
   Workers workers_;
-  std::unique_ptr<Mapper> mapper_;
+  std::unique_ptr<mapping::Mapper> mapper_;
   std::unique_ptr<matching::MapFeatures> features_;
 };
 

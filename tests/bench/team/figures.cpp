@@ -35,13 +35,13 @@ void SentBytes::print() const {
   std::puts("");
 }
 
-void Ages::said(const Team& team, Time now) {
+void Ages::said(const team::Team& team, Time now) {
   auto& times = said_[team.exchange().self()];
   times.resize(
       std::max<std::size_t>(times.size(), team.exchange().layers().at(team.exchange().self()).holding.newest()), now);
 }
 
-void Ages::fused(const Team& team, Time now) {
+void Ages::fused(const team::Team& team, Time now) {
   const RobotId self = team.exchange().self();
   for (const auto& entry : said_) {
     const RobotId robot = entry.first;

@@ -36,9 +36,9 @@ class SentBytes {
 class Ages {
  public:
   /// Of one's own, after each step.
-  void said(const Team& team, Time now);
+  void said(const team::Team& team, Time now);
   /// Of another's, after each fuse().
-  void fused(const Team& team, Time now);
+  void fused(const team::Team& team, Time now);
   /// In seconds, `q` of 0…1, of what was said no later than `until`; 0 where there is nothing.
   [[nodiscard]] double quantile(double q, Time until = Time::max()) const;
   [[nodiscard]] std::size_t count() const { return ages_.size(); }

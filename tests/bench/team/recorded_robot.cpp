@@ -12,10 +12,10 @@ namespace cairn::bench {
 
 namespace fs = std::filesystem;
 
-RecordedRobot::RecordedRobot(const RobotConfig& robot, const TeamConfig& config)
+RecordedRobot::RecordedRobot(const RobotConfig& robot, const team::TeamConfig& config)
     : team(config, config.id | std::uint64_t{1} << 32U), robot_(robot, workers_, workers_, monitor_) {}
 
-Result<std::unique_ptr<RecordedRobot>> RecordedRobot::open(const fs::path& dir, const TeamConfig& config) {
+Result<std::unique_ptr<RecordedRobot>> RecordedRobot::open(const fs::path& dir, const team::TeamConfig& config) {
   const auto recording = recording::load_recording(dir);
   if (!recording) return recording.error();
   auto truth = recording::read_tum(dir / "ground_truth.tum");
@@ -27,7 +27,7 @@ Result<std::unique_ptr<RecordedRobot>> RecordedRobot::open(const fs::path& dir, 
   auto source = recording::open_recorded_source(dir, *recording, index);
   if (!source) return source.error();
 
-  RobotProfile profile;
+  app::RobotProfile profile;
   profile.mapping.resolution_m = config.resolution_m;
   RobotConfig robot_config = profile.robot();
   robot_config.T_base_lidar = entry->T_base_sensor();
@@ -68,7 +68,8 @@ void RecordedRobot::take(const Scan& scan, Time now) {
   located_.T_odom_base.mean = T_drift_ * located_.T_odom_base.mean;
   if (!robot_.extend_map(located_)) return;
   team.be_at(located_.T_odom_base);
-  for (const TileKey tile : robot_.take_changed_tiles()) team.observe(tile, read_tile(robot_.map(), tile), now);
+  for (const mapping::TileKey tile : robot_.take_changed_tiles())
+    team.observe(tile, mapping::read_tile(robot_.map(), tile), now);
 }
 
 void RecordedRobot::drift_on(const SE3& T_odom_base) {
@@ -95,7 +96,7 @@ SE3 RecordedRobot::T_world_base() const {
           (1 - f) * before->pose.translation() + f * next->pose.translation()};
 }
 
-const SemanticOcTree& RecordedRobot::finished_map() {
+const mapping::SemanticOcTree& RecordedRobot::finished_map() {
   Budget all = Budget::steps(std::numeric_limits<int>::max());
   while (!team.fuse(all)) continue;
   return team.map().map();

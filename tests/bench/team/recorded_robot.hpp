@@ -20,7 +20,8 @@ namespace cairn::bench {
 class RecordedRobot {
  public:
   /// Errors: those of the recording's files; kNotFound without a LiDAR or ground truth.
-  static Result<std::unique_ptr<RecordedRobot>> open(const std::filesystem::path& recording, const TeamConfig& config);
+  static Result<std::unique_ptr<RecordedRobot>> open(const std::filesystem::path& recording,
+                                                     const team::TeamConfig& config);
 
   /// Takes in what the LiDAR sent until `now`, which counts from the recording's start.
   Result<void> advance(Time now);
@@ -40,13 +41,13 @@ class RecordedRobot {
   [[nodiscard]] const Robot& robot() const { return robot_; }
   [[nodiscard]] std::uint64_t raw_bytes() const { return raw_bytes_; }
   /// The team's map, after all that is left to be fused, as at the end of a robot's run.
-  [[nodiscard]] const SemanticOcTree& finished_map();
+  [[nodiscard]] const mapping::SemanticOcTree& finished_map();
 
-  Team team;
+  team::Team team;
   std::uint64_t received_bytes = 0;
 
  private:
-  RecordedRobot(const RobotConfig& robot, const TeamConfig& config);
+  RecordedRobot(const RobotConfig& robot, const team::TeamConfig& config);
   void take(const Scan& scan, Time now);
   void drift_on(const SE3& T_odom_base);
 

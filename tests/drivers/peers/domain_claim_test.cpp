@@ -5,7 +5,7 @@
 
 #include <optional>
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 namespace {
 
 TEST(DomainClaim, TwoAtATimeAreDifferent) {
@@ -31,4 +31,4 @@ TEST(DomainClaim, MovesWithItsDomain) {
 }
 
 }  // namespace
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 namespace {
 
 std::vector<std::byte> bytes_of(std::mt19937& random, std::size_t size) {
@@ -58,4 +58,4 @@ TEST(LinkFrame, AnotherReleaseIsNamed) {
 }
 
 }  // namespace
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

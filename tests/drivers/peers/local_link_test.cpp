@@ -7,7 +7,7 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 namespace {
 
 const std::vector<std::byte> kBytes(100, std::byte{5});
@@ -84,4 +84,4 @@ TEST(LocalLink, SaysWhyItCannotListen) {
 }
 
 }  // namespace
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

@@ -17,7 +17,7 @@
 #include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 
 /// A peer process and the core's end of its socket.
 class Peer {
@@ -112,4 +112,4 @@ inline bool arrives(Peer& from, Peer& to, std::uint64_t robot, const std::vector
   return false;
 }
 
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

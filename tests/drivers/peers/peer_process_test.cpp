@@ -9,7 +9,7 @@
 #include "drivers/peers/domain_claim.hpp"
 #include "tests/drivers/peers/peer.hpp"
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 namespace {
 
 class PeerProcess : public testing::Test {
@@ -45,4 +45,4 @@ TEST_F(PeerProcess, WhatARobotSaysToAllDoesNotComeBackToIt) {
 }
 
 }  // namespace
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

@@ -9,7 +9,7 @@
 #include "drivers/peers/peer_packet.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 namespace {
 
 std::vector<Packet> sample_packets() {
@@ -104,4 +104,4 @@ TEST(Beginning, OfNobodyOrOfAnotherLengthIsNone) {
 }
 
 }  // namespace
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

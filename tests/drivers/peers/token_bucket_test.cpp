@@ -6,7 +6,7 @@
 #include <deque>
 #include <random>
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 namespace {
 
 using std::chrono::milliseconds;
@@ -53,4 +53,4 @@ TEST(TokenBucket, WhatIsUrgentGetsThroughAFloodOfTheRest) {
 }
 
 }  // namespace
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

@@ -16,7 +16,7 @@
 #include "hal/clock.hpp"
 #include "tests/drivers/peers/peer.hpp"
 
-namespace cairn::peers {
+namespace cairn::peer_link {
 namespace {
 
 using std::chrono::milliseconds;
@@ -108,4 +108,4 @@ TEST(UdpCap, NoSecondIsAboveTheCapAtTheInterface) {
 }
 
 }  // namespace
-}  // namespace cairn::peers
+}  // namespace cairn::peer_link

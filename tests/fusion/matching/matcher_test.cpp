@@ -117,7 +117,7 @@ TEST(Matcher, ResolutionsMayDiffer) {
 }
 
 TEST(Matcher, AnUnknownMethodIsNamed) {
-  const SemanticOcTree empty(0.1);
+  const mapping::SemanticOcTree empty(0.1);
   const auto features = MapFeatures::build(empty);
   const auto matcher = make_matcher("magic", *features, *features);
   ASSERT_FALSE(matcher);

@@ -60,7 +60,7 @@ INSTANTIATE_TEST_SUITE_P(
     [](const auto& lean) { return lean.param.name; });
 
 TEST(Tilted, OfMapsWithNothingInThemSaysSo) {
-  const SemanticOcTree empty(0.1);
+  const mapping::SemanticOcTree empty(0.1);
   const auto features = MapFeatures::build(empty);
   Budget budget = Budget::steps(kAmpleSteps);
   const auto result = TiltedMatcher(*features, *features).match(std::nullopt, budget);

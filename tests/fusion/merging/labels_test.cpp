@@ -50,18 +50,18 @@ TEST(FuseLabels, IsNormalisedAndDoesNotDependOnTheOrder) {
   EXPECT_NEAR(std::accumulate(ab.begin(), ab.end(), 0.0), 1, 1e-12);
 }
 
-std::vector<VoxelLabel> random_labels(std::mt19937& random, unsigned classes) {
-  std::vector<VoxelLabel> labels;
+std::vector<mapping::VoxelLabel> random_labels(std::mt19937& random, unsigned classes) {
+  std::vector<mapping::VoxelLabel> labels;
   for (auto count = 1 + random() % 5; count > 0; --count) {
     const unsigned class_id = static_cast<unsigned>(random() % classes);
-    labels.push_back(VoxelLabel::of(class_id, static_cast<unsigned>(random() % VoxelLabel::kGrades)));
+    labels.push_back(mapping::VoxelLabel::of(class_id, static_cast<unsigned>(random() % mapping::VoxelLabel::kGrades)));
   }
   return labels;
 }
 
 TEST(FuseCoarseLabels, OneOpinionStaysWhatItIs) {
-  for (unsigned code = 1; code <= VoxelLabel::kCodes; ++code) {
-    const std::array only{VoxelLabel{static_cast<std::uint8_t>(code)}};
+  for (unsigned code = 1; code <= mapping::VoxelLabel::kCodes; ++code) {
+    const std::array only{mapping::VoxelLabel{static_cast<std::uint8_t>(code)}};
     EXPECT_EQ(fuse_labels(only), only[0]);
   }
 }
@@ -70,7 +70,7 @@ TEST(FuseCoarseLabels, TheOrderDoesNotMatter) {
   std::mt19937 random(1);
   for (unsigned i = 0; i < 2000; ++i) {
     auto labels = random_labels(random, 1 + i % 19);
-    const VoxelLabel fused = fuse_labels(labels);
+    const mapping::VoxelLabel fused = fuse_labels(labels);
     std::ranges::shuffle(labels, random);
     EXPECT_EQ(fuse_labels(labels), fused);
   }
@@ -81,15 +81,15 @@ TEST(FuseCoarseLabels, IsTheClassThatProbabilitiesGive) {
   for (int i = 0; i < 2000; ++i) {
     const auto labels = random_labels(random, 3);
     std::vector<ClassProbabilities> opinions;
-    for (const VoxelLabel label : labels)
-      opinions.push_back(mostly(label.class_id(), VoxelLabel::kProbability[label.grade()]));
+    for (const mapping::VoxelLabel label : labels)
+      opinions.push_back(mostly(label.class_id(), mapping::VoxelLabel::kProbability[label.grade()]));
     const auto exact = fuse_labels(opinions);
     EXPECT_NEAR(exact[fuse_labels(labels).class_id()], exact[label_of(exact)], 1e-4);
   }
 }
 
 TEST(FuseCoarseLabels, AgreementMakesSurerAndDisagreementLess) {
-  const VoxelLabel car = VoxelLabel::of(kCar, 2), road = VoxelLabel::of(kRoad, 2);
+  const mapping::VoxelLabel car = mapping::VoxelLabel::of(kCar, 2), road = mapping::VoxelLabel::of(kRoad, 2);
   EXPECT_LT(fuse_labels(std::vector{car, car}).grade(), car.grade());
   EXPECT_EQ(fuse_labels(std::vector{car, car}).class_id(), kCar);
   EXPECT_GT(fuse_labels(std::vector{car, road}).grade(), car.grade());

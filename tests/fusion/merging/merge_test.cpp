@@ -12,11 +12,11 @@
 namespace cairn::merging {
 namespace {
 
-using Map = std::shared_ptr<const SemanticOcTree>;
+using Map = std::shared_ptr<const mapping::SemanticOcTree>;
 
 /// Random log-odds in a box, some of it pruned, overlapping with those of other seeds.
 Map random_box(unsigned seed, double resolution = 0.1) {
-  auto map = std::make_shared<SemanticOcTree>(resolution);
+  auto map = std::make_shared<mapping::SemanticOcTree>(resolution);
   std::mt19937 random(seed);
   const int shift = static_cast<int>(seed % 3) * 5;
   for (int i = 0; i < 6000; ++i) {
@@ -26,7 +26,7 @@ Map random_box(unsigned seed, double resolution = 0.1) {
     const octomap::OcTreeKey at(key(), key(), key());
     map->setNodeValue(at, static_cast<float>(random() % 90) * 0.06F - 2.0F, true);
   }
-  saturate_block(*map, seed % 2 == 0);
+  mapping::saturate_block(*map, seed % 2 == 0);
   map->canonicalise();
   return map;
 }
@@ -36,7 +36,7 @@ std::vector<std::byte> bytes(const Contributions& contributions, Policy policy =
   EXPECT_TRUE(merged);
   EXPECT_TRUE((*merged)->is_canonical());
   EXPECT_EQ((*merged)->size(), (*merged)->calcNumNodes());
-  return encode_cairn(**merged);
+  return mapping::encode_cairn(**merged);
 }
 
 SE3 some_pose(double yaw) { return SE3::from_xyz_rpy((Vector6() << 0.31, -0.17, 0.08, 0.02, -0.01, yaw).finished()); }
@@ -49,7 +49,7 @@ class MergePolicies : public testing::TestWithParam<std::string_view> {
 TEST_P(MergePolicies, AMapAloneStaysToTheBit) {
   for (unsigned seed = 1; seed < 5; ++seed) {
     const Map a = random_box(seed);
-    EXPECT_EQ(bytes({{7, {1, a, {}}}}, policy), encode_cairn(*a));
+    EXPECT_EQ(bytes({{7, {1, a, {}}}}, policy), mapping::encode_cairn(*a));
   }
 }
 
@@ -81,7 +81,7 @@ TEST_P(MergePolicies, EveryVoxelIsTheFoldOfWhatTheMapsHaveThere) {
                            {5, {1, random_box(3), some_pose(-2)}}};
   const auto merged = merge(team, {.policy = policy});
   ASSERT_TRUE(merged);
-  const SensorModel model = team.begin()->second.map->sensor_model();
+  const mapping::SensorModel model = team.begin()->second.map->sensor_model();
   for (int x = -45; x < 45; ++x)
     for (int y = -45; y < 45; ++y)
       for (int z = -30; z < 30; ++z) {
@@ -105,11 +105,11 @@ INSTANTIATE_TEST_SUITE_P(All, MergePolicies, testing::ValuesIn(policy_names()),
 TEST(Merge, EqualMapsOfTwoRobotsAreThatMap) {
   const Map a = random_box(1);
   for (const Policy policy : {Policy::kRelativeEntropy, Policy::kRelativeEntropyWeighted, Policy::kAverage})
-    EXPECT_EQ(bytes({{1, {1, a, {}}}, {2, {1, a, {}}}}, policy), encode_cairn(*a));
+    EXPECT_EQ(bytes({{1, {1, a, {}}}, {2, {1, a, {}}}}, policy), mapping::encode_cairn(*a));
 }
 
 TEST(Merge, EmptyMapsAndImpossiblePosesAreClear) {
-  const auto empty = std::make_shared<SemanticOcTree>(0.1);
+  const auto empty = std::make_shared<mapping::SemanticOcTree>(0.1);
   const auto nothing = merge({{1, {1, empty, {}}}});
   ASSERT_TRUE(nothing);
   EXPECT_EQ((*nothing)->size(), 0U);
@@ -125,7 +125,7 @@ TEST(Merge, EmptyMapsAndImpossiblePosesAreClear) {
 
 /// A map at the edge of its own tree, and one that reaches beyond the edge of the fused one.
 TEST(Merge, AtTheEdgeOfATreeNothingIsMadeUp) {
-  auto corner = std::make_shared<SemanticOcTree>(0.1);
+  auto corner = std::make_shared<mapping::SemanticOcTree>(0.1);
   std::mt19937 random(6);
   const auto key = [&] { return static_cast<octomap::key_type>(65535 - random() % 12); };
   for (int i = 0; i < 500; ++i) corner->setNodeValue(octomap::OcTreeKey(key(), key(), key()), float(random() % 3));
@@ -140,7 +140,7 @@ TEST(Merge, AtTheEdgeOfATreeNothingIsMadeUp) {
     const Eigen::Vector3d centre(at.x(), at.y(), at.z());
     const Contribution& c = team.at(centre.x() > 1000 ? 2 : 1);
     const Eigen::Vector3d there = c.T_fused_map.inverse() * centre;
-    if (leaf.getDepth() < SemanticOcTree::kDepth ||
+    if (leaf.getDepth() < mapping::SemanticOcTree::kDepth ||
         (there / 0.1 - (there / 0.1).array().round().matrix()).cwiseAbs().minCoeff() < 0.01)
       continue;  // coordinates are floats, too coarse out there to tell on which side of a voxel's border they lie
     const auto* node = c.map->search(there.x(), there.y(), there.z());
@@ -153,7 +153,7 @@ TEST(Merge, AtTheEdgeOfATreeNothingIsMadeUp) {
 }
 
 TEST(Merge, LonelyVoxelsAreNotTooLargeWhereverTheyLie) {
-  auto dust = std::make_shared<SemanticOcTree>(0.1);
+  auto dust = std::make_shared<mapping::SemanticOcTree>(0.1);
   std::mt19937 random(5);
   const auto key = [&] { return static_cast<octomap::key_type>(20000 + random() % 30000); };
   for (int i = 0; i < 800; ++i) dust->setNodeValue(octomap::OcTreeKey(key(), key(), key()), 1.0F);
@@ -163,9 +163,9 @@ TEST(Merge, LonelyVoxelsAreNotTooLargeWhereverTheyLie) {
 }
 
 TEST(Merge, OneCubeThatStandsForMillionsIsRefused) {
-  auto cube = std::make_shared<SemanticOcTree>(0.1);
+  auto cube = std::make_shared<mapping::SemanticOcTree>(0.1);
   bool made = false;
-  SemanticNode* node = cube->root_or_new(made);
+  mapping::SemanticNode* node = cube->root_or_new(made);
   for (int depth = 0; depth < 6; ++depth) node = cube->writer(0).child(node, depth == 0 ? 7 : 0, made);
   node->setLogOdds(-1.0F);
   cube->settle_count();

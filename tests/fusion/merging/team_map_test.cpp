@@ -14,7 +14,7 @@ namespace cairn::merging {
 namespace {
 
 constexpr double kResolution = 0.2;
-using Tiles = std::map<SubmapKey, std::map<TileKey, TileState>>;
+using Tiles = std::map<SubmapKey, std::map<mapping::TileKey, mapping::TileState>>;
 
 /// What some robots have seen: tiles near the origin of each.
 Tiles random_tiles(unsigned seed, unsigned robots) {
@@ -24,7 +24,7 @@ Tiles random_tiles(unsigned seed, unsigned robots) {
   for (std::uint64_t robot = 1; robot <= robots; ++robot)
     for (int i = 0; i < 40; ++i)
       tiles[{robot, static_cast<std::uint16_t>(robot == 2 ? random() % 2 : 0)}]
-           [TileKey::of_voxel(near(), near(), near())] = peers::random_tile_state(random);
+           [mapping::TileKey::of_voxel(near(), near(), near())] = peers::random_tile_state(random);
   return tiles;
 }
 
@@ -60,23 +60,23 @@ std::unique_ptr<TeamMap> fused(const Tiles& tiles, const SubmapPoses& poses) {
   return map;
 }
 
-std::unique_ptr<SemanticOcTree> merged(const Tiles& tiles, const SubmapPoses& poses) {
+std::unique_ptr<mapping::SemanticOcTree> merged(const Tiles& tiles, const SubmapPoses& poses) {
   Contributions contributions;
   for (const auto& [submap, layer] : tiles) {
-    auto tree = std::make_shared<SemanticOcTree>(kResolution);
-    for (const auto& [tile, state] : layer) write_tile(*tree, tile, state);
+    auto tree = std::make_shared<mapping::SemanticOcTree>(kResolution);
+    for (const auto& [tile, state] : layer) mapping::write_tile(*tree, tile, state);
     contributions[10 * submap.robot + submap.submap] = {1, tree, poses.at(submap)};
   }
   return std::move(merge(contributions).value());
 }
 
 /// Leaves of one map that the other does not have alike, to within the steps of log-odds.
-std::size_t different(const SemanticOcTree& a, const SemanticOcTree& b) {
+std::size_t different(const mapping::SemanticOcTree& a, const mapping::SemanticOcTree& b) {
   std::size_t count = 0;
-  SemanticOcTree fine(a);
+  mapping::SemanticOcTree fine(a);
   fine.expand();
   for (auto leaf = fine.begin_leafs(); leaf != fine.end_leafs(); ++leaf) {
-    const SemanticNode* other = b.search(leaf.getKey());
+    const mapping::SemanticNode* other = b.search(leaf.getKey());
     if (other == nullptr || std::abs(other->getLogOdds() - leaf->getLogOdds()) > 1e-3F) ++count;
   }
   return count;
@@ -105,7 +105,7 @@ TEST(TeamMap, ASubmapThatHasJustBegunBelongsToWhatIsShown) {
   before.erase({2, 1});
   map.place(before);
   finish(map);
-  const SemanticOcTree* shown = &map.map();
+  const mapping::SemanticOcTree* shown = &map.map();
   map.place(poses_of(tiles));
   finish(map);
   EXPECT_EQ(&map.map(), shown) << "nothing was built anew";
@@ -120,7 +120,7 @@ TEST(TeamMap, HowTheWorkWasCutAndOrderedDoesNotMatter) {
     std::mt19937 random(seed);
     TeamMap map(kResolution, Policy::kRelativeEntropy);
     put_all(map, older);
-    std::vector<std::pair<SubmapKey, TileKey>> order;
+    std::vector<std::pair<SubmapKey, mapping::TileKey>> order;
     for (const auto& [submap, layer] : tiles)
       for (const auto& [tile, state] : layer) order.emplace_back(submap, tile);
     std::shuffle(order.begin(), order.end(), random);
@@ -136,7 +136,7 @@ TEST(TeamMap, HowTheWorkWasCutAndOrderedDoesNotMatter) {
         if (!tiles.contains(submap) || !tiles.at(submap).contains(tile)) map.put(submap, tile, {}, Time{});
     map.place(poses_of(tiles));
     finish(map);
-    EXPECT_EQ(differing_nodes(map.map(), at_once->map()), 0U);
+    EXPECT_EQ(mapping::differing_nodes(map.map(), at_once->map()), 0U);
   }
 }
 
@@ -158,9 +158,9 @@ TEST(TeamMap, ANewMapIsShownWithWhatChangedMeanwhile) {
   EXPECT_TRUE(map.shows_newest_tiles());
 }
 
-std::map<std::uint64_t, std::uint32_t> labels_of(const SemanticOcTree& map) {
+std::map<std::uint64_t, std::uint32_t> labels_of(const mapping::SemanticOcTree& map) {
   std::map<std::uint64_t, std::uint32_t> labels;
-  SemanticOcTree fine(map);
+  mapping::SemanticOcTree fine(map);
   fine.expand();
   for (auto leaf = fine.begin_leafs(); leaf != fine.end_leafs(); ++leaf)
     if (leaf->label_id() != 0)
@@ -192,17 +192,17 @@ TEST(TeamMap, LabelsAreFusedInWhateverOrderTheyCame) {
       other.put(layer->first, tile->first, tile->second, Time{});
   finish(other);
   EXPECT_EQ(labels_of(other.map()), labels);
-  EXPECT_EQ(differing_nodes(other.map(), map->map()), 0U);
+  EXPECT_EQ(mapping::differing_nodes(other.map(), map->map()), 0U);
 }
 
 TEST(TeamMap, TwoWhoAgreeAboutALabelAreSurer) {
-  TileState wall;
+  mapping::TileState wall;
   wall.set(2, 3, 4, 3.5F);
-  std::vector<VoxelLabel> car(512), tree(512);
-  car[2 + 8 * (3 + 8 * 4)] = VoxelLabel::of(13, 2);
-  tree[2 + 8 * (3 + 8 * 4)] = VoxelLabel::of(8, 1);
-  const TileKey at = TileKey::of_voxel(32768, 32768, 32768);
-  const auto fused_of = [&](const std::vector<std::vector<VoxelLabel>>& said) {
+  std::vector<mapping::VoxelLabel> car(512), tree(512);
+  car[2 + 8 * (3 + 8 * 4)] = mapping::VoxelLabel::of(13, 2);
+  tree[2 + 8 * (3 + 8 * 4)] = mapping::VoxelLabel::of(8, 1);
+  const mapping::TileKey at = mapping::TileKey::of_voxel(32768, 32768, 32768);
+  const auto fused_of = [&](const std::vector<std::vector<mapping::VoxelLabel>>& said) {
     Tiles tiles;
     SubmapPoses poses;
     for (std::uint64_t robot = 1; robot <= said.size(); ++robot) {
@@ -210,10 +210,11 @@ TEST(TeamMap, TwoWhoAgreeAboutALabelAreSurer) {
       tiles[{robot, 0}][at] = wall;
       poses[{robot, 0}] = SE3();
     }
-    return VoxelLabel::from_id(labels_of(fused(tiles, poses)->map()).begin()->second);
+    return mapping::VoxelLabel::from_id(labels_of(fused(tiles, poses)->map()).begin()->second);
   };
-  EXPECT_EQ(fused_of({car}), VoxelLabel::of(13, 2));
-  EXPECT_EQ(fused_of({car, std::vector<VoxelLabel>(512)}), VoxelLabel::of(13, 2)) << "who says nothing changes nothing";
+  EXPECT_EQ(fused_of({car}), mapping::VoxelLabel::of(13, 2));
+  EXPECT_EQ(fused_of({car, std::vector<mapping::VoxelLabel>(512)}), mapping::VoxelLabel::of(13, 2))
+      << "who says nothing changes nothing";
   EXPECT_EQ(fused_of({car, car}).class_id(), 13U);
   EXPECT_LT(fused_of({car, car}).grade(), 2U);
   EXPECT_EQ(fused_of({car, tree}).class_id(), 8U) << "the surer";
@@ -226,13 +227,13 @@ TEST(TeamMap, WithoutARobotItIsWhatItWasBefore) {
   std::erase_if(without, [](const auto& layer) { return layer.first.robot == 2; });
   map->place(poses_of(without));
   finish(*map);
-  EXPECT_EQ(differing_nodes(map->map(), fused(without, poses_of(without))->map()), 0U);
+  EXPECT_EQ(mapping::differing_nodes(map->map(), fused(without, poses_of(without))->map()), 0U);
   map->place(poses_of(tiles));
   finish(*map);
-  EXPECT_EQ(differing_nodes(map->map(), fused(tiles, poses_of(tiles))->map()), 0U);
+  EXPECT_EQ(mapping::differing_nodes(map->map(), fused(tiles, poses_of(tiles))->map()), 0U);
   map->drop(2);
   finish(*map);
-  EXPECT_EQ(differing_nodes(map->map(), fused(without, poses_of(without))->map()), 0U);
+  EXPECT_EQ(mapping::differing_nodes(map->map(), fused(without, poses_of(without))->map()), 0U);
 }
 
 TEST(TeamMap, IsOfOneSetOfPosesAtAnyTime) {
@@ -244,7 +245,7 @@ TEST(TeamMap, IsOfOneSetOfPosesAtAnyTime) {
   for (bool done = false; !done; ++steps) {
     Budget one = Budget::steps(1);
     done = map->fuse(one);
-    EXPECT_EQ(differing_nodes(map->map(), done ? after->map() : before->map()), 0U);
+    EXPECT_EQ(mapping::differing_nodes(map->map(), done ? after->map() : before->map()), 0U);
   }
   EXPECT_GT(steps, 50);
 }
@@ -267,7 +268,7 @@ TEST(TeamMap, SaysWhoHadASay) {
   const Tiles tiles = random_tiles(8, 3);
   const auto map = fused(tiles, poses_of(tiles));
   std::set<std::uint64_t> robots;
-  for (const TileKey tile : known_tiles(map->map(), 1000)) {
+  for (const mapping::TileKey tile : mapping::known_tiles(map->map(), 1000)) {
     const auto origin = map->origin_of(tile);
     EXPECT_FALSE(origin.robots.empty());
     EXPECT_TRUE(std::ranges::is_sorted(origin.robots));
@@ -283,7 +284,7 @@ TEST(TeamMap, PosesThatCannotBeDoNotTakePart) {
     if (submap.robot == 2) T = map_pose(1e9, 0, 0, 0);
   Tiles first;
   first[{1, 0}] = tiles.at({1, 0});
-  EXPECT_EQ(differing_nodes(fused(tiles, poses)->map(), fused(first, poses_of(first))->map()), 0U);
+  EXPECT_EQ(mapping::differing_nodes(fused(tiles, poses)->map(), fused(first, poses_of(first))->map()), 0U);
 }
 
 }  // namespace

@@ -86,9 +86,9 @@ TEST(Exchange, NeverSendsMoreThanItMayInALongTime) {
   EXPECT_GE(sent, 50U * 4000);
 }
 
-TileKey tile_in_row(unsigned i) {
-  return TileKey::of_voxel(static_cast<std::uint16_t>(32768 + 8 * (i % 100)),
-                           static_cast<std::uint16_t>(32768 + 8 * (i / 100)), 32768);
+mapping::TileKey tile_in_row(unsigned i) {
+  return mapping::TileKey::of_voxel(static_cast<std::uint16_t>(32768 + 8 * (i % 100)),
+                                    static_cast<std::uint16_t>(32768 + 8 * (i / 100)), 32768);
 }
 
 /// One has mapped a hall of 100 × 40 tiles, row by row; the other joins somewhere over 64 kbit/s. Seconds until it

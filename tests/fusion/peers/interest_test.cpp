@@ -12,13 +12,13 @@
 namespace cairn::peers {
 namespace {
 
-TileKey at(int x, int y, int z) {
+mapping::TileKey at(int x, int y, int z) {
   const auto voxel = [](int tiles) { return static_cast<std::uint16_t>(32768 + 8 * tiles); };
-  return TileKey::of_voxel(voxel(x), voxel(y), voxel(z));
+  return mapping::TileKey::of_voxel(voxel(x), voxel(y), voxel(z));
 }
 
 std::vector<std::byte> payload_of(float log_odds) {
-  TileState state;
+  mapping::TileState state;
   state.set(3, 4, 5, log_odds);
   std::vector<std::byte> bytes;
   encode_tile(state, bytes);
@@ -26,7 +26,7 @@ std::vector<std::byte> payload_of(float log_odds) {
 }
 const std::vector<std::byte> kWall = payload_of(2), kFree = payload_of(-2);
 
-ItemUpdate update(TileKey tile, Version version, const std::vector<std::byte>& payload) {
+ItemUpdate update(mapping::TileKey tile, Version version, const std::vector<std::byte>& payload) {
   return {ItemId::tile(0, tile), version, 0, payload};
 }
 
@@ -84,7 +84,7 @@ TEST(Interest, WhatIsNearIsBoundedAndAroundThePosition) {
 TEST(Interest, WallsAreToldFromFreeSpaceByTheBytes) {
   std::mt19937 random(1);
   for (int i = 0; i < 300; ++i) {
-    const TileState state = i % 2 == 0 ? random_tile_state(random) : wall_tile_state(random);
+    const mapping::TileState state = i % 2 == 0 ? random_tile_state(random) : wall_tile_state(random);
     if (state.empty()) continue;
     std::vector<std::byte> bytes;
     encode_tile(state, bytes);

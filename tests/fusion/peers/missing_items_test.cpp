@@ -10,7 +10,9 @@ namespace {
 
 constexpr RobotId kSender = 1, kPeer = 2, kThird = 3;
 
-TileKey tile_number(unsigned x) { return TileKey::of_voxel(static_cast<std::uint16_t>(32768 + 8 * x), 32768, 32768); }
+mapping::TileKey tile_number(unsigned x) {
+  return mapping::TileKey::of_voxel(static_cast<std::uint16_t>(32768 + 8 * x), 32768, 32768);
+}
 
 class MissingItems : public testing::Test {
  protected:

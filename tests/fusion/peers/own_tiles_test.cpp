@@ -14,9 +14,9 @@ constexpr Duration kScan = milliseconds(100);
 constexpr OwnTilesConfig kConfig{milliseconds(500), seconds(5), 32, 64, seconds(60), 3, seconds(1), seconds(1000)};
 
 /// A tile of which so many voxels are free.
-TileState free_voxels(unsigned count) {
-  TileState state;
-  for (unsigned i = 0; i < count; ++i) state.set(i % 8, i / 8 % 8, i / 64, TileState::kFree[0]);
+mapping::TileState free_voxels(unsigned count) {
+  mapping::TileState state;
+  for (unsigned i = 0; i < count; ++i) state.set(i % 8, i / 8 % 8, i / 64, mapping::TileState::kFree[0]);
   return state;
 }
 
@@ -90,17 +90,17 @@ TEST(OwnTiles, SaysATileSoonAgainInANewEpoch) {
 }
 
 TEST(OwnTiles, AChangeCountsVoxelsThatChangedSidesAndLessThoseThatBecameSurer) {
-  TileState sure = free_voxels(8), weak;
-  for (unsigned i = 0; i < 8; ++i) weak.set(i, 0, 0, TileState::kFree[1]);
-  TileState wall;
-  for (unsigned i = 0; i < 8; ++i) wall.set(i, 0, 0, TileState::kOccupied[0]);
+  mapping::TileState sure = free_voxels(8), weak;
+  for (unsigned i = 0; i < 8; ++i) weak.set(i, 0, 0, mapping::TileState::kFree[1]);
+  mapping::TileState wall;
+  for (unsigned i = 0; i < 8; ++i) wall.set(i, 0, 0, mapping::TileState::kOccupied[0]);
   EXPECT_EQ(change_between(sure, sure), 0);
   EXPECT_EQ(change_between({}, sure), 8);
   EXPECT_EQ(change_between(sure, wall), 8);
   EXPECT_EQ(change_between(weak, sure), 2);
-  TileState labelled = wall;
-  std::vector<VoxelLabel> labels(512);
-  labels[3] = VoxelLabel::of(2, 0);
+  mapping::TileState labelled = wall;
+  std::vector<mapping::VoxelLabel> labels(512);
+  labels[3] = mapping::VoxelLabel::of(2, 0);
   labelled.set_labels(labels);
   EXPECT_EQ(change_between(wall, labelled), 1);
   EXPECT_EQ(change_between(labelled, labelled), 0);

@@ -8,8 +8,8 @@
 namespace cairn::peers {
 
 /// Tiles of all kinds: alike throughout, walls, noise of any density.
-inline TileState random_tile_state(std::mt19937& random) {
-  TileState state;
+inline mapping::TileState random_tile_state(std::mt19937& random) {
+  mapping::TileState state;
   const auto value = [&] { return std::uniform_real_distribution<float>(-2, 3.5F)(random); };
   const auto kind = static_cast<unsigned>(random() % 4), density = static_cast<unsigned>(1 + random() % 30);
   const float alike = value();
@@ -28,8 +28,8 @@ inline TileState random_tile_state(std::mt19937& random) {
 }
 
 /// Labels for some of its occupied voxels, of up to so many kinds.
-inline TileState with_labels(TileState state, std::mt19937& random, unsigned kinds) {
-  std::vector<VoxelLabel> labels(512);
+inline mapping::TileState with_labels(mapping::TileState state, std::mt19937& random, unsigned kinds) {
+  std::vector<mapping::VoxelLabel> labels(512);
   for (std::size_t i = 0; i < 512; ++i) {
     const unsigned drawn = static_cast<unsigned>(random());
     if ((state.occupied[i / 64] >> (i % 64) & 1U) != 0 && drawn % 3 != 0)
@@ -40,14 +40,14 @@ inline TileState with_labels(TileState state, std::mt19937& random, unsigned kin
 }
 
 /// A wall, somewhat rough, with free space on one side of it and nothing known behind: what most tiles look like.
-inline TileState wall_tile_state(std::mt19937& random) {
-  TileState state;
+inline mapping::TileState wall_tile_state(std::mt19937& random) {
+  mapping::TileState state;
   const auto draw = [&](unsigned below) { return static_cast<unsigned>(random() % below); };
   const unsigned at = 1 + draw(6), from = draw(3), to = 6 + draw(3);
   for (unsigned z = from; z < to; ++z)
     for (unsigned y = 0; y < 8; ++y) {
       for (unsigned x = 0; x < at; ++x) state.set(x, y, z, draw(12) == 0 ? -0.4F : -1.6F);
-      if (draw(8) != 0) state.set(at, y, z, TileState::kOccupied[draw(4)]);
+      if (draw(8) != 0) state.set(at, y, z, mapping::TileState::kOccupied[draw(4)]);
     }
   return state;
 }

@@ -7,7 +7,7 @@
 
 #include "tests/fusion/team/comparisons/known_team.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 using ::testing::StartsWith;
@@ -52,4 +52,4 @@ TEST_F(PeerStandingTest, ABannedPeerIsNamed) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

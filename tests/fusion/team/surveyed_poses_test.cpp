@@ -5,7 +5,7 @@
 
 #include "tests/fusion/team/comparisons/known_team.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 TEST(SurveyedPoses, AreEdgesAboutTheBeginningsOfPeersThatWereHeardOf) {
@@ -36,4 +36,4 @@ TEST(SurveyedPoses, ALaterOneReplacesTheEarlier) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

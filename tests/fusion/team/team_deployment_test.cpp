@@ -8,7 +8,7 @@
 #include "tests/fusion/team/two_teams.hpp"
 #include "tests/support/map_pairs.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 using fleet::say_walls;
@@ -119,8 +119,9 @@ struct Mission {
   static bool right(const Team& team, const SE3& T_a_b) {
     return (team.poses().T_team_odom.at(2).inverse() * T_a_b).log().norm() < 0.2;
   }
-  void observe(Team& team, const SemanticOcTree& map) const {
-    for (const TileKey tile : known_tiles(map, kMostTiles)) team.observe(tile, read_tile(map, tile), now);
+  void observe(Team& team, const mapping::SemanticOcTree& map) const {
+    for (const mapping::TileKey tile : mapping::known_tiles(map, kMostTiles))
+      team.observe(tile, mapping::read_tile(map, tile), now);
   }
 };
 
@@ -158,4 +159,4 @@ TEST(TeamDeployment, AnExactButWrongOneIsTakenBack) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

@@ -10,7 +10,7 @@
 #include "fusion/team/team.hpp"
 #include "tests/fusion/team/fleet/ride.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 using fleet::Ride;
@@ -36,11 +36,11 @@ merging::TeamMap share_of(RobotId robot, const Team& team) {
 }
 
 /// Whether the map holds something occupied around a point, as far as so many voxels.
-bool wall_near(const SemanticOcTree& map, const octomap::point3d& point, int voxels) {
+bool wall_near(const mapping::SemanticOcTree& map, const octomap::point3d& point, int voxels) {
   const auto step = static_cast<float>(map.getResolution());
   for (int x = -voxels; x <= voxels; ++x)
     for (int y = -voxels; y <= voxels; ++y) {
-      const SemanticNode* node =
+      const mapping::SemanticNode* node =
           map.search(point + octomap::point3d(static_cast<float>(x) * step, static_cast<float>(y) * step, 0));
       if (node != nullptr && map.isNodeOccupied(node)) return true;
     }
@@ -48,7 +48,7 @@ bool wall_near(const SemanticOcTree& map, const octomap::point3d& point, int vox
 }
 
 /// Of the walls that both have within 1.2 m of each other, the share that is doubled: not within a voxel.
-double doubled(const SemanticOcTree& a, const SemanticOcTree& b) {
+double doubled(const mapping::SemanticOcTree& a, const mapping::SemanticOcTree& b) {
   double apart = 0, all = 0;
   for (auto leaf = a.begin_leafs(), end = a.end_leafs(); leaf != end; ++leaf) {
     const bool wall = a.isNodeOccupied(*leaf) && leaf.getZ() > 0.4 && leaf.getZ() < 2.2;
@@ -105,4 +105,4 @@ TEST(TeamDrift, WallsThatTwoHaveSeenAreNotDoubled) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

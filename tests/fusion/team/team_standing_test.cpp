@@ -7,7 +7,7 @@
 #include "fusion/team/team.hpp"
 #include "tests/fusion/team/two_teams.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 using fleet::say_walls;
@@ -114,4 +114,4 @@ TEST_F(TeamStanding, ABeginningVoidsWhatWasSaid) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

@@ -8,7 +8,7 @@
 
 #include "tests/fusion/team/fleet/ride.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 using fleet::Ride;
@@ -18,9 +18,9 @@ using std::chrono::seconds;
 
 constexpr std::size_t kAll = 1U << 20U;
 
-std::string bytes_of(const SemanticOcTree& map) {
+std::string bytes_of(const mapping::SemanticOcTree& map) {
   std::ostringstream out;
-  (void)const_cast<SemanticOcTree&>(map).writeData(out);
+  (void)const_cast<mapping::SemanticOcTree&>(map).writeData(out);
   return out.str();
 }
 
@@ -44,9 +44,10 @@ TEST(Team, FindsItsMembersAndAllHaveOneMap) {
       EXPECT_LT(rotation_angle(error), 0.01) << id << " about " << peer;
     }
     EXPECT_EQ(bytes_of(team.map().map()), bytes_of(ride.at(1).team.map().map()));
-    EXPECT_GT(known_tiles(team.map().map(), kAll).size(), known_tiles(ride.at(id).map(), kAll).size());
+    EXPECT_GT(mapping::known_tiles(team.map().map(), kAll).size(),
+              mapping::known_tiles(ride.at(id).map(), kAll).size());
   }
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

@@ -8,8 +8,8 @@
 
 namespace cairn::fleet {
 
-inline TeamConfig team_member(peers::RobotId id, double resolution_m = 0.2) {
-  TeamConfig config;
+inline team::TeamConfig team_member(peers::RobotId id, double resolution_m = 0.2) {
+  team::TeamConfig config;
   config.id = id;
   config.name = "robot_" + std::to_string(id);
   config.resolution_m = resolution_m;
@@ -17,15 +17,15 @@ inline TeamConfig team_member(peers::RobotId id, double resolution_m = 0.2) {
 }
 
 /// So many tiles in a row, each with a wall.
-inline void say_walls(Team& team, unsigned tiles, Time now) {
-  TileState wall;
+inline void say_walls(team::Team& team, unsigned tiles, Time now) {
+  mapping::TileState wall;
   for (unsigned i = 0; i < 64; ++i) wall.set(i % 8, 3, i / 8, 2);
   for (unsigned i = 0; i < tiles; ++i)
-    team.observe(TileKey::of_voxel(static_cast<std::uint16_t>(32768 + 8 * i), 32768, 32768), wall, now);
+    team.observe(mapping::TileKey::of_voxel(static_cast<std::uint16_t>(32768 + 8 * i), 32768, 32768), wall, now);
 }
 
 /// Both talk for so long, ten times a second, over a link that loses nothing.
-inline void talk(Team& a, Team& b, Time& now, Duration length) {
+inline void talk(team::Team& a, team::Team& b, Time& now, Duration length) {
   for (const Time end = now + length; now < end; now += std::chrono::milliseconds(100)) {
     std::vector<peers::Outgoing> from_a, from_b;
     a.step(now, from_a);

@@ -11,10 +11,10 @@
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
   using namespace cairn;
   const std::string bytes(reinterpret_cast<const char*>(data), size);
-  const auto source = peers::PeersLogSource::from_stream(std::make_unique<std::istringstream>(bytes), "fuzz", {});
+  const auto source = peer_link::PeersLogSource::from_stream(std::make_unique<std::istringstream>(bytes), "fuzz", {});
   if (!source) return 0;
   std::vector<std::byte> again;
-  peers::append_log_header(again);
+  peer_link::append_log_header(again);
   Packet packet;
   bool failed = false;
   for (;;) {
@@ -23,9 +23,9 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
     require(!failed);
     failed = !poll;
     if (failed) continue;
-    require(packet.bytes.size() <= peers::kMaxPacket);
-    require(peers::append_log_record(packet, again).has_value());
-    (void)peers::decode_beginning(packet.payload());
+    require(packet.bytes.size() <= peer_link::kMaxPacket);
+    require(peer_link::append_log_record(packet, again).has_value());
+    (void)peer_link::decode_beginning(packet.payload());
   }
   require(again.size() <= size &&
           bytes.compare(0, again.size(), reinterpret_cast<const char*>(again.data()), again.size()) == 0);

@@ -34,7 +34,7 @@ std::array<unsigned, 3> shape_of(std::uint8_t byte) {
   return edges;
 }
 
-void put_shape(SemanticOcTree& map, std::span<const std::byte> bytes, std::size_t at, bool anywhere) {
+void put_shape(mapping::SemanticOcTree& map, std::span<const std::byte> bytes, std::size_t at, bool anywhere) {
   const auto edges = shape_of(load_le<std::uint8_t>(bytes, at));
   const float log_odds = 0.05F * static_cast<float>(load_le<std::int8_t>(bytes, at + 1));
   const auto key = [&](std::size_t axis, unsigned offset) {
@@ -58,7 +58,8 @@ SE3 pose_of(std::span<const std::byte> bytes) {
   return SE3::from_xyz_rpy(v);
 }
 
-void check_match(const SemanticOcTree& a, const SemanticOcTree& b, std::string_view method, const SE3& initial) {
+void check_match(const mapping::SemanticOcTree& a, const mapping::SemanticOcTree& b, std::string_view method,
+                 const SE3& initial) {
   const auto of_a = matching::MapFeatures::build(a), of_b = matching::MapFeatures::build(b);
   if (!of_a || !of_b) return;
   Budget budget = Budget::steps(kSteps);
@@ -74,9 +75,9 @@ void check_match(const SemanticOcTree& a, const SemanticOcTree& b, std::string_v
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
-  const auto bytes = as_bytes(data, size);
+  const auto bytes = mapping::as_bytes(data, size);
   if (size < kHeader) return 0;
-  auto a = std::make_shared<SemanticOcTree>(0.1), b = std::make_shared<SemanticOcTree>(0.1);
+  auto a = std::make_shared<mapping::SemanticOcTree>(0.1), b = std::make_shared<mapping::SemanticOcTree>(0.1);
   for (std::size_t i = 0; i < kMostShapes && kHeader + (i + 1) * kShape <= size; ++i) {
     const std::size_t at = kHeader + i * kShape;
     put_shape((data[at] & 1U) == 0 ? *a : *b, bytes, at, data[0] == 0xFF);
@@ -90,6 +91,6 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   options.policy = *merging::policy_from(merging::policy_names()[data[0] / 8 % merging::policy_names().size()]);
   options.max_nodes = 10'000;
   const auto merged = merging::merge({{1, {1, a, {}}}, {2, {1, b, T_a_b}}}, options);
-  if (merged) check_accepted(**merged);
+  if (merged) mapping::check_accepted(**merged);
   return 0;
 }

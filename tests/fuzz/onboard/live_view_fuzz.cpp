@@ -9,14 +9,14 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
   using namespace cairn;
-  const auto view = parse_line({reinterpret_cast<const char*>(data), size});
+  const auto view = app::parse_line({reinterpret_cast<const char*>(data), size});
   if (!view) return 0;
-  require(view->stages.size() <= LiveView::kMaxItems && view->events.size() <= LiveView::kMaxItems);
-  require(view->faults.size() <= LiveView::kMaxItems && std::isfinite(view->t_s));
-  const std::string line = to_line(*view);
+  require(view->stages.size() <= app::LiveView::kMaxItems && view->events.size() <= app::LiveView::kMaxItems);
+  require(view->faults.size() <= app::LiveView::kMaxItems && std::isfinite(view->t_s));
+  const std::string line = app::to_line(*view);
   require(line.find('\n') == line.size() - 1);
-  const auto again = parse_line(line);
-  require(line.size() > LiveView::kMaxLine || (again && to_line(*again) == line));
+  const auto again = app::parse_line(line);
+  require(line.size() > app::LiveView::kMaxLine || (again && app::to_line(*again) == line));
   const cli::Screen screen{static_cast<int>(size % 200), static_cast<int>(size % 50), false};
   for (const std::string& row : cli::render(*view, screen))
     for (const char c : row) require(c >= ' ' && c <= '~');

@@ -16,20 +16,22 @@ using namespace cairn;
 std::vector<std::byte> file_around(std::span<const std::byte> raw, std::uint64_t nodes) {
   std::vector<std::byte> frame(ZSTD_compressBound(raw.size()));
   frame.resize(ZSTD_compress(frame.data(), frame.size(), raw.data(), raw.size(), 1));
-  const cairn_format::Chunk chunk{static_cast<std::uint32_t>(raw.size()), static_cast<std::uint32_t>(frame.size()),
-                                  cairn_format::hash(frame)};
-  return cairn_format::assemble({0.1, SemanticOcTree(0.1).sensor_model(), nodes, {}, {chunk}, 0}, frame);
+  const mapping::cairn_format::Chunk chunk{static_cast<std::uint32_t>(raw.size()),
+                                           static_cast<std::uint32_t>(frame.size()),
+                                           mapping::cairn_format::hash(frame)};
+  return mapping::cairn_format::assemble({0.1, mapping::SemanticOcTree(0.1).sensor_model(), nodes, {}, {chunk}, 0},
+                                         frame);
 }
 
 void check(std::span<const std::byte> bytes) {
-  const auto tree = decode_cairn(bytes, kFuzzLimits);
-  if (tree) check_accepted(**tree);
+  const auto tree = mapping::decode_cairn(bytes, mapping::kFuzzLimits);
+  if (tree) mapping::check_accepted(**tree);
 }
 
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
-  const auto bytes = as_bytes(data, size);
+  const auto bytes = mapping::as_bytes(data, size);
   check(bytes);
   if (size < 4) return 0;
   const auto nodes = load_le<std::uint32_t>(bytes, 0);

@@ -7,7 +7,7 @@
 #include "onboard/mapping/files/cairn_file.hpp"
 #include "onboard/mapping/files/octomap_file.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// Small enough that a fuzzer with sanitisers stays fast.
 inline constexpr MapLimits kFuzzLimits{std::uint64_t{16} << 20, std::uint64_t{1} << 20};
@@ -27,4 +27,4 @@ inline std::span<const std::byte> as_bytes(const unsigned char* data, std::size_
   return {reinterpret_cast<const std::byte*>(data), size};
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

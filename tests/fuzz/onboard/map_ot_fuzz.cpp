@@ -3,7 +3,7 @@
 #include "tests/fuzz/onboard/map_fuzz.hpp"
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
-  const auto tree = cairn::decode_ot(cairn::as_bytes(data, size), cairn::kFuzzLimits);
-  if (tree) cairn::check_accepted(**tree);
+  const auto tree = cairn::mapping::decode_ot(cairn::mapping::as_bytes(data, size), cairn::mapping::kFuzzLimits);
+  if (tree) cairn::mapping::check_accepted(**tree);
   return 0;
 }

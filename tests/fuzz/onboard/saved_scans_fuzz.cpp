@@ -13,17 +13,17 @@
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
   using namespace cairn;
   const auto bytes = std::as_bytes(std::span(data, size));
-  (void)decode_scans(bytes);
+  (void)app::decode_scans(bytes);
   std::vector<std::byte> sealed(bytes.begin(), bytes.end());
   append_le<std::uint64_t>(sealed, XXH3_64bits(sealed.data(), sealed.size()));
-  const auto saved = decode_scans(sealed);
+  const auto saved = app::decode_scans(sealed);
   if (!saved) return 0;
-  require(saved->scans.size() <= RecentScans::kScans);
-  for (const PlacedScan& scan : saved->scans) {
+  require(saved->scans.size() <= odometry::RecentScans::kScans);
+  for (const odometry::PlacedScan& scan : saved->scans) {
     require(scan.T_odom_base.matrix().allFinite());
     for (const auto& point : scan.points_base) require(point.allFinite());
   }
-  const auto again = decode_scans(encode(*saved));
+  const auto again = app::decode_scans(app::encode(*saved));
   require(again.has_value() && again->epoch == saved->epoch && again->scans.size() == saved->scans.size());
   return 0;
 }

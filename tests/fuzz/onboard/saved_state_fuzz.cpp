@@ -7,11 +7,11 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
   using namespace cairn;
-  const auto state = parse_state({reinterpret_cast<const char*>(data), size});
+  const auto state = app::parse_state({reinterpret_cast<const char*>(data), size});
   if (!state) return 0;
   require(state->T_odom_base.mean.matrix().allFinite() && state->twist.allFinite());
   require(state->T_odom_base.covariance.allFinite() && state->boot.size() <= 64);
-  const auto again = parse_state(to_text(*state));
+  const auto again = app::parse_state(app::to_text(*state));
   require(again.has_value() && again->stamp == state->stamp && again->twist == state->twist);
   return 0;
 }

@@ -7,7 +7,7 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using ::testing::HasSubstr;
@@ -72,4 +72,4 @@ TEST(PrintTasks, ATeamHasTwoTasksMoreWhereTheProfileNamesAPlaceInIt) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

@@ -24,7 +24,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/vlp16_drive.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -97,7 +97,7 @@ TEST_F(RunTest, LeavesTrajectoryMapAndReportThatAgreeWithTheTruth) {
   EXPECT_LT((truth.inverse() * moved).translation().norm(), 0.04);
   EXPECT_LT(rotation_angle(truth.inverse() * moved), 0.01);
 
-  const auto map = load_map(*folder_ / "truth" / "map.cairn");
+  const auto map = mapping::load_map(*folder_ / "truth" / "map.cairn");
   ASSERT_TRUE(map) << to_string(map.error());
   const auto occupancy = [&](double x, double y, double z) {
     const Eigen::Vector3d p = path(to_seconds(track->front().stamp)).inverse() * Eigen::Vector3d(x, y, z);
@@ -134,9 +134,9 @@ TEST_F(RunTest, EveryShippedBudgetIsAboutAFieldThatTheReportHas) {
   const auto result = run(options("budgets"));
   ASSERT_TRUE(result);
   for (const char* file : {"husky.yaml", "uav.yaml"}) {
-    const auto limits = load_budgets(places::source() / "config" / "budgets" / file);
+    const auto limits = report::load_budgets(places::source() / "config" / "budgets" / file);
     ASSERT_TRUE(limits) << to_string(limits.error());
-    const auto verdicts = check_budgets(*limits, to_json((*result)->report));
+    const auto verdicts = report::check_budgets(*limits, report::to_json((*result)->report));
     ASSERT_TRUE(verdicts) << to_string(verdicts.error());
     EXPECT_EQ(verdicts->size(), limits->size());
   }
@@ -243,4 +243,4 @@ TEST_F(RunTest, BeginsWithTheFirstWholeRevolution) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

@@ -11,7 +11,7 @@
 #include "tests/onboard/mapping/scan_yard.hpp"
 #include "tests/support/recorded_data.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 inline std::filesystem::path kitti_recording() { return support::recorded_data("kitti/odometry00"); }
 
@@ -46,4 +46,4 @@ inline std::vector<MapScan> kitti_scans(int count) {
   return scans;
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -14,7 +14,7 @@
 #include "tests/onboard/mapping/tree_compare.hpp"
 #include "tests/support/allocation_count.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 octomap::Pointcloud to_octomap(std::span<const Eigen::Vector3f> points) {
@@ -292,4 +292,4 @@ TEST(Mapper, ChangedTilesAccumulateUntilTheyAreTaken) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -12,7 +12,7 @@ int main(int argc, char** argv) {
   const auto count = static_cast<unsigned>(std::strtoul(argv[2], nullptr, 10));
   unsigned failed = 0;
   for (unsigned seed = first; seed < first + count; ++seed) {
-    const std::string fault = cairn::ScanCase(seed, 12).run(1 + seed % 3);
+    const std::string fault = cairn::mapping::ScanCase(seed, 12).run(1 + seed % 3);
     if (fault.empty()) continue;
     ++failed;
     std::printf("seed %u: %s\n", seed, fault.c_str());

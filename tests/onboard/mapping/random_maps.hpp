@@ -8,7 +8,7 @@
 
 #include "onboard/mapping/tree/semantic_octree.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// Hits and misses in a small box around a few centres, so that some nodes are pruned and others are not.
 template <class Tree>
@@ -44,4 +44,4 @@ std::unique_ptr<Tree> random_map(unsigned seed, int updates, double resolution =
   return tree;
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -10,7 +10,7 @@
 #include <random>
 #include <vector>
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// One scan in the map frame, as Mapper takes it.
 struct MapScan {
@@ -73,4 +73,4 @@ class ScanYard {
   std::vector<Box> boxes_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::mapping

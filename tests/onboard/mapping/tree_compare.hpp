@@ -11,7 +11,7 @@
 
 #include "onboard/mapping/tree/semantic_octree.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// Nodes, inner ones included, in which two trees differ: key, depth, leafness or a bit of the log-odds. A difference
 /// in structure ends the comparison.
@@ -38,4 +38,4 @@ std::string data_of(const Tree& tree) {
   return out.str();
 }
 
-}  // namespace cairn
+}  // namespace cairn::mapping

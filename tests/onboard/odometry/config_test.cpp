@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 TEST(OdometryConfig, TheDefaultsAreWithinTheirBoundsAndSurviveAFile) {
@@ -31,4 +31,4 @@ TEST(OdometryConfig, TheGatesCannotCross) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 SE3 ahead(double metres) { return SE3(Eigen::Quaterniond::Identity(), {metres, 0, 0}); }
@@ -103,4 +103,4 @@ TEST(DriftHistory, ResetForgetsEverything) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -7,7 +7,7 @@
 #include <random>
 #include <set>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 /// Points on the floor of a square room of this edge, all in range, each with an age of its own.
@@ -91,4 +91,4 @@ TEST(KeypointSelector, AScanWithoutPointsGivesNone) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -7,7 +7,7 @@
 
 #include "tests/onboard/odometry/room_points.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 const SE3 kLidarMount = SE3::from_xyz_rpy((Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished());
@@ -111,4 +111,4 @@ TEST_F(LocalMapOfARoom, KnowsHowUncertainThePoseWasWhenEachPartWasMade) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

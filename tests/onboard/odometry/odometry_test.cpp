@@ -9,7 +9,7 @@
 #include "tests/support/box_world.hpp"
 #include "tests/support/scenes.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 const SE3 kMount = SE3::from_xyz_rpy((Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished());
@@ -202,4 +202,4 @@ TEST(Odometry, PointsThatAreNotFiniteDoNoHarm) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

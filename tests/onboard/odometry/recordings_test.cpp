@@ -6,7 +6,7 @@
 #include "tests/support/kitti.hpp"
 #include "tests/support/recorded_data.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 /// A whole drive, one sweep after the other, as the odometry sees it.
@@ -65,4 +65,4 @@ TEST_F(OdometryRecordings, Odometry00IsDrivenAsFastAsItsSweepsSay) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -7,7 +7,7 @@
 
 #include "tests/onboard/odometry/room_points.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 constexpr double kDuration_s = 0.1;
@@ -118,4 +118,4 @@ TEST_F(RegistrationInARoom, GivesTheSameBitsForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

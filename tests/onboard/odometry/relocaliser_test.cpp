@@ -5,7 +5,7 @@
 
 #include <cmath>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 const Vector6 kDriving = (Vector6() << 1.5, 0, 0, 0, 0, 0.5).finished();
@@ -88,4 +88,4 @@ TEST(Relocaliser, EveryAnswerHasAName) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

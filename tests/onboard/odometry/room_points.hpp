@@ -11,7 +11,7 @@
 
 #include "onboard/odometry/local_map/patch_grid.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// Points on the six faces of a room and on a pole in it; its walls lie on no multiple of a block's edge.
 class Room {
@@ -47,4 +47,4 @@ class Room {
   std::normal_distribution<double> gauss_{0, 1};
 };
 
-}  // namespace cairn
+}  // namespace cairn::odometry

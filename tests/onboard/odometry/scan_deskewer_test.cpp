@@ -8,7 +8,7 @@
 
 #include "onboard/odometry/estimation/deskew.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 TEST(ScanDeskewer, EqualsDeskewPointByPointForAnyNumberOfThreads) {
@@ -36,4 +36,4 @@ TEST(ScanDeskewer, EqualsDeskewPointByPointForAnyNumberOfThreads) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
@@ -91,4 +91,4 @@ TEST(ScanPreparation, AScanThatWasPlacedBeforeGoesBackIntoTheSensorsFrame) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -7,7 +7,7 @@
 
 #include "onboard/odometry/gap_search.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 constexpr double kSince_s = 0.1;
@@ -138,4 +138,4 @@ TEST(GapSearch, AChangedPoseChangesTheTwistAsThePredictionCouplesThem) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

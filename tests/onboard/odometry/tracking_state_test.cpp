@@ -5,7 +5,7 @@
 
 #include "tests/onboard/odometry/room_points.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 constexpr double kScan_s = 0.1;
@@ -100,4 +100,4 @@ TEST_F(Tracking, EveryOutcomeHasAName) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

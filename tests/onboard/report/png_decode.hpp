@@ -8,7 +8,7 @@
 
 #include "onboard/report/pictures/raster.hpp"
 
-namespace cairn {
+namespace cairn::report {
 
 /// What libpng reads back, as an oracle for encode_png().
 inline std::optional<Raster> decode_png(std::span<const std::byte> bytes) {
@@ -21,4 +21,4 @@ inline std::optional<Raster> decode_png(std::span<const std::byte> bytes) {
   return image;
 }
 
-}  // namespace cairn
+}  // namespace cairn::report

@@ -6,7 +6,7 @@
 
 #include "onboard/mapping/tree/semantic_octree.hpp"
 
-namespace cairn {
+namespace cairn::report {
 
 /// Voxel centres of a block of 2·`half` voxels along each axis about the origin.
 template <class Visit>
@@ -19,8 +19,8 @@ void for_each_voxel(double resolution, int half, Visit&& visit) {
 }
 
 /// A canonical tree with unknown, free and occupied voxels, single ones and pruned cubes.
-inline std::unique_ptr<SemanticOcTree> random_map(unsigned seed, double resolution = 0.1, int half = 8) {
-  auto map = std::make_unique<SemanticOcTree>(resolution);
+inline std::unique_ptr<mapping::SemanticOcTree> random_map(unsigned seed, double resolution = 0.1, int half = 8) {
+  auto map = std::make_unique<mapping::SemanticOcTree>(resolution);
   std::mt19937 engine(seed);
   // Whole octants of one kind are likely, so that there is something to prune.
   std::vector<unsigned> kind(64);
@@ -36,4 +36,4 @@ inline std::unique_ptr<SemanticOcTree> random_map(unsigned seed, double resoluti
   return map;
 }
 
-}  // namespace cairn
+}  // namespace cairn::report

@@ -8,20 +8,20 @@
 
 #include "onboard/report/figures/run_report.hpp"
 
-namespace cairn {
+namespace cairn::report {
 
 inline Time at_seconds(double s) { return Time{from_seconds(s)}; }
 
 /// A run that never was: a robot drives round two rooms. Owns what the report refers to.
 struct SampleRun {
   Monitor monitor;
-  std::unique_ptr<SemanticOcTree> map;
+  std::unique_ptr<mapping::SemanticOcTree> map;
   RunReport report;
 };
 
 namespace sample {
 
-inline void box(SemanticOcTree& map, const Eigen::Vector3d& low, const Eigen::Vector3d& high, bool occupied) {
+inline void box(mapping::SemanticOcTree& map, const Eigen::Vector3d& low, const Eigen::Vector3d& high, bool occupied) {
   const double r = map.getResolution();
   for (double x = low.x(); x < high.x(); x += r)
     for (double y = low.y(); y < high.y(); y += r)
@@ -32,8 +32,8 @@ inline void box(SemanticOcTree& map, const Eigen::Vector3d& low, const Eigen::Ve
 }
 
 /// Two rooms of 8 × 6 × 2.8 m with a door between them, floor, ceiling and a few boxes.
-inline std::unique_ptr<SemanticOcTree> rooms(double resolution) {
-  auto map = std::make_unique<SemanticOcTree>(resolution);
+inline std::unique_ptr<mapping::SemanticOcTree> rooms(double resolution) {
+  auto map = std::make_unique<mapping::SemanticOcTree>(resolution);
   const double r = resolution;
   box(*map, {-2, -2, -0.2}, {14, 4, 2.6}, false);
   box(*map, {-2, -2, -0.2 - r}, {14, 4, -0.2}, true);
@@ -157,4 +157,4 @@ inline std::unique_ptr<SampleRun> sample_run(int scans = 600, double resolution 
   return run;
 }
 
-}  // namespace cairn
+}  // namespace cairn::report

@@ -13,7 +13,7 @@
 #include "tests/onboard/report/sample_report.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 namespace fs = std::filesystem;
@@ -42,4 +42,4 @@ TEST(WriteReport, IntoAMissingFolderIsAnErrorThatNamesIt) {
 TEST(PeakRss, IsMoreThanNothing) { EXPECT_GT(peak_rss_mb(), 1); }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::report

@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <set>
 
-namespace cairn {
+namespace cairn::safety {
 namespace {
 
 TEST(FailsafeConfig, DefaultsPassTheirOwnBoundsAndSurviveTheFile) {
@@ -76,4 +76,4 @@ TEST(FailsafeConfig, ContradictionsAreNamedTogether) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::safety

@@ -12,7 +12,7 @@
 
 #include "onboard/safety/failsafe.hpp"
 
-namespace cairn {
+namespace cairn::safety {
 namespace {
 
 constexpr std::uint32_t kSets = 1U << kFaults;
@@ -124,4 +124,4 @@ TEST(FailsafeState, NoPathLeadsFromAStopToMotionWithoutARequestThatNamesThatStop
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::safety

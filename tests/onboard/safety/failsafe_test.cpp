@@ -8,7 +8,7 @@
 
 #include "tests/support/allocation_count.hpp"
 
-namespace cairn {
+namespace cairn::safety {
 namespace {
 
 using namespace std::chrono_literals;
@@ -288,4 +288,4 @@ TEST(Failsafe, StepsAllocateNothing) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::safety

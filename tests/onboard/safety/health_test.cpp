@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cairn {
+namespace cairn::safety {
 namespace {
 
 using namespace std::chrono_literals;
@@ -52,4 +52,4 @@ TEST(Supervisor, AMachineThatStoodAccusesNobody) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::safety

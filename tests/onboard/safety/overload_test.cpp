@@ -7,7 +7,7 @@
 #include <random>
 #include <vector>
 
-namespace cairn {
+namespace cairn::safety {
 namespace {
 
 using namespace std::chrono_literals;
@@ -127,4 +127,4 @@ TEST(Overload, ItsBoundsKeepTheSecond) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::safety

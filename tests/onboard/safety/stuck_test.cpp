@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace cairn {
+namespace cairn::safety {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -63,4 +63,4 @@ TEST(StuckWatch, AgreesWithTheDefinition) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::safety

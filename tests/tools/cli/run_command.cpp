@@ -8,14 +8,14 @@
 
 namespace cairn::cli {
 
-Outcome run(void (*add)(Commands&), std::vector<std::string> arguments) {
+Outcome run(void (*add)(app::Commands&), std::vector<std::string> arguments) {
   CLI::App app;
-  Commands commands{app, {}};
+  app::Commands commands{app, {}};
   add(commands);
   std::ostringstream out, err;
   std::streambuf* const old_out = std::cout.rdbuf(out.rdbuf());
   std::streambuf* const old_err = std::cerr.rdbuf(err.rdbuf());
-  int code = kWrongArguments;
+  int code = app::kWrongArguments;
   try {
     std::reverse(arguments.begin(), arguments.end());  // CLI11 takes them from the back
     app.parse(arguments);

@@ -20,6 +20,6 @@ struct Outcome {
 };
 
 /// Parses the arguments as main() does and runs the job, with stdout and stderr caught.
-Outcome run(void (*add)(Commands&), std::vector<std::string> arguments);
+Outcome run(void (*add)(app::Commands&), std::vector<std::string> arguments);
 
 }  // namespace cairn::cli

@@ -16,28 +16,28 @@ Outcome simulate(std::vector<std::string> arguments) {
 
 TEST(SimulateCommand, WrongScenesAreRefusedWithTheListOfScenes) {
   const Outcome outcome = simulate({"--scene", "moon", "--out", "/nowhere"});
-  EXPECT_EQ(outcome.exit_code, kWrongArguments);
+  EXPECT_EQ(outcome.exit_code, app::kWrongArguments);
   for (const char* scene : {"corridor", "lobby", "office", "carpark", "forest"})
     EXPECT_THAT(outcome.err, ::testing::HasSubstr(scene));
 }
 
 TEST(SimulateCommand, WrongNumbersAndMissingOptionsAreRefused) {
-  EXPECT_EQ(simulate({"--scene", "office"}).exit_code, kWrongArguments);
+  EXPECT_EQ(simulate({"--scene", "office"}).exit_code, app::kWrongArguments);
   for (const char* option : {"--robots=0", "--robots=17", "--seconds=0", "--seconds=x", "--threads=0", "--people=-3"})
-    EXPECT_EQ(simulate({"--scene=office", "--out=/nowhere", option}).exit_code, kWrongArguments) << option;
+    EXPECT_EQ(simulate({"--scene=office", "--out=/nowhere", option}).exit_code, app::kWrongArguments) << option;
 }
 
 TEST(SimulateCommand, PrintsOneJsonObject) {
   const TemporaryFolder folder;
   const std::string out = folder / "out";
   const Outcome outcome = simulate({"--scene=corridor", "--seconds=0.2", "--out", out, "--json"});
-  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+  ASSERT_EQ(outcome.exit_code, app::kDone) << outcome.err;
   const auto object = outcome.json();
   EXPECT_EQ(object["scene"], "corridor");
   ASSERT_EQ(object["robots"].size(), 1u);
   EXPECT_EQ(object["robots"][0]["recording"], out + "/robot_1");
   EXPECT_GT(object["robots"][0]["returns"], 10000);
-  EXPECT_EQ(simulate({"--scene=corridor", "--seconds=0.2", "--out", out}).exit_code, kFailed);
+  EXPECT_EQ(simulate({"--scene=corridor", "--seconds=0.2", "--out", out}).exit_code, app::kFailed);
 }
 
 }  // namespace

@@ -15,11 +15,11 @@ TEST(SimulatedProfile, IsReadBackAsItWasWritten) {
   config.sensors = Sensors::all();
   for (const bool uav : {false, true}) {
     if (uav) make_uav(config);
-    const std::string text = to_yaml(simulated_profile(config));
+    const std::string text = app::to_yaml(simulated_profile(config));
     ASSERT_TRUE(write_file_atomic(folder / "robot.yaml", text));
-    const auto read = load_profile(folder / "robot.yaml");
+    const auto read = app::load_profile(folder / "robot.yaml");
     ASSERT_TRUE(read) << to_string(read.error());
-    EXPECT_EQ(to_yaml(*read), text);
+    EXPECT_EQ(app::to_yaml(*read), text);
     EXPECT_EQ(read->lidar.enabled, !uav);
     EXPECT_EQ(read->drive.exists(), !uav);
     EXPECT_EQ(read->camera.driver.capture.width, 1344);

@@ -5,7 +5,7 @@
 
 #include <algorithm>
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 using std::chrono::seconds;
@@ -39,4 +39,4 @@ TEST(KillPlan, IsThatOfItsSeed) {
 }
 
 }  // namespace
-}  // namespace cairn::team
+}  // namespace cairn::team_run

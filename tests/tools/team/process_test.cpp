@@ -8,7 +8,7 @@
 
 #include "tests/tools/team/shell.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 using ::testing::HasSubstr;
@@ -86,4 +86,4 @@ TEST(Process, DiesWithTheProgramThatStartedIt) {
 }
 
 }  // namespace
-}  // namespace cairn::team
+}  // namespace cairn::team_run

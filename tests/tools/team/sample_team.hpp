@@ -14,7 +14,7 @@
 #include "onboard/mapping/files/map_file.hpp"
 #include "tests/onboard/report/random_map.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 
 /// Two robots that drove past each other, with truth, and what their cores would leave: robot 2's odom lies 3 m ahead
 /// of robot 1's, which lies 1 m ahead of the world.
@@ -46,14 +46,14 @@ struct SampleTeam {
     (void)writer.close();
     if (!truth) return;
     (void)recording::write_tum(dir / "ground_truth.tum", poses(robot == 1 ? 1 : 4));
-    if (robot == 1) (void)save_ot(*random_map(1), dir / "world.ot");
+    if (robot == 1) (void)mapping::save_ot(*report::random_map(1), dir / "world.ot");
   }
 
   void write_result(const std::filesystem::path& dir, int robot) const {
     std::filesystem::create_directories(dir);
     std::ofstream(dir / "report.json") << report(robot);
     (void)recording::write_tum(dir / "trajectory.tum", poses(0));
-    (void)save_cairn(*random_map(1), dir / "team.cairn");
+    (void)mapping::save_cairn(*report::random_map(1), dir / "team.cairn");
   }
 
  private:
@@ -80,4 +80,4 @@ struct SampleTeam {
   }
 };
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

@@ -12,7 +12,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tools/team/process.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 
 /// A shell that stands in for a robot's process; it works in `folder`.
 inline Command shell(const std::string& script, const std::filesystem::path& folder) {
@@ -34,4 +34,4 @@ inline bool becomes_true(const std::function<bool()>& is_so) {
   return false;
 }
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

@@ -22,9 +22,9 @@
 namespace {
 
 namespace fs = std::filesystem;
+using cairn::peer_link::LinkFrame;
+using cairn::peer_link::LocalLink;
 using cairn::peers::Exchange;
-using cairn::peers::LinkFrame;
-using cairn::peers::LocalLink;
 
 struct Arguments {
   cairn::peers::RobotId id, robots;

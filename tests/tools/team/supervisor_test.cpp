@@ -7,7 +7,7 @@
 
 #include "tests/tools/team/shell.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 using std::chrono::milliseconds;
@@ -166,4 +166,4 @@ TEST_F(Supervising, CoresThatDoNotEndAreEnded) {
 }
 
 }  // namespace
-}  // namespace cairn::team
+}  // namespace cairn::team_run

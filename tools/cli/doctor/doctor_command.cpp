@@ -63,8 +63,8 @@ void print_lines(const Findings& findings) {
   }
 }
 
-Json to_json(const Findings& findings) {
-  Json list = Json::array();
+report::Json to_json(const Findings& findings) {
+  report::Json list = report::Json::array();
   for (const Finding& f : findings)
     list.push_back({{"level", name_of(f.level)}, {"what", f.what}, {"remedy", f.remedy}});
   return list;
@@ -75,15 +75,15 @@ int diagnose(const DoctorArguments& options) {
   const auto problems =
       std::count_if(findings.begin(), findings.end(), [](const Finding& f) { return f.level == Level::kProblem; });
   if (options.json)
-    print({{"problems", problems}, {"findings", to_json(findings)}});
+    app::print({{"problems", problems}, {"findings", to_json(findings)}});
   else
     print_lines(findings);
-  return problems == 0 ? kDone : kFailed;
+  return problems == 0 ? app::kDone : app::kFailed;
 }
 
 }  // namespace
 
-void add_doctor_command(Commands& commands) {
+void add_doctor_command(app::Commands& commands) {
   auto* sub = commands.app.add_subcommand(
       "doctor", "says what is wrong with machine, devices, recording or team, and the remedy");
   auto o = std::make_shared<DoctorArguments>();

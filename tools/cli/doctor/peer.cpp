@@ -16,20 +16,20 @@ namespace cairn::cli {
 namespace {
 
 namespace fs = std::filesystem;
-using Peers = std::vector<LiveView::Peer>;
+using Peers = std::vector<app::LiveView::Peer>;
 using Level = Finding::Level;
 
 constexpr double kClockNoteS = 1;
 constexpr const char* kContradicted = "correct team.deployment in the profile that is wrong, or leave it out";
 
-Finding judge(const LiveView::Peer& peer) {
+Finding judge(const app::LiveView::Peer& peer) {
   const std::string heard = peer.heard_s_ago >= 0 ? fmt::format(", heard {:.1f} s ago", peer.heard_s_ago) : "";
   const std::string figures = fmt::format(" ({} tiles{})", peer.tiles, heard);
   if (peer.merged && peer.deployment_contradicted)
     return {Level::kNote, peer.name + ": " + peer.reason + figures,
             "measure again where both were put down, and correct team.deployment in the profile that is wrong"};
   if (peer.merged) return {Level::kOk, peer.name + ": merged" + figures, {}};
-  const auto state = peer_state_from(peer.state).value_or(PeerState::kUndecided);
+  const auto state = team::peer_state_from(peer.state).value_or(team::PeerState::kUndecided);
   return {Level::kProblem, peer.name + " is not merged: " + peer.reason + figures,
           peer.deployment_contradicted ? kContradicted : remedy_for(state)};
 }
@@ -40,7 +40,7 @@ Result<Peers> peers_of_report(const fs::path& run) {
   const auto bytes = read_file(run / "report.json", std::uint64_t{64} << 20U);
   if (!bytes) return bytes.error();
   const auto* text = reinterpret_cast<const char*>(bytes->data());
-  const Json json = Json::parse(text, text + bytes->size(), nullptr, false);
+  const report::Json json = report::Json::parse(text, text + bytes->size(), nullptr, false);
   if (!json.is_object() || !json.contains("peers") || !json["peers"].is_object())
     return Error{Errc::kMalformed, "not the report of a run", (run / "report.json").string(), {}, {}};
   Peers peers;
@@ -63,19 +63,19 @@ Result<Peers> peers_of_core(const fs::path& socket) {
   const auto line = client->next(std::chrono::seconds(5));
   if (!line) return line.error();
   if (!*line) return Error{Errc::kLinkDown, "the core says nothing", socket.string(), {}, "its watch task hangs"};
-  auto view = parse_line(**line);
+  auto view = app::parse_line(**line);
   if (!view) return view.error();
   return std::move(view->peers);
 }
 
 Result<Peers> peers_of_recording(const fs::path& recording) {
   const fs::path out = fs::temp_directory_path() / ("cairn-doctor-" + std::to_string(::getpid()));
-  RunOptions options;
+  app::RunOptions options;
   options.recording = recording;
   options.out = out;
-  options.pace = Pace::kMaximum;
+  options.pace = app::Pace::kMaximum;
   if (const fs::path profile = recording / "config.yaml"; fs::exists(profile)) options.config = profile;
-  const auto ran = run(options);
+  const auto ran = app::run(options);
   auto peers = ran ? peers_of_report(out) : Result<Peers>(ran.error());
   std::error_code ignored;
   fs::remove_all(out, ignored);
@@ -84,41 +84,41 @@ Result<Peers> peers_of_recording(const fs::path& recording) {
 
 }  // namespace
 
-const char* remedy_for(PeerState state) {
+const char* remedy_for(team::PeerState state) {
   switch (state) {
-    case PeerState::kMerged:
+    case team::PeerState::kMerged:
       return "";
-    case PeerState::kNeverHeard:
+    case team::PeerState::kNeverHeard:
       return "start cairn-peers on both robots; its --peer addresses and --domain must fit, its --socket be the "
              "profile's team.socket";
-    case PeerState::kBanned:
+    case team::PeerState::kBanned:
       return "it is listened to again after a while; if that goes on, update or stop it";
-    case PeerState::kOtherVersion:
-    case PeerState::kUnreadable:
+    case team::PeerState::kOtherVersion:
+    case team::PeerState::kUnreadable:
       return "bring both robots to one version of Cairn";
-    case PeerState::kOtherResolution:
+    case team::PeerState::kOtherResolution:
       return "give both profiles the same mapping.resolution_m";
-    case PeerState::kNoLink:
+    case team::PeerState::kNoLink:
       return "look at the radio, and whether the peer's cairn-peers still runs";
-    case PeerState::kNoMap:
+    case team::PeerState::kNoMap:
       return "it has not mapped anything yet, or the link carries hellos only";
-    case PeerState::kTooLittleMapped:
+    case team::PeerState::kTooLittleMapped:
       return "drive on";
-    case PeerState::kPeerCompares:
+    case team::PeerState::kPeerCompares:
       return "ask it: cairn doctor --peer there";
-    case PeerState::kBeingCompared:
+    case team::PeerState::kBeingCompared:
       return "wait";
-    case PeerState::kNoPlace:
+    case team::PeerState::kNoPlace:
       return "drive where the other has been";
-    case PeerState::kAtOdds:
+    case team::PeerState::kAtOdds:
       return "one of the robots' findings is wrong; they sort it out as their maps grow";
-    case PeerState::kAmbiguous:
+    case team::PeerState::kAmbiguous:
       return "ambiguous: drive on, to something that exists only once";
-    case PeerState::kAgreeing:
+    case team::PeerState::kAgreeing:
       return "nearly there: drive on where both have been";
-    case PeerState::kContradicted:
+    case team::PeerState::kContradicted:
       return "drive where the other has been: the maps contradict the place that was found";
-    case PeerState::kUndecided:
+    case team::PeerState::kUndecided:
       break;
   }
   return "drive on: more of both maps decides it";
@@ -126,7 +126,7 @@ const char* remedy_for(PeerState state) {
 
 Findings judge_peers(const Peers& peers, const std::string& name) {
   Findings findings;
-  for (const LiveView::Peer& peer : peers) {
+  for (const app::LiveView::Peer& peer : peers) {
     if (name != "all" && peer.name != name) continue;
     findings.push_back(judge(peer));
     if (std::abs(peer.clock_offset_s) > kClockNoteS)
@@ -136,7 +136,7 @@ Findings judge_peers(const Peers& peers, const std::string& name) {
   }
   if (!findings.empty()) return findings;
   const std::string who = name == "all" ? "any peer" : name;
-  return {{Level::kProblem, who + ": never heard of", remedy_for(PeerState::kNeverHeard)}};
+  return {{Level::kProblem, who + ": never heard of", remedy_for(team::PeerState::kNeverHeard)}};
 }
 
 Findings examine_peer(const PeerQuestion& question) {

@@ -20,10 +20,10 @@ struct PeerQuestion {
 };
 
 /// What people can do about a peer that is in this state; empty for kMerged.
-[[nodiscard]] const char* remedy_for(PeerState state);
+[[nodiscard]] const char* remedy_for(team::PeerState state);
 /// One finding per peer: whether it is merged, and what to do if not.
 [[nodiscard]] Findings examine_peer(const PeerQuestion& question);
 /// The same for peers whose state is known already.
-[[nodiscard]] Findings judge_peers(const std::vector<LiveView::Peer>& peers, const std::string& name);
+[[nodiscard]] Findings judge_peers(const std::vector<app::LiveView::Peer>& peers, const std::string& name);
 
 }  // namespace cairn::cli

@@ -28,7 +28,7 @@ const char* remedy_for_silence(recording::SensorKind kind) {
 }
 
 /// Everything that came in the time that is given to one device.
-Finding listen_to(Device& device, const recording::SourceEntry& entry, const Clock& clock, Duration listen) {
+Finding listen_to(app::Device& device, const recording::SourceEntry& entry, const Clock& clock, Duration listen) {
   Packet packet;
   std::uint64_t packets = 0;
   const Time end = clock.now() + listen;
@@ -46,14 +46,14 @@ Finding listen_to(Device& device, const recording::SourceEntry& entry, const Clo
           remedy_for_silence(entry.kind)};
 }
 
-Finding examine_device(const RobotProfile& profile, const recording::SourceEntry& entry, Duration listen) {
+Finding examine_device(const app::RobotProfile& profile, const recording::SourceEntry& entry, Duration listen) {
   const LiveClock clock;
-  auto device = open_device(profile, entry, SourceId{0}, clock);
+  auto device = app::open_device(profile, entry, SourceId{0}, clock);
   if (!device) return problem(entry.id, device.error());
   return listen_to(*device, entry, clock, listen);
 }
 
-Finding examine_source(const Json& source) {
+Finding examine_source(const report::Json& source) {
   const std::string id = source["id"].get<std::string>();
   const auto packets = source["packets"]["packets"].get<std::uint64_t>();
   if (packets == 0 && source["kind"] == to_string(recording::kGpio)) return {Level::kOk, id + ": no edge", {}};
@@ -70,10 +70,10 @@ Finding examine_source(const Json& source) {
 }  // namespace
 
 Findings examine_profile(const std::filesystem::path& path, Duration listen) {
-  const auto profile = load_profile(path);
+  const auto profile = app::load_profile(path);
   if (!profile) return {problem("profile", profile.error())};
   Findings findings{{Level::kOk, "profile: " + path.string() + " is in order", {}}};
-  const auto entries = devices_of(*profile);
+  const auto entries = app::devices_of(*profile);
   if (entries.empty())
     findings.push_back(
         {Level::kProblem, "profile: it has no device", "name one: camera.capture.device, drive.interface, …"});
@@ -88,8 +88,8 @@ Findings examine_recording(const std::filesystem::path& folder) {
   if (!found->contains("sources"))
     return {
         {Level::kProblem, "recording: " + folder.string() + " is no recording", "name a folder with recording.yaml"}};
-  for (const Json& source : (*found)["sources"]) findings.push_back(examine_source(source));
-  for (const Json& damage : (*found)["damage"])
+  for (const report::Json& source : (*found)["sources"]) findings.push_back(examine_source(source));
+  for (const report::Json& damage : (*found)["damage"])
     findings.push_back(
         {Level::kProblem, "recording: " + damage.get<std::string>(), "what lies before and behind the damage is used"});
   return findings;

@@ -67,10 +67,10 @@ void CanFigures::note_chassis(const CanFrame& frame) {
   chassis_ = state;
 }
 
-Json CanFigures::to_json() const {
-  Json json{{"frames", frames_},          {"sent", sent_}, {"error_frames", errors_},
-            {"remote_requests", remote_}, {"fd", fd_},     {"of_unlisted_ids", other_ids_}};
-  json["ids"] = Json::object();
+report::Json CanFigures::to_json() const {
+  report::Json json{{"frames", frames_},          {"sent", sent_}, {"error_frames", errors_},
+                    {"remote_requests", remote_}, {"fd", fd_},     {"of_unlisted_ids", other_ids_}};
+  json["ids"] = report::Json::object();
   for (const auto& [id, entry] : ids_)
     json["ids"][id_text(id)] = {{"frames", entry.frames}, {"last", data_text(entry.last)}};
   if (chassis_)

@@ -15,7 +15,7 @@ class CanFigures final : public SensorFigures {
   static constexpr std::size_t kMaxIds = 256;  ///< identifiers listed; further ones are only counted
 
   Result<const Scan*> take(const Packet& packet) override;
-  [[nodiscard]] Json to_json() const override;
+  [[nodiscard]] report::Json to_json() const override;
 
  private:
   struct PerId {

@@ -39,19 +39,20 @@ bool is_capture(const fs::path& path) {
   return false;
 }
 
-Result<Json> write_scan(const InspectOptions& options, const std::optional<Scan>& scan, std::uint64_t scans) {
+Result<report::Json> write_scan(const InspectOptions& options, const std::optional<Scan>& scan, std::uint64_t scans) {
   if (!scan)
     return Error{Errc::kNotFound, "there is no such scan", options.path.string(), {}, std::to_string(scans) + " scans"};
   if (auto written = write_file_atomic(options.out, recording::to_pcd(scan->cloud)); !written) return written.error();
-  return Json{{"file", options.out.string()},
-              {"points", scan->cloud.size()},
-              {"start_s", to_seconds(scan->valid.start)},
-              {"end_s", to_seconds(scan->valid.end)},
-              {"incomplete", scan->incomplete}};
+  return report::Json{{"file", options.out.string()},
+                      {"points", scan->cloud.size()},
+                      {"start_s", to_seconds(scan->valid.start)},
+                      {"end_s", to_seconds(scan->valid.end)},
+                      {"incomplete", scan->incomplete}};
 }
 
 /// Appends what the stream holds to what is known of it.
-Result<Json> inspect_stream(const InspectOptions& options, const Recording& recording, Source& source, Json json) {
+Result<report::Json> inspect_stream(const InspectOptions& options, const Recording& recording, Source& source,
+                                    report::Json json) {
   auto inspection = StreamInspection::create(recording, options.scan);
   if (!inspection) return inspection.error();
   (*inspection)->run(source);
@@ -67,8 +68,8 @@ Result<Json> inspect_stream(const InspectOptions& options, const Recording& reco
 }
 
 /// Poses before a fault count, the fault is told.
-Json describe_trajectory(const fs::path& path) {
-  Json json;
+report::Json describe_trajectory(const fs::path& path) {
+  report::Json json;
   std::vector<recording::StampedPose> poses;
   const auto bytes = read_file(path, recording::kMaxTrajectoryBytes);
   if (!bytes) return {{"damage", to_string(bytes.error())}};
@@ -84,26 +85,26 @@ Json describe_trajectory(const fs::path& path) {
     json["last_s"] = to_seconds(poses.back().stamp);
     json["duration_s"] = to_seconds(poses.back().stamp - poses.front().stamp);
   }
-  json["damage"] = parsed ? Json(nullptr) : Json(to_string(parsed.error()));
+  json["damage"] = parsed ? report::Json(nullptr) : report::Json(to_string(parsed.error()));
   return json;
 }
 
-Result<Json> inspect_recording(const InspectOptions& options) {
+Result<report::Json> inspect_recording(const InspectOptions& options) {
   auto reader = recording::RecordingReader::open(options.path);
   if (!reader) return reader.error();
   Recording recording = (*reader)->recording();
   if (!options.model.empty())
     for (SourceEntry& s : recording.sources) s.model = options.model;
-  Json json{{"kind", "recording"},
-            {"path", options.path.string()},
-            {"robot", recording.robot},
-            {"profile", recording.profile},
-            {"start_utc", recording::to_iso_utc(recording.start_utc_ns)},
-            {"realtime_offset_ns", recording.realtime_offset_ns},
-            {"notes", recording.notes}};
+  report::Json json{{"kind", "recording"},
+                    {"path", options.path.string()},
+                    {"robot", recording.robot},
+                    {"profile", recording.profile},
+                    {"start_utc", recording::to_iso_utc(recording.start_utc_ns)},
+                    {"realtime_offset_ns", recording.realtime_offset_ns},
+                    {"notes", recording.notes}};
   std::error_code ignored;
   const fs::path truth = options.path / "ground_truth.tum";
-  json["ground_truth"] = fs::exists(truth, ignored) ? describe_trajectory(truth) : Json(nullptr);
+  json["ground_truth"] = fs::exists(truth, ignored) ? describe_trajectory(truth) : report::Json(nullptr);
   return inspect_stream(options, recording, **reader, std::move(json));
 }
 
@@ -131,7 +132,7 @@ SourceEntry recognise(velodyne::PcapSource& capture) {
   return entry;
 }
 
-Result<Json> inspect_capture(const InspectOptions& options) {
+Result<report::Json> inspect_capture(const InspectOptions& options) {
   auto first_look = velodyne::PcapSource::open(options.path, {});
   if (!first_look) return first_look.error();
   Recording recording;
@@ -158,17 +159,17 @@ Result<Json> inspect_capture(const InspectOptions& options) {
   return json;
 }
 
-Result<Json> inspect_cloud(const InspectOptions& options) {
+Result<report::Json> inspect_cloud(const InspectOptions& options) {
   const auto bytes = read_file(options.path, recording::kMaxPcdBytes);
   if (!bytes) return bytes.error();
   const auto header = recording::parse_pcd_header(*bytes, options.path.string());
   if (!header) return header.error();
   const auto pcd = recording::parse_pcd(*bytes, options.path.string());
   if (!pcd) return pcd.error();
-  Json json{{"kind", "point cloud"},
-            {"path", options.path.string()},
-            {"points", pcd->cloud.size()},
-            {"rejected", pcd->rejected}};
+  report::Json json{{"kind", "point cloud"},
+                    {"path", options.path.string()},
+                    {"points", pcd->cloud.size()},
+                    {"rejected", pcd->rejected}};
   for (const auto& f : header->fields) json["fields"].push_back(f.name);
   json["has_time"] = pcd->has_time;
   if (options.out.empty()) return json;
@@ -180,15 +181,15 @@ Result<Json> inspect_cloud(const InspectOptions& options) {
   return json;
 }
 
-Result<Json> inspect_map(const InspectOptions& options) {
-  const auto map = load_map(options.path);
+Result<report::Json> inspect_map(const InspectOptions& options) {
+  const auto map = mapping::load_map(options.path);
   if (!map) return at(options.path.string(), map.error());
-  Json json{{"kind", "map"}, {"path", options.path.string()}};
-  json.update(to_json(summarise(**map)));
+  report::Json json{{"kind", "map"}, {"path", options.path.string()}};
+  json.update(report::to_json(report::summarise(**map)));
   return json;
 }
 
-Result<Json> inspect_native_file(const InspectOptions& options, NativeFile file) {
+Result<report::Json> inspect_native_file(const InspectOptions& options, NativeFile file) {
   SourceEntry& entry = file.recording.sources.front();
   if (!options.model.empty()) entry.model = options.model;
   auto source = recording::open_recorded_source(file.dir, file.recording, 0);
@@ -206,7 +207,7 @@ std::string thermal_model(const camera::NpyHeader& header) {
 }
 
 /// The file knows neither times nor the sensor. Two bytes a pixel are temperatures, or depth where a name says so.
-Result<Json> inspect_array(const InspectOptions& options) {
+Result<report::Json> inspect_array(const InspectOptions& options) {
   camera::NpySource::Options as;
   const bool depth = says_depth(options.path);
   if (depth) as.deep = camera::FrameFormat::kZ16;
@@ -224,8 +225,8 @@ Result<Json> inspect_array(const InspectOptions& options) {
 }
 
 /// "points_per_scan": 3 → "points per scan: 3", nested values indented below.
-void write_plain(std::string& out, const Json& value, const std::string& indent) {
-  const auto scalar = [](const Json& v) {
+void write_plain(std::string& out, const report::Json& value, const std::string& indent) {
+  const auto scalar = [](const report::Json& v) {
     return v.is_string() ? v.get<std::string>() : v.is_null() ? "none" : v.dump();
   };
   for (const auto& [key, v] : value.items()) {
@@ -244,7 +245,7 @@ void write_plain(std::string& out, const Json& value, const std::string& indent)
 
 }  // namespace
 
-Result<Json> inspect(const InspectOptions& options) {
+Result<report::Json> inspect(const InspectOptions& options) {
   std::error_code error;
   if (fs::is_directory(options.path, error)) return inspect_recording(options);
   if (!fs::exists(options.path, error))
@@ -263,12 +264,12 @@ Result<Json> inspect(const InspectOptions& options) {
         {},
         "known: folders of recordings, pcap, pcapng, candump, gpio.csv, lists of pictures, .npy, .pcd, .cairn, "
         ".ot, .bt, .tum"};
-  Json json{{"kind", "trajectory"}, {"path", options.path.string()}};
+  report::Json json{{"kind", "trajectory"}, {"path", options.path.string()}};
   json.update(describe_trajectory(options.path));
   return json;
 }
 
-std::string to_plain_text(const Json& json) {
+std::string to_plain_text(const report::Json& json) {
   std::string out;
   write_plain(out, json, "");
   return out;

@@ -21,9 +21,9 @@ struct InspectOptions {
 /// What is in the folder of a recording, one of its files (candump, gpio.csv, a list of pictures), a capture (pcap,
 /// pcapng), an array of pictures (.npy), a map (.cairn, .ot, .bt), a trajectory (.tum, .txt) or a point cloud (.pcd).
 /// Damage that leaves something to tell is told in `damage`, not as an Error.
-[[nodiscard]] Result<Json> inspect(const InspectOptions& options);
+[[nodiscard]] Result<report::Json> inspect(const InspectOptions& options);
 
 /// The same as indented text for people.
-[[nodiscard]] std::string to_plain_text(const Json& json);
+[[nodiscard]] std::string to_plain_text(const report::Json& json);
 
 }  // namespace cairn::cli

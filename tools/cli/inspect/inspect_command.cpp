@@ -18,15 +18,15 @@ struct InspectArguments {
 
 int run(const InspectArguments& options) {
   const auto found = inspect(options.inspect);
-  if (!found) return fail(found.error());
-  if (options.json) return print(*found);
+  if (!found) return app::fail(found.error());
+  if (options.json) return app::print(*found);
   std::cout << to_plain_text(*found);
-  return kDone;
+  return app::kDone;
 }
 
 }  // namespace
 
-void add_inspect_command(Commands& commands) {
+void add_inspect_command(app::Commands& commands) {
   auto* sub = commands.app.add_subcommand(
       "inspect", "says what a recording, capture, map, trajectory, point cloud or array holds");
   auto o = std::make_shared<InspectArguments>();

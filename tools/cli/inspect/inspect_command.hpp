@@ -6,6 +6,6 @@
 namespace cairn::cli {
 
 /// `cairn inspect FILE|DIR`: says what a recording, capture, map, trajectory, point cloud or array holds.
-void add_inspect_command(Commands& commands);
+void add_inspect_command(app::Commands& commands);
 
 }  // namespace cairn::cli

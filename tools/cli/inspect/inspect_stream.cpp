@@ -38,10 +38,10 @@ const char* name_of(velodyne::PpsState state) {
   return "unknown";
 }
 
-Json to_json(const velodyne::Counters& c) {
-  Json json{{"data_packets", c.data_packets}, {"position_packets", c.position_packets},
-            {"revolutions", c.revolutions},   {"rpm", c.rpm},
-            {"lost_packets", c.lost_packets}, {"time_jumps", c.time_jumps}};
+report::Json to_json(const velodyne::Counters& c) {
+  report::Json json{{"data_packets", c.data_packets}, {"position_packets", c.position_packets},
+                    {"revolutions", c.revolutions},   {"rpm", c.rpm},
+                    {"lost_packets", c.lost_packets}, {"time_jumps", c.time_jumps}};
   json["refused"] = {{"truncated", c.truncated},
                      {"wrong_length", c.wrong_length},
                      {"wrong_port", c.wrong_port},
@@ -52,11 +52,12 @@ Json to_json(const velodyne::Counters& c) {
                      {"bad_nmea", c.bad_nmea}};
   json["over_the_hour"] = c.over_the_hour;
   json["discarded_scans"] = c.discarded_scans;
-  json["pps"] = c.pps ? Json(name_of(*c.pps)) : Json(nullptr);
+  json["pps"] = c.pps ? report::Json(name_of(*c.pps)) : report::Json(nullptr);
   json["nmea"] = nullptr;
   if (c.nmea) {
     json["nmea"] = {{"valid", c.nmea->valid}, {"time_of_day_s", 1e-6 * static_cast<double>(c.nmea->time_of_day_us)}};
-    json["nmea"]["utc"] = c.nmea->utc_us ? Json(recording::to_iso_utc(*c.nmea->utc_us * 1000)) : Json(nullptr);
+    json["nmea"]["utc"] =
+        c.nmea->utc_us ? report::Json(recording::to_iso_utc(*c.nmea->utc_us * 1000)) : report::Json(nullptr);
   }
   if (c.position_packets > 0) json["temperature_c"] = {{"top", c.top_board_c}, {"bottom", c.bottom_board_c}};
   return json;
@@ -133,14 +134,14 @@ void StreamInspection::note(const Error& error) {
   if (damaged_++ < kMaxDamage) damage_.push_back(to_string(error));
 }
 
-Json StreamInspection::sources() const {
-  Json list = Json::array();
+report::Json StreamInspection::sources() const {
+  report::Json list = report::Json::array();
   for (const Stream& s : streams_) {
-    Json json{{"id", s.entry.id},
-              {"kind", to_string(s.entry.kind)},
-              {"file", s.entry.file},
-              {"frame", s.entry.frame},
-              {"model", s.entry.model}};
+    report::Json json{{"id", s.entry.id},
+                      {"kind", to_string(s.entry.kind)},
+                      {"file", s.entry.file},
+                      {"frame", s.entry.frame},
+                      {"model", s.entry.model}};
     json["T_base_sensor"] = nullptr;
     if (s.entry.base_sensor_xyz_rpy)
       json["T_base_sensor"] =
@@ -156,8 +157,8 @@ Json StreamInspection::sources() const {
   return list;
 }
 
-Json StreamInspection::events() const {
-  Json list = Json::array();
+report::Json StreamInspection::events() const {
+  report::Json list = report::Json::array();
   for (const Event& e : monitor_.events())
     list.push_back({{"first_s", to_seconds(e.first)},
                     {"last_s", to_seconds(e.last)},
@@ -167,6 +168,6 @@ Json StreamInspection::events() const {
   return list;
 }
 
-Json StreamInspection::damage() const { return damage_; }
+report::Json StreamInspection::damage() const { return damage_; }
 
 }  // namespace cairn::cli

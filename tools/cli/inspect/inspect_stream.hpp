@@ -28,9 +28,9 @@ class StreamInspection {
   void run(Source& source);
 
   /// One object per source: what the index says, packets, scans, and what the decoder counted.
-  [[nodiscard]] Json sources() const;
-  [[nodiscard]] Json events() const;
-  [[nodiscard]] Json damage() const;
+  [[nodiscard]] report::Json sources() const;
+  [[nodiscard]] report::Json events() const;
+  [[nodiscard]] report::Json damage() const;
   [[nodiscard]] std::uint64_t damaged() const { return damaged_; }
   /// Of all sources.
   [[nodiscard]] std::uint64_t scans() const { return scans_; }

@@ -45,14 +45,14 @@ std::uint64_t PacketFigures::gaps(Duration longer_than) const {
   return n;
 }
 
-Json PacketFigures::to_json() const {
+report::Json PacketFigures::to_json() const {
   const Duration duration = last_ - first_, median = intervals_.percentile(0.5);
-  Json json{{"packets", packets_},
-            {"bytes", bytes_},
-            {"first_s", to_seconds(first_)},
-            {"last_s", to_seconds(last_)},
-            {"duration_s", to_seconds(duration)},
-            {"rate_hz", rate(packets_, duration)}};
+  report::Json json{{"packets", packets_},
+                    {"bytes", bytes_},
+                    {"first_s", to_seconds(first_)},
+                    {"last_s", to_seconds(last_)},
+                    {"duration_s", to_seconds(duration)},
+                    {"rate_hz", rate(packets_, duration)}};
   json["interval_ms"] = {{"median", to_milliseconds(median)},
                          {"p99", to_milliseconds(intervals_.percentile(0.99))},
                          {"max", to_milliseconds(intervals_.max())}};
@@ -61,7 +61,7 @@ Json PacketFigures::to_json() const {
   json["backwards_in_time"] = backwards_;
   json["missing_sequence_numbers"] = missing_;
   for (const auto& [number, channel] : channels_) {
-    Json sizes = Json::object();
+    report::Json sizes = report::Json::object();
     for (const auto& [size, n] : channel.sizes) sizes[std::to_string(size)] = n;
     if (channel.other_sizes > 0) sizes["other"] = channel.other_sizes;
     json["channels"][std::to_string(number)] = {

@@ -14,7 +14,7 @@ namespace cairn::cli {
 class PacketFigures {
  public:
   void add(const Packet& packet);
-  [[nodiscard]] Json to_json() const;
+  [[nodiscard]] report::Json to_json() const;
 
  private:
   struct Channel {

@@ -10,8 +10,8 @@
 namespace cairn::cli {
 
 Result<const Scan*> PeerFigures::take(const Packet& packet) {
-  if (packet.channel == static_cast<std::uint16_t>(peers::PacketKind::kBeginning)) {
-    const auto beginning = peers::decode_beginning(packet.payload());
+  if (packet.channel == static_cast<std::uint16_t>(peer_link::PacketKind::kBeginning)) {
+    const auto beginning = peer_link::decode_beginning(packet.payload());
     if (!beginning) return Error{Errc::kMalformed, "not a beginning"};
     self_ = beginning->robot;
     epoch_ = beginning->epoch;
@@ -30,8 +30,8 @@ Result<const Scan*> PeerFigures::take(const Packet& packet) {
   return nullptr;
 }
 
-Json PeerFigures::to_json() const {
-  Json peers = Json::object();
+report::Json PeerFigures::to_json() const {
+  report::Json peers = report::Json::object();
   for (const auto& [robot, peer] : peers_)
     peers[std::to_string(robot)] = {{"name", peer.name},
                                     {"hellos", peer.hellos},

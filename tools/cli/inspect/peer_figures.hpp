@@ -15,7 +15,7 @@ class PeerFigures final : public SensorFigures {
   static constexpr std::size_t kMaxPeers = 64;  ///< listed; further ones are only counted
 
   Result<const Scan*> take(const Packet& packet) override;
-  [[nodiscard]] Json to_json() const override;
+  [[nodiscard]] report::Json to_json() const override;
 
  private:
   struct PerPeer {

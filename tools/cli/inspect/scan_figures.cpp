@@ -29,8 +29,8 @@ void ScanFigures::add(const Scan& scan) {
   for (const std::uint8_t ring : scan.cloud.ring) rings_ = std::max(rings_, ring + 1U);
 }
 
-Json ScanFigures::to_json() const {
-  Json json{{"count", scans_}, {"incomplete", incomplete_}, {"lost_packets", lost_packets_}};
+report::Json ScanFigures::to_json() const {
+  report::Json json{{"count", scans_}, {"incomplete", incomplete_}, {"lost_packets", lost_packets_}};
   json["deskewed"] = deskewed_;
   json["pps_locked"] = pps_locked_;
   if (scans_ == 0) return json;

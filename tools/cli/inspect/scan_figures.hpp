@@ -13,7 +13,7 @@ namespace cairn::cli {
 class ScanFigures {
  public:
   void add(const Scan& scan);
-  [[nodiscard]] Json to_json() const;
+  [[nodiscard]] report::Json to_json() const;
   [[nodiscard]] std::uint64_t scans() const { return scans_; }
 
  private:

@@ -29,8 +29,8 @@ class PictureFigures {
     sizes_.emplace(image.width, image.height);
     for (const std::byte b : image.bytes) digest_ = (digest_ ^ std::to_integer<std::uint64_t>(b)) * 0x100000001B3U;
   }
-  [[nodiscard]] Json to_json() const {
-    Json json{{"pictures", pictures_}, {"sizes", Json::array()}, {"digest", digest_}};
+  [[nodiscard]] report::Json to_json() const {
+    report::Json json{{"pictures", pictures_}, {"sizes", report::Json::array()}, {"digest", digest_}};
     for (const auto& [width, height] : sizes_)
       if (json["sizes"].size() < kMaxSizes)
         json["sizes"].push_back(std::to_string(width) + "x" + std::to_string(height));
@@ -52,8 +52,8 @@ class CameraFigures final : public SensorFigures {
     pictures_.add(**image);
     return nullptr;
   }
-  [[nodiscard]] Json to_json() const override {
-    Json json = pictures_.to_json();
+  [[nodiscard]] report::Json to_json() const override {
+    report::Json json = pictures_.to_json();
     const auto& c = decoder_.counters();
     json.update({{"rejected", c.rejected}, {"repeated", c.repeated}, {"lost", c.lost}});
     return json;
@@ -75,8 +75,8 @@ class ThermalFigures final : public SensorFigures {
     if ((*image)->radiometric()) add_celsius((*image)->values);
     return nullptr;
   }
-  [[nodiscard]] Json to_json() const override {
-    Json json = pictures_.to_json();
+  [[nodiscard]] report::Json to_json() const override {
+    report::Json json = pictures_.to_json();
     const auto& c = decoder_.counters();
     json.update({{"rejected", c.rejected}, {"repeated", c.repeated}, {"correcting", c.correcting}});
     json["radiometric"] = radiometric_;
@@ -106,7 +106,7 @@ class DepthFigures final : public SensorFigures {
  public:
   explicit DepthFigures(depth::DepthCamera decoder) : decoder_(std::move(decoder)) {}
   Result<const Scan*> take(const Packet& packet) override { return decoder_.decode(packet); }
-  [[nodiscard]] Json to_json() const override {
+  [[nodiscard]] report::Json to_json() const override {
     const auto& c = decoder_.counters();
     return {{"pictures", c.frames},
             {"rejected", c.rejected},
@@ -129,8 +129,8 @@ class GpioFigures final : public SensorFigures {
     line.level = event->level;
     return nullptr;
   }
-  [[nodiscard]] Json to_json() const override {
-    Json json = Json::object();
+  [[nodiscard]] report::Json to_json() const override {
+    report::Json json = report::Json::object();
     for (std::size_t i = 0; i < gpio::kLines; ++i)
       if (const PerLine& l = lines_.at(i); l.level)
         json[std::string(gpio::name_of(static_cast<gpio::Line>(i)))] = {

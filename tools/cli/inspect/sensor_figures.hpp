@@ -17,7 +17,7 @@ class SensorFigures {
   virtual ~SensorFigures() = default;
   /// The points that the packet gave, if its sensor gives points; valid until the next call.
   virtual Result<const Scan*> take(const Packet& packet) = 0;
-  [[nodiscard]] virtual Json to_json() const = 0;
+  [[nodiscard]] virtual report::Json to_json() const = 0;
 };
 
 /// For the kinds that are neither velodyne nor scans. Error: a model that no driver knows.

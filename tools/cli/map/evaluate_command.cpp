@@ -25,7 +25,7 @@ namespace fs = std::filesystem;
 struct Options {
   fs::path estimate, truth;
   std::string align = "se3";
-  double max_gap_s = to_seconds(TrajectoryErrorOptions{}.max_gap);
+  double max_gap_s = to_seconds(report::TrajectoryErrorOptions{}.max_gap);
   std::vector<double> pose;  // x y z roll pitch yaw of the map in the true map's frame
   fs::path trajectory, true_trajectory;
   double tolerance_m = 0;
@@ -47,16 +47,16 @@ Result<std::vector<StampedPose>> read_poses(const fs::path& path, const char* na
 
 int evaluate_trajectory(const Options& options) {
   const auto estimate = read_poses(options.estimate, "trajectory.tum");
-  if (!estimate) return fail(estimate.error());
+  if (!estimate) return app::fail(estimate.error());
   const auto truth = read_poses(options.truth, "ground_truth.tum");
-  if (!truth) return fail(truth.error());
-  const Alignment alignment = alignment_from(options.align).value_or(Alignment::kSe3);
-  const auto error = trajectory_error(*estimate, *truth, {alignment, from_seconds(options.max_gap_s)});
-  if (!error) return fail(at(options.estimate.string(), error.error()));
+  if (!truth) return app::fail(truth.error());
+  const report::Alignment alignment = report::alignment_from(options.align).value_or(report::Alignment::kSe3);
+  const auto error = report::trajectory_error(*estimate, *truth, {alignment, from_seconds(options.max_gap_s)});
+  if (!error) return app::fail(at(options.estimate.string(), error.error()));
   if (options.json) {
-    Json json = to_json(*error);
+    report::Json json = report::to_json(*error);
     json["align"] = options.align;
-    return print(json);
+    return app::print(json);
   }
   const auto& e = *error;
   std::cout << fmt::format("{} poses over {:.2f} m and {:.2f} s ({} without ground truth)\n", e.matched, e.length_m,
@@ -73,7 +73,7 @@ int evaluate_trajectory(const Options& options) {
                              e.segments->rot_deg_per_m, e.segments->segments);
   if (e.steps)
     std::cout << fmt::format("pose to pose  {:.3f} %, {:.5f} °/m\n", e.steps->trans_percent, e.steps->rot_deg_per_m);
-  return kDone;
+  return app::kDone;
 }
 
 /// Where the map's frame lies in the true map's: as given, or by the first common pose of two trajectories.
@@ -84,37 +84,37 @@ Result<SE3> T_truth_map(const Options& options) {
   if (!estimate) return estimate.error();
   const auto truth = read_poses(options.true_trajectory, "ground_truth.tum");
   if (!truth) return truth.error();
-  const auto matched = match_by_time(*estimate, *truth, from_seconds(options.max_gap_s));
+  const auto matched = report::match_by_time(*estimate, *truth, from_seconds(options.max_gap_s));
   if (matched.empty())
     return Error{Errc::kMalformed, "both trajectories have no common time", options.trajectory.string(), {}, {}};
-  return align(matched, Alignment::kFirst);
+  return report::align(matched, report::Alignment::kFirst);
 }
 
 int evaluate_map(const Options& options) {
   const fs::path file = file_in(options.estimate, "map.cairn"), true_file = file_in(options.truth, "world.ot");
-  const auto map = load_map(file), truth = load_map(true_file);
-  if (!map) return fail(at(file.string(), map.error()));
-  if (!truth) return fail(at(true_file.string(), truth.error()));
+  const auto map = mapping::load_map(file), truth = mapping::load_map(true_file);
+  if (!map) return app::fail(at(file.string(), map.error()));
+  if (!truth) return app::fail(at(true_file.string(), truth.error()));
   const auto T = T_truth_map(options);
-  if (!T) return fail(T.error());
-  const auto error = map_error(**map, **truth, {*T, options.tolerance_m});
-  if (!error) return fail(at(file.string(), error.error()));
-  if (options.json) return print(to_json(*error));
+  if (!T) return app::fail(T.error());
+  const auto error = report::map_error(**map, **truth, {*T, options.tolerance_m});
+  if (!error) return app::fail(at(file.string(), error.error()));
+  if (options.json) return app::print(report::to_json(*error));
   std::cout << fmt::format("accuracy   {:.4f} m mean, {:.4f} m RMS from {} occupied voxels to the true ones\n",
                            error->mean_m, error->rmse_m, error->occupied);
   if (const auto p = error->precision()) std::cout << fmt::format("precision  {:.4f}\n", *p);
   if (const auto r = error->recall()) std::cout << fmt::format("recall     {:.4f} of what was seen\n", *r);
   std::cout << fmt::format("true map   {} occupied voxels: {} found, {} called free, {} never seen\n",
                            error->true_occupied, error->found, error->contradicted, error->unseen);
-  return kDone;
+  return app::kDone;
 }
 
-void add(Commands& commands, CLI::App* sub, const std::shared_ptr<Options>& options, int (*job)(const Options&)) {
+void add(app::Commands& commands, CLI::App* sub, const std::shared_ptr<Options>& options, int (*job)(const Options&)) {
   sub->add_flag("--json", options->json, "one JSON object on stdout");
   sub->callback([&commands, options, job] { commands.job = [options, job] { return job(*options); }; });
 }
 
-void add_trajectory(Commands& commands, CLI::App& evaluate, const std::shared_ptr<Options>& options) {
+void add_trajectory(app::Commands& commands, CLI::App& evaluate, const std::shared_ptr<Options>& options) {
   CLI::App* sub = evaluate.add_subcommand("trajectory", "compares a trajectory with the true one");
   sub->add_option("estimate", options->estimate, "TUM file, or the folder of a run")->required();
   sub->add_option("--ground-truth", options->truth, "TUM file, or the folder of a recording")->required();
@@ -129,7 +129,7 @@ void add_trajectory(Commands& commands, CLI::App& evaluate, const std::shared_pt
   add(commands, sub, options, evaluate_trajectory);
 }
 
-void add_map(Commands& commands, CLI::App& evaluate, const std::shared_ptr<Options>& options) {
+void add_map(app::Commands& commands, CLI::App& evaluate, const std::shared_ptr<Options>& options) {
   CLI::App* sub = evaluate.add_subcommand("map", "compares the occupied voxels of a map with the true ones");
   sub->add_option("estimate", options->estimate, "map, or the folder of a run")->required();
   sub->add_option("--ground-truth", options->truth, "true map, or the folder of a recording")->required();
@@ -151,7 +151,7 @@ void add_map(Commands& commands, CLI::App& evaluate, const std::shared_ptr<Optio
 
 }  // namespace
 
-void add_evaluate_command(Commands& commands) {
+void add_evaluate_command(app::Commands& commands) {
   CLI::App& evaluate = *commands.app.add_subcommand("evaluate", "errors against ground truth");
   evaluate.require_subcommand(1);
   const auto options = std::make_shared<Options>();

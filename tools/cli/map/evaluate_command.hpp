@@ -6,6 +6,6 @@
 namespace cairn::cli {
 
 /// `cairn evaluate trajectory|map ESTIMATE --ground-truth TRUTH`: errors against ground truth.
-void add_evaluate_command(Commands& commands);
+void add_evaluate_command(app::Commands& commands);
 
 }  // namespace cairn::cli

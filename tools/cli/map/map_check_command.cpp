@@ -33,13 +33,13 @@ struct Options {
 double slip_m(const SubmapPair& pair) { return pair.slip.mean.translation().norm(); }
 double slip_deg(const SubmapPair& pair) { return rotation_angle(pair.slip.mean) * 180 / std::numbers::pi; }
 
-using Maps = std::vector<std::unique_ptr<SemanticOcTree>>;
+using Maps = std::vector<std::unique_ptr<mapping::SemanticOcTree>>;
 
 /// Errors: those of reading; kUnsupported for another resolution than the first map's.
 Result<Maps> load(const std::vector<fs::path>& files) {
   Maps maps;
   for (const fs::path& file : files) {
-    auto map = load_map(file);
+    auto map = mapping::load_map(file);
     if (!map) return at(file.string(), map.error());
     maps.push_back(*std::move(map));
     const double first = maps.front()->getResolution(), here = maps.back()->getResolution();
@@ -67,7 +67,7 @@ Result<std::vector<SubmapPair>> check(const std::vector<fs::path>& files, const 
   return matching::check_submaps(submaps, budget);
 }
 
-Json to_json(const SubmapPair& pair, const Options& options) {
+report::Json to_json(const SubmapPair& pair, const Options& options) {
   const Vector6 slip = pair.slip.mean.xyz_rpy();
   return {{"first", options.files.at(pair.first).string()},
           {"second", options.files.at(pair.second).string()},
@@ -81,20 +81,20 @@ Json to_json(const SubmapPair& pair, const Options& options) {
 }
 
 int told_as_json(const Options& options, const std::vector<SubmapPair>& pairs, std::ptrdiff_t contradictions) {
-  Json json{{"submaps", options.files.size()},
-            {"compared", pairs.size()},
-            {"contradictions", contradictions},
-            {"consistent", contradictions == 0},
-            {"pairs", Json::array()}};
+  report::Json json{{"submaps", options.files.size()},
+                    {"compared", pairs.size()},
+                    {"contradictions", contradictions},
+                    {"consistent", contradictions == 0},
+                    {"pairs", report::Json::array()}};
   for (const SubmapPair& pair : pairs) json["pairs"].push_back(to_json(pair, options));
-  return print(json);
+  return app::print(json);
 }
 
 int run(const Options& options) {
   const auto maps = load(options.files);
-  if (!maps) return fail(maps.error());
+  if (!maps) return app::fail(maps.error());
   const auto checked = check(options.files, *maps);
-  if (!checked) return fail(checked.error());
+  if (!checked) return app::fail(checked.error());
   const std::vector<SubmapPair>& pairs = *checked;
   const auto contradictions = std::count_if(pairs.begin(), pairs.end(), [](const auto& p) { return !p.consistent; });
   if (options.json) return told_as_json(options, pairs, contradictions);
@@ -108,12 +108,12 @@ int run(const Options& options) {
                            : contradictions == 0 ? "consistent"
                                                  : "inconsistent",
                            options.files.size(), pairs.size(), contradictions);
-  return kDone;
+  return app::kDone;
 }
 
 }  // namespace
 
-void add_map_check_command(Commands& commands, CLI::App& map) {
+void add_map_check_command(app::Commands& commands, CLI::App& map) {
   CLI::App* sub =
       map.add_subcommand("check", "says which submaps of one robot contradict each other; all in one frame");
   const auto options = std::make_shared<Options>();

@@ -41,22 +41,22 @@ struct Options {
 
 int wrong(const std::string& message) {
   std::cerr << "cairn: " << message << '\n';
-  return kWrongArguments;
+  return app::kWrongArguments;
 }
 
 /// The content decides, not the name; load_map() has verified the checksums of such a file.
 bool has_checksums(const fs::path& path) {
   std::array<char, 64> head{};
   std::ifstream(path, std::ios::binary).read(head.data(), head.size());
-  return is_cairn(std::as_bytes(std::span(head)));
+  return mapping::is_cairn(std::as_bytes(std::span(head)));
 }
 
-Json info_json(const Options& options, const SemanticOcTree& map, const MapSummary& summary) {
+report::Json info_json(const Options& options, const mapping::SemanticOcTree& map, const report::MapSummary& summary) {
   std::error_code ignored;
-  Json json = {{"file", options.file.string()},
-               {"file_bytes", fs::file_size(options.file, ignored)},
-               {"checksum", has_checksums(options.file) ? "ok" : "none"}};
-  json.update(to_json(summary));
+  report::Json json = {{"file", options.file.string()},
+                       {"file_bytes", fs::file_size(options.file, ignored)},
+                       {"checksum", has_checksums(options.file) ? "ok" : "none"}};
+  json.update(report::to_json(summary));
   json["sensor_model"] = {{"hit", map.getProbHit()},
                           {"miss", map.getProbMiss()},
                           {"clamping_min", map.getClampingThresMin()},
@@ -65,7 +65,7 @@ Json info_json(const Options& options, const SemanticOcTree& map, const MapSumma
   return json;
 }
 
-std::string info_text(const Json& json, const MapSummary& summary) {
+std::string info_text(const report::Json& json, const report::MapSummary& summary) {
   const Eigen::Vector3d size = summary.max_m - summary.min_m;
   std::string text = fmt::format(
       "{}\n  resolution    {} m\n  occupied      {} voxels, {} labelled\n  free          {} voxels\n"
@@ -83,26 +83,26 @@ std::string info_text(const Json& json, const MapSummary& summary) {
 }
 
 int info(const Options& options) {
-  const auto map = load_map(options.file);
-  if (!map) return fail(at(options.file.string(), map.error()));
-  const MapSummary summary = summarise(**map);
-  const Json json = info_json(options, **map, summary);
-  if (options.json) return print(json);
+  const auto map = mapping::load_map(options.file);
+  if (!map) return app::fail(at(options.file.string(), map.error()));
+  const report::MapSummary summary = report::summarise(**map);
+  const report::Json json = info_json(options, **map, summary);
+  if (options.json) return app::print(json);
   std::cout << info_text(json, summary);
-  return kDone;
+  return app::kDone;
 }
 
 int compare_maps(const Options& options) {
-  const auto a = load_map(options.file), b = load_map(options.other);
-  if (!a) return fail(at(options.file.string(), a.error()));
-  if (!b) return fail(at(options.other.string(), b.error()));
-  const auto c = compare(**a, **b);
-  if (!c) return fail(at(options.other.string(), c.error()));
-  const MapSummary summary_a = summarise(**a), summary_b = summarise(**b);
+  const auto a = mapping::load_map(options.file), b = mapping::load_map(options.other);
+  if (!a) return app::fail(at(options.file.string(), a.error()));
+  if (!b) return app::fail(at(options.other.string(), b.error()));
+  const auto c = report::compare(**a, **b);
+  if (!c) return app::fail(at(options.other.string(), c.error()));
+  const report::MapSummary summary_a = report::summarise(**a), summary_b = report::summarise(**b);
   if (options.json) {
-    Json json = to_json(*c);
+    report::Json json = report::to_json(*c);
     const auto add = [&](const char* name, const std::optional<double>& v) {
-      json[name] = v ? Json(*v) : Json(nullptr);
+      json[name] = v ? report::Json(*v) : report::Json(nullptr);
     };
     add("mean_entropy_occupancy", summary_a.mean_entropy_occupancy);
     add("mean_entropy_occupancy_b", summary_b.mean_entropy_occupancy);
@@ -110,7 +110,7 @@ int compare_maps(const Options& options) {
     add("mean_entropy_book_b", summary_b.mean_entropy_book);
     // The fields are there for scripts; they are null until maps carry labels.
     for (const char* name : {"label_agreement", "miou", "mean_entropy_label"}) json[name] = nullptr;
-    return print(json);
+    return app::print(json);
   }
   std::cout << fmt::format(
       "same         {} voxels ({} of them with other log-odds)\ndisagreeing  {}\nonly a       {}\nonly b       {}\n"
@@ -118,18 +118,18 @@ int compare_maps(const Options& options) {
       c->same, c->differing_log_odds < c->disagreeing ? 0 : c->differing_log_odds - c->disagreeing, c->disagreeing,
       c->only_a, c->only_b, c->occupied_a, c->occupied_b, c->occupied_both, c->free_a, c->free_b);
   if (const auto iou = c->iou_occupied()) std::cout << fmt::format("occupied IoU {:.4f}\n", *iou);
-  return kDone;
+  return app::kDone;
 }
 
-MapPath projected(MapView view, const std::vector<StampedPose>& poses, bool dashed) {
-  MapPath path{{}, dashed};
-  for (const StampedPose& p : poses) path.points.push_back(project(view, p.pose.translation()));
+report::MapPath projected(report::MapView view, const std::vector<StampedPose>& poses, bool dashed) {
+  report::MapPath path{{}, dashed};
+  for (const StampedPose& p : poses) path.points.push_back(report::project(view, p.pose.translation()));
   return path;
 }
 
 /// The trajectory and, under it, the ground truth in the trajectory's frame. Empty names are left out.
-Result<std::vector<MapPath>> read_paths(const Options& options, MapView view) {
-  std::vector<MapPath> paths;
+Result<std::vector<report::MapPath>> read_paths(const Options& options, report::MapView view) {
+  std::vector<report::MapPath> paths;
   std::vector<StampedPose> trajectory, truth;
   if (!options.trajectory.empty()) {
     auto read = recording::read_tum(options.trajectory);
@@ -140,7 +140,8 @@ Result<std::vector<MapPath>> read_paths(const Options& options, MapView view) {
     auto read = recording::read_tum(options.ground_truth);
     if (!read) return at(options.ground_truth.string(), read.error());
     truth = std::move(*read);
-    if (!trajectory.empty()) truth = truth_in_estimate_frame(trajectory, truth, TrajectoryErrorOptions{}.max_gap);
+    if (!trajectory.empty())
+      truth = report::truth_in_estimate_frame(trajectory, truth, report::TrajectoryErrorOptions{}.max_gap);
     paths.push_back(projected(view, truth, true));
   }
   if (!trajectory.empty()) paths.insert(paths.begin(), projected(view, trajectory, false));
@@ -148,44 +149,44 @@ Result<std::vector<MapPath>> read_paths(const Options& options, MapView view) {
 }
 
 int render(const Options& options) {
-  const auto view = map_view_from(options.view);
+  const auto view = report::map_view_from(options.view);
   if (!view) return wrong("--view " + options.view + ": choose top, side or front");
-  const auto map = load_map(options.file);
-  if (!map) return fail(at(options.file.string(), map.error()));
-  const auto picture = look_at(**map, {*view, options.height_min_m, options.height_max_m});
-  if (!picture) return fail(at(options.file.string(), picture.error()));
+  const auto map = mapping::load_map(options.file);
+  if (!map) return app::fail(at(options.file.string(), map.error()));
+  const auto picture = report::look_at(**map, {*view, options.height_min_m, options.height_max_m});
+  if (!picture) return app::fail(at(options.file.string(), picture.error()));
   auto paths = read_paths(options, *view);
-  if (!paths) return fail(paths.error());
-  const auto image = draw_map(*picture, {options.pixels_per_m, std::move(*paths)});
-  if (!image) return fail(at(options.out.string(), image.error()));
-  const auto png = encode_png(*image);
-  if (!png) return fail(at(options.out.string(), png.error()));
-  if (const auto written = write_file_atomic(options.out, *png); !written) return fail(written.error());
-  Json json{{"out", options.out.string()}};
+  if (!paths) return app::fail(paths.error());
+  const auto image = report::draw_map(*picture, {options.pixels_per_m, std::move(*paths)});
+  if (!image) return app::fail(at(options.out.string(), image.error()));
+  const auto png = report::encode_png(*image);
+  if (!png) return app::fail(at(options.out.string(), png.error()));
+  if (const auto written = write_file_atomic(options.out, *png); !written) return app::fail(written.error());
+  report::Json json{{"out", options.out.string()}};
   json["width"] = image->width();
   json["height"] = image->height();
-  json["pixels_per_m"] = pixels_per_metre(*picture, {options.pixels_per_m, {}});
-  json["cut_above_m"] = picture->cut_m ? Json(*picture->cut_m) : Json(nullptr);
-  if (options.json) return print(json);
+  json["pixels_per_m"] = report::pixels_per_metre(*picture, {options.pixels_per_m, {}});
+  json["cut_above_m"] = picture->cut_m ? report::Json(*picture->cut_m) : report::Json(nullptr);
+  if (options.json) return app::print(json);
   std::cout << fmt::format("{}: {} × {} pixels\n", options.out.string(), image->width(), image->height());
   if (picture->cut_m)
     std::cout << fmt::format("cut open at z = {:.2f} m, below a ceiling; --height-max shows it\n", *picture->cut_m);
-  return kDone;
+  return app::kDone;
 }
 
 int export_map(const Options& options) {
-  if (const auto named = check_map_name(options.out); !named) return fail(named.error());
-  const auto map = load_map(options.file);
-  if (!map) return fail(at(options.file.string(), map.error()));
-  if (const auto saved = save_map(**map, options.out); !saved) return fail(saved.error());
+  if (const auto named = check_map_name(options.out); !named) return app::fail(named.error());
+  const auto map = mapping::load_map(options.file);
+  if (!map) return app::fail(at(options.file.string(), map.error()));
+  if (const auto saved = save_map(**map, options.out); !saved) return app::fail(saved.error());
   std::error_code ignored;
   const auto bytes = fs::file_size(options.out, ignored);
-  if (options.json) return print({{"out", options.out.string()}, {"bytes", bytes}});
+  if (options.json) return app::print({{"out", options.out.string()}, {"bytes", bytes}});
   std::cout << fmt::format("{}: {} bytes\n", options.out.string(), bytes);
-  return kDone;
+  return app::kDone;
 }
 
-CLI::App* add(Commands& commands, CLI::App& map, const std::string& name, const std::string& description,
+CLI::App* add(app::Commands& commands, CLI::App& map, const std::string& name, const std::string& description,
               const std::shared_ptr<Options>& options, int (*job)(const Options&)) {
   CLI::App* sub = map.add_subcommand(name, description);
   sub->add_option("file", options->file, ".cairn, .ot or .bt")->required();
@@ -196,7 +197,7 @@ CLI::App* add(Commands& commands, CLI::App& map, const std::string& name, const 
 
 }  // namespace
 
-void add_map_command(Commands& commands) {
+void add_map_command(app::Commands& commands) {
   CLI::App& map = *commands.app.add_subcommand("map", "describes, compares, checks, draws and converts maps");
   map.require_subcommand(1);
   const auto options = std::make_shared<Options>();

@@ -7,6 +7,6 @@ namespace cairn::cli {
 
 /// `cairn map info|compare|check|render|export FILE…`: describes, compares, checks, draws and converts
 /// maps.
-void add_map_command(Commands& commands);
+void add_map_command(app::Commands& commands);
 
 }  // namespace cairn::cli

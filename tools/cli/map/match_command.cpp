@@ -45,7 +45,7 @@ std::optional<UncertainPose> guess(const Options& options) {
   return pose;
 }
 
-Result<MatchResult> match(const Options& options, const SemanticOcTree& a, const SemanticOcTree& b) {
+Result<MatchResult> match(const Options& options, const mapping::SemanticOcTree& a, const mapping::SemanticOcTree& b) {
   const auto features_a = MapFeatures::build(a);
   if (!features_a) return at(options.a.string(), features_a.error());
   const auto features_b = MapFeatures::build(b);
@@ -57,14 +57,14 @@ Result<MatchResult> match(const Options& options, const SemanticOcTree& a, const
 }
 
 template <class Matrix>
-Json row_major(const Matrix& m) {
-  Json values = Json::array();
+report::Json row_major(const Matrix& m) {
+  report::Json values = report::Json::array();
   for (int row = 0; row < m.rows(); ++row)
     for (int column = 0; column < m.cols(); ++column) values.push_back(m(row, column));
   return values;
 }
 
-Json to_json(const MatchResult& r, double seconds) {
+report::Json to_json(const MatchResult& r, double seconds) {
   const auto& e = r.evidence;
   return {{"T_a_b", row_major(r.T_a_b.mean.matrix())},
           {"covariance", row_major(r.T_a_b.covariance)},
@@ -99,20 +99,20 @@ std::string to_text(const MatchResult& r) {
 }
 
 int run(const Options& options) {
-  const auto a = load_map(options.a), b = load_map(options.b);
-  if (!a) return fail(at(options.a.string(), a.error()));
-  if (!b) return fail(at(options.b.string(), b.error()));
+  const auto a = mapping::load_map(options.a), b = mapping::load_map(options.b);
+  if (!a) return app::fail(at(options.a.string(), a.error()));
+  if (!b) return app::fail(at(options.b.string(), b.error()));
   const Duration start = thread_cpu_time();
   const auto result = match(options, **a, **b);
-  if (!result) return fail(result.error());
-  if (options.json) return print(to_json(*result, to_seconds(thread_cpu_time() - start)));
+  if (!result) return app::fail(result.error());
+  if (options.json) return app::print(to_json(*result, to_seconds(thread_cpu_time() - start)));
   std::cout << to_text(*result);
-  return kDone;
+  return app::kDone;
 }
 
 }  // namespace
 
-void add_match_command(Commands& commands) {
+void add_match_command(app::Commands& commands) {
   CLI::App* sub = commands.app.add_subcommand("match", "finds the relative pose of two maps");
   const auto options = std::make_shared<Options>();
   sub->add_option("a", options->a, "first map (.cairn, .ot or .bt); the pose is in its frame")->required();

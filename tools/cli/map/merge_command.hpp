@@ -6,6 +6,6 @@
 namespace cairn::cli {
 
 /// `cairn merge A B --pose x,y,z,roll,pitch,yaw --policy P --out C`: the fused map in the frame of A.
-void add_merge_command(Commands& commands);
+void add_merge_command(app::Commands& commands);
 
 }  // namespace cairn::cli

@@ -13,11 +13,12 @@ namespace fs = std::filesystem;
 
 struct Format {
   const char* extension;
-  Result<void> (*save)(const SemanticOcTree&, const fs::path&);
+  Result<void> (*save)(const mapping::SemanticOcTree&, const fs::path&);
 };
 constexpr std::array kFormats{
-    Format{".cairn", [](const SemanticOcTree& t, const fs::path& p) { return save_cairn(t, p); }},
-    Format{".ot", save_ot}, Format{".bt", save_bt}, Format{".ply", save_ply}, Format{".pcd", save_pcd}};
+    Format{".cairn", [](const mapping::SemanticOcTree& t, const fs::path& p) { return mapping::save_cairn(t, p); }},
+    Format{".ot", mapping::save_ot}, Format{".bt", mapping::save_bt}, Format{".ply", mapping::save_ply},
+    Format{".pcd", mapping::save_pcd}};
 
 const Format* format_of(const fs::path& path) {
   const auto* found =
@@ -32,7 +33,7 @@ Result<void> check_map_name(const fs::path& path) {
   return Error{Errc::kInvalidConfig, "the name must end in .cairn, .ot, .bt, .ply or .pcd", "--out " + path.string()};
 }
 
-Result<void> save_map(const SemanticOcTree& map, const fs::path& path) {
+Result<void> save_map(const mapping::SemanticOcTree& map, const fs::path& path) {
   if (auto named = check_map_name(path); !named) return named;
   if (auto saved = format_of(path)->save(map, path); !saved) return at(path.string(), saved.error());
   return {};

@@ -75,7 +75,7 @@ Copied copy(Source& source, recording::RecordingWriter& writer) {
   return copied;
 }
 
-Json to_json(const FaultArguments& options, const Copied& c) {
+report::Json to_json(const FaultArguments& options, const Copied& c) {
   return {{"out", options.out.string()},   {"packets", c.faults.packets},      {"written", c.written},
           {"dropped", c.faults.dropped},   {"repeated", c.faults.repeated},    {"swapped", c.faults.swapped},
           {"cut_short", c.faults.cut},     {"bits_flipped", c.faults.flipped}, {"frozen", c.faults.frozen},
@@ -84,41 +84,41 @@ Json to_json(const FaultArguments& options, const Copied& c) {
           {"not_recordable", c.refused}};
 }
 
-void print_table(const Json& json) {
+void print_table(const report::Json& json) {
   for (const auto& [key, value] : json.items())
     if (value != 0)
       std::cout << fmt::format("{:<15} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
 }
 
 int inject(const FaultArguments& options) {
-  if (options.out.empty()) return fail({Errc::kInvalidConfig, "--out is missing: where the new recording goes"});
+  if (options.out.empty()) return app::fail({Errc::kInvalidConfig, "--out is missing: where the new recording goes"});
   auto reader = recording::RecordingReader::open(options.recording);
-  if (!reader) return fail(reader.error());
+  if (!reader) return app::fail(reader.error());
   Recording recording = (*reader)->recording();
   const auto faults = faults_of(options, recording);
-  if (!faults) return fail(faults.error());
+  if (!faults) return app::fail(faults.error());
   recording.notes +=
       (recording.notes.empty() ? "" : "\n") + std::string("with injected faults, seed ") + std::to_string(faults->seed);
   const auto overwrite = options.overwrite ? recording::Overwrite::kYes : recording::Overwrite::kNo;
   auto writer = recording::RecordingWriter::create(options.out, recording, overwrite);
-  if (!writer) return fail(writer.error());
+  if (!writer) return app::fail(writer.error());
   FaultySource source(**reader, *faults);
   Copied copied = copy(source, *writer);
-  if (const auto closed = writer->close(); !closed) return fail(closed.error());
+  if (const auto closed = writer->close(); !closed) return app::fail(closed.error());
   copied.faults = source.counters();
   std::error_code ignored;
   const fs::path truth = options.recording / "ground_truth.tum";
   if (fs::exists(truth, ignored))
     fs::copy_file(truth, options.out / "ground_truth.tum", fs::copy_options::overwrite_existing, ignored);
-  if (options.json) return print(to_json(options, copied));
+  if (options.json) return app::print(to_json(options, copied));
   print_table(to_json(options, copied));
-  return kDone;
+  return app::kDone;
 }
 
 /// What the core knows as faults, and what each leads to.
 int list_faults(bool json) {
-  Json rows = Json::array();
-  for (const FaultRow& row : fault_table()) {
+  report::Json rows = report::Json::array();
+  for (const safety::FaultRow& row : safety::fault_table()) {
     if (!json)
       std::cout << fmt::format("{:2}  {:<16} {:<9} at least {:<9} {}\n", static_cast<int>(row.fault), row.code,
                                to_string(row.usual), to_string(row.least), row.doc);
@@ -128,12 +128,12 @@ int list_faults(bool json) {
                     {"least", to_string(row.least)},
                     {"doc", row.doc}});
   }
-  return json ? print({{"faults", rows}}) : kDone;
+  return json ? app::print({{"faults", rows}}) : app::kDone;
 }
 
 }  // namespace
 
-void add_faults_command(Commands& commands) {
+void add_faults_command(app::Commands& commands) {
   auto* sub =
       commands.app.add_subcommand("faults", "copies a recording with faults: lost, late, repeated or damaged packets");
   auto o = std::make_shared<FaultArguments>();

@@ -6,6 +6,6 @@
 namespace cairn::cli {
 
 /// `cairn faults`: copies a recording with faults: lost, late, repeated or damaged packets.
-void add_faults_command(Commands& commands);
+void add_faults_command(app::Commands& commands);
 
 }  // namespace cairn::cli

@@ -25,17 +25,17 @@ struct ImportArguments {
   bool overwrite = false, json = false;
 };
 
-Json to_json(const ImportArguments& options, const ImportReport& r) {
-  Json json{{"kind", options.kind},
-            {"out", options.import.out.string()},
-            {"items", r.items},
-            {"bytes", r.bytes},
-            {"duration_s", to_seconds(r.last - r.first)},
-            {"model", r.model},
-            {"ground_truth_poses", r.ground_truth_poses},
-            {"rejected_points", r.rejected_points},
-            {"damaged", r.damaged},
-            {"damage", Json::array()}};
+report::Json to_json(const ImportArguments& options, const ImportReport& r) {
+  report::Json json{{"kind", options.kind},
+                    {"out", options.import.out.string()},
+                    {"items", r.items},
+                    {"bytes", r.bytes},
+                    {"duration_s", to_seconds(r.last - r.first)},
+                    {"model", r.model},
+                    {"ground_truth_poses", r.ground_truth_poses},
+                    {"rejected_points", r.rejected_points},
+                    {"damaged", r.damaged},
+                    {"damage", report::Json::array()}};
   for (const Error& e : r.damage) json["damage"].push_back(to_string(e));
   return json;
 }
@@ -61,15 +61,15 @@ int import_data(ImportArguments options) {
     };
   const auto report = recording::import(options.kind, options.import);
   if (terminal) std::fputs("\r", stderr);
-  if (!report) return fail(report.error());
-  if (options.json) return print(to_json(options, *report));
+  if (!report) return app::fail(report.error());
+  if (options.json) return app::print(to_json(options, *report));
   print_report(options, *report);
-  return kDone;
+  return app::kDone;
 }
 
 }  // namespace
 
-void add_import_command(Commands& commands) {
+void add_import_command(app::Commands& commands) {
   auto* sub = commands.app.add_subcommand("import", "makes a recording of other data");
   auto o = std::make_shared<ImportArguments>();
   sub->add_option("kind", o->kind, "velodyne-pcap (a file), kitti-odometry, kitti-raw or pcd-folder (folders)")

@@ -6,6 +6,6 @@
 namespace cairn::cli {
 
 /// `cairn import KIND SRC --out DIR`: makes a recording of other data.
-void add_import_command(Commands& commands);
+void add_import_command(app::Commands& commands);
 
 }  // namespace cairn::cli

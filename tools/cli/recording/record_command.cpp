@@ -33,21 +33,21 @@ struct RecordArguments {
   bool overwrite = false, json = false;
 };
 
-Recording describe(const RecordArguments& options, const RobotProfile& profile, const Clock& clock) {
+Recording describe(const RecordArguments& options, const app::RobotProfile& profile, const Clock& clock) {
   Recording r;
   r.robot = profile.name;
   r.profile = options.config.filename().string();
   r.realtime_offset_ns = LiveClock::realtime_offset().count();
   r.start_utc_ns = r.utc_ns(clock.now());
-  r.sources = devices_of(profile);
+  r.sources = app::devices_of(profile);
   return r;
 }
 
 /// What was written of each sensor, and what was lost before: that cannot be seen in the packets that came.
-Json sensors(const std::vector<Device>& devices, const RecordingWriter& writer) {
-  Json json = Json::object();
+report::Json sensors(const std::vector<app::Device>& devices, const RecordingWriter& writer) {
+  report::Json json = report::Json::object();
   for (std::size_t i = 0; i < devices.size(); ++i) {
-    Json& sensor = json[devices[i].id];
+    report::Json& sensor = json[devices[i].id];
     sensor = {{"packets", writer.written()[i].packets}, {"bytes", writer.written()[i].payload_bytes}};
     for (const auto& [name, count] : devices[i].losses()) sensor["losses"][name] = count;
   }
@@ -57,7 +57,7 @@ Json sensors(const std::vector<Device>& devices, const RecordingWriter& writer) 
 recording::RecordOptions record_options(const RecordArguments& options, const RecordingWriter& writer) {
   recording::RecordOptions record;
   if (options.seconds) record.length = from_seconds(*options.seconds);
-  record.stop = stop_requested;
+  record.stop = app::stop_requested;
   if (::isatty(STDERR_FILENO) != 0)
     record.on_second = [&writer](Duration since_start) {
       std::fprintf(stderr, "\r%.0f s, %llu packets, %.1f MB ", to_seconds(since_start),
@@ -68,7 +68,7 @@ recording::RecordOptions record_options(const RecordArguments& options, const Re
 }
 
 /// "flooded 3, restarts 1": what has no column of its own.
-std::string other_losses(const Json& losses) {
+std::string other_losses(const report::Json& losses) {
   std::string text;
   for (const auto& [name, count] : losses.items())
     if (name != "kernel_drops" && name != "truncated" && name != "unstamped" && count != 0)
@@ -77,12 +77,12 @@ std::string other_losses(const Json& losses) {
 }
 
 /// One line per sensor: what it sent and what of it was lost or is doubtful.
-std::string as_table(const RecordArguments& options, const Json& sensors, const RecordReport& recorded) {
+std::string as_table(const RecordArguments& options, const report::Json& sensors, const RecordReport& recorded) {
   std::string table = fmt::format("{}: {:.1f} s\n", options.out.string(), to_seconds(recorded.length));
   constexpr auto kRow = "  {:<10} {:>10} {:>10} {:>10} {:>10} {:>10}  {}\n";
   table += fmt::format(kRow, "sensor", "packets", "MB", "dropped", "cut short", "unstamped", "also");
   for (const auto& [id, s] : sensors.items()) {
-    const Json& losses = s["losses"];
+    const report::Json& losses = s["losses"];
     table +=
         fmt::format(kRow, id, s["packets"].get<std::uint64_t>(), fmt::format("{:.1f}", 1e-6 * s["bytes"].get<double>()),
                     losses.value("kernel_drops", std::uint64_t{0}), losses.value("truncated", std::uint64_t{0}),
@@ -94,22 +94,22 @@ std::string as_table(const RecordArguments& options, const Json& sensors, const 
 }
 
 /// Sensors that gave nothing are the failure of a recording that nobody notices until it is needed.
-int verdict(const RecordArguments& options, const Json& sensors) {
+int verdict(const RecordArguments& options, const report::Json& sensors) {
   std::string silent;
   for (const auto& [id, s] : sensors.items())
     // Edges and frames come when something happens.
     if (s["packets"] == 0 && id != to_string(recording::kGpio) && id != to_string(recording::kDrive))
       silent += (silent.empty() ? "" : ", ") + id;
-  if (silent.empty()) return kDone;
-  return fail({Errc::kLinkDown,
-               "not one packet came in",
-               options.out.string() + " (" + silent + ")",
-               {},
-               "check cable, power, the sensor's destination address and the ports of the profile"});
+  if (silent.empty()) return app::kDone;
+  return app::fail({Errc::kLinkDown,
+                    "not one packet came in",
+                    options.out.string() + " (" + silent + ")",
+                    {},
+                    "check cable, power, the sensor's destination address and the ports of the profile"});
 }
 
-Json summary(const RecordArguments& options, const std::vector<Device>& devices, const RecordingWriter& writer,
-             const RecordReport& recorded) {
+report::Json summary(const RecordArguments& options, const std::vector<app::Device>& devices,
+                     const RecordingWriter& writer, const RecordReport& recorded) {
   return {{"out", options.out.string()},
           {"packets", writer.packets()},
           {"bytes", writer.payload_bytes()},
@@ -119,41 +119,41 @@ Json summary(const RecordArguments& options, const std::vector<Device>& devices,
           {"sensors", sensors(devices, writer)}};
 }
 
-Result<RecordReport> record_all(const RecordArguments& options, const std::vector<Device>& devices, const Clock& clock,
-                                RecordingWriter& writer) {
+Result<RecordReport> record_all(const RecordArguments& options, const std::vector<app::Device>& devices,
+                                const Clock& clock, RecordingWriter& writer) {
   std::vector<Source*> sources;
-  for (const Device& device : devices) sources.push_back(device.source.get());
-  LiveSources source(std::move(sources), clock);
-  catch_stop_signals();
+  for (const app::Device& device : devices) sources.push_back(device.source.get());
+  app::LiveSources source(std::move(sources), clock);
+  app::catch_stop_signals();
   auto recorded = recording::record(source, clock, writer, record_options(options, writer));
   if (::isatty(STDERR_FILENO) != 0) std::fputc('\n', stderr);
   return recorded;
 }
 
 int record(const RecordArguments& options) {
-  const auto profile = load_profile(options.config);
-  if (!profile) return fail(profile.error());
+  const auto profile = app::load_profile(options.config);
+  if (!profile) return app::fail(profile.error());
   const LiveClock clock;
-  const auto devices = open_devices_of(*profile, clock);
-  if (!devices) return fail(devices.error());
+  const auto devices = app::open_devices_of(*profile, clock);
+  if (!devices) return app::fail(devices.error());
   if (devices->empty())
-    return fail({Errc::kInvalidConfig,
-                 "the profile has no device",
-                 options.config.string(),
-                 {},
-                 "name one: camera.capture.device, drive.interface, …"});
+    return app::fail({Errc::kInvalidConfig,
+                      "the profile has no device",
+                      options.config.string(),
+                      {},
+                      "name one: camera.capture.device, drive.interface, …"});
   Recording description = describe(options, *profile, clock);
   const auto overwrite = options.overwrite ? recording::Overwrite::kYes : recording::Overwrite::kNo;
   auto writer = RecordingWriter::create(options.out, description, overwrite);
-  if (!writer) return fail(writer.error());
+  if (!writer) return app::fail(writer.error());
 
   const auto recorded = record_all(options, *devices, clock, *writer);
-  if (!recorded) return fail(recorded.error());
-  const Json json = summary(options, *devices, *writer, *recorded);
+  if (!recorded) return app::fail(recorded.error());
+  const report::Json json = summary(options, *devices, *writer, *recorded);
   description.notes = "recorded live; sensors: " + json["sensors"].dump();
-  if (const auto saved = recording::save_recording(options.out, description); !saved) return fail(saved.error());
+  if (const auto saved = recording::save_recording(options.out, description); !saved) return app::fail(saved.error());
   if (options.json)
-    print(json);
+    app::print(json);
   else
     std::cout << as_table(options, json["sensors"], *recorded);
   return verdict(options, json["sensors"]);
@@ -161,7 +161,7 @@ int record(const RecordArguments& options) {
 
 }  // namespace
 
-void add_record_command(Commands& commands) {
+void add_record_command(app::Commands& commands) {
   auto* sub = commands.app.add_subcommand("record", "records raw sensor bytes");
   auto o = std::make_shared<RecordArguments>();
   sub->add_option("--config", o->config, "robot profile, such as config/husky.yaml; default values if not given");

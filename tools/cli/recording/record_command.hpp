@@ -6,6 +6,6 @@
 namespace cairn::cli {
 
 /// `cairn record --config robot.yaml --out DIR`: raw sensor bytes, until SIGINT, SIGTERM or --seconds.
-void add_record_command(Commands& commands);
+void add_record_command(app::Commands& commands);
 
 }  // namespace cairn::cli

@@ -27,7 +27,7 @@ struct SendArguments {
 Result<std::uint64_t> send_all(Source& source, const recording::Recording& recorded, velodyne::UdpSender& wire,
                                int port_offset) {
   std::uint64_t sent = 0;
-  for (Packet packet; !stop_requested();) {
+  for (Packet packet; !app::stop_requested();) {
     const auto polled = source.next(packet, std::chrono::milliseconds(50));
     if (!polled) {
       std::fprintf(stderr, "%s\n", to_string(polled.error()).c_str());
@@ -45,26 +45,26 @@ Result<std::uint64_t> send_all(Source& source, const recording::Recording& recor
 
 int send(const SendArguments& a) {
   auto reader = recording::RecordingReader::open(a.recording);
-  if (!reader) return fail(reader.error());
+  if (!reader) return app::fail(reader.error());
   auto wire = velodyne::UdpSender::open(a.to);
-  if (!wire) return fail(wire.error());
-  catch_stop_signals();
+  if (!wire) return app::fail(wire.error());
+  app::catch_stop_signals();
   const LiveClock clock;
   recording::PacedSource paced(**reader, clock, recording::live_waiter(), a.rate);
   const auto sent = send_all(paced, (*reader)->recording(), **wire, a.port_offset);
-  if (!sent) return fail(sent.error());
+  if (!sent) return app::fail(sent.error());
   std::printf("%llu datagrams to %s\n", static_cast<unsigned long long>(*sent), a.to.c_str());
-  if (*sent > 0) return kDone;
-  return fail({Errc::kNotFound,
-               "not one LiDAR datagram is in the recording",
-               a.recording.string(),
-               {},
-               "sweeps without packets cannot be sent"});
+  if (*sent > 0) return app::kDone;
+  return app::fail({Errc::kNotFound,
+                    "not one LiDAR datagram is in the recording",
+                    a.recording.string(),
+                    {},
+                    "sweeps without packets cannot be sent"});
 }
 
 }  // namespace
 
-void add_send_command(Commands& commands) {
+void add_send_command(app::Commands& commands) {
   auto* sub =
       commands.app.add_subcommand("send", "sends the LiDAR datagrams of a recording over UDP, as fast as they came");
   auto a = std::make_shared<SendArguments>();

@@ -6,6 +6,6 @@
 namespace cairn::cli {
 
 /// `cairn send RECORDING --to ADDRESS`: sends the LiDAR datagrams of a recording over UDP.
-void add_send_command(Commands& commands);
+void add_send_command(app::Commands& commands);
 
 }  // namespace cairn::cli

@@ -99,17 +99,17 @@ int run(Options options) {
   if (options.simulation.flies()) make_uav(options.simulation);
   if (!options.sensors.empty()) options.simulation.sensors = sensors(options.sensors);
   const auto robots = simulator::simulate(options.simulation, progress_line());
-  if (!robots) return fail(robots.error());
-  if (options.json) return print(to_json(options, *robots));
+  if (!robots) return app::fail(robots.error());
+  if (options.json) return app::print(to_json(options, *robots));
   for (const simulator::RobotSummary& r : *robots) {
     std::printf("%s: %s\n", (options.simulation.out / r.name).string().c_str(), in_words(r).c_str());
   }
-  return kDone;
+  return app::kDone;
 }
 
 }  // namespace
 
-void add_simulate_command(Commands& commands) {
+void add_simulate_command(app::Commands& commands) {
   CLI::App* sub = commands.app.add_subcommand(
       "simulate", "drives robots through a simulated world; writes recordings with ground truth");
   const auto options = std::make_shared<Options>();

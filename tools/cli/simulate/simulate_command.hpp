@@ -6,6 +6,6 @@
 namespace cairn::cli {
 
 /// `cairn simulate --scene NAME --robots N --seconds S --seed K --out DIR`: recordings with ground truth.
-void add_simulate_command(Commands& commands);
+void add_simulate_command(app::Commands& commands);
 
 }  // namespace cairn::cli

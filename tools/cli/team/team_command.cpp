@@ -19,13 +19,13 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Options {
-  team::TeamOptions team;
+  team_run::TeamOptions team;
   std::string link = "radio";
   bool json = false;
 };
 
 /// This program, and the peer process beside it, unless others are named.
-Result<void> find_programs(team::TeamOptions& team) {
+Result<void> find_programs(team_run::TeamOptions& team) {
   std::error_code error;
   const fs::path self = fs::read_symlink("/proc/self/exe", error);
   if (team.core.empty()) team.core = self;
@@ -49,28 +49,28 @@ std::function<void(double, double)> progress_line() {
 }
 
 int run(Options options) {
-  auto link = team::load_link(options.link);
-  if (!link) return fail(link.error());
+  auto link = team_run::load_link(options.link);
+  if (!link) return app::fail(link.error());
   options.team.link = *link;
-  if (const auto found = find_programs(options.team); !found) return fail(found.error());
-  catch_stop_signals();
-  options.team.stop = stop_requested;
+  if (const auto found = find_programs(options.team); !found) return app::fail(found.error());
+  app::catch_stop_signals();
+  options.team.stop = app::stop_requested;
   options.team.say = [](const std::string& line) { std::cerr << "cairn team: " << line << '\n'; };
   options.team.progress = progress_line();
   const auto outcome = run_team(options.team);
   if (options.team.progress) std::cerr << '\n';
-  if (!outcome) return fail(outcome.error());
+  if (!outcome) return app::fail(outcome.error());
   std::cout << (options.json ? outcome->json : outcome->table);
-  return outcome->sound ? kDone : kFailed;
+  return outcome->sound ? app::kDone : app::kFailed;
 }
 
 }  // namespace
 
-void add_team_command(Commands& commands) {
+void add_team_command(app::Commands& commands) {
   CLI::App* sub = commands.app.add_subcommand(
       "team", "runs several robots on this machine, joined by an emulated radio, and compares their team maps");
   const auto options = std::make_shared<Options>();
-  team::TeamOptions& team = options->team;
+  team_run::TeamOptions& team = options->team;
   sub->add_option("--recordings", team.recordings, "one recording per robot, or folders of recordings")->required();
   sub->add_option("--out", team.out, "new folder: gets one folder per robot, team.json and team.png")->required();
   sub->add_option("--link", options->link, "the radio: a link.yaml, radio (2 Mbit/s, 20 % loss) or clean")

@@ -6,6 +6,6 @@
 namespace cairn::cli {
 
 /// cairn team: several robots on this machine, each with its own processes, over an emulated radio.
-void add_team_command(Commands& commands);
+void add_team_command(app::Commands& commands);
 
 }  // namespace cairn::cli

@@ -43,7 +43,7 @@ Result<std::optional<std::string>> LiveClient::next(Duration timeout) {
       pending_.erase(0, end + 1);
       return std::optional(std::move(line));
     }
-    if (pending_.size() > LiveView::kMaxLine) return Error{Errc::kLimit, "the core sends a line without an end"};
+    if (pending_.size() > app::LiveView::kMaxLine) return Error{Errc::kLimit, "the core sends a line without an end"};
     pollfd waiting{fd_, POLLIN, 0};
     const int ready = ::poll(&waiting, 1, static_cast<int>(timeout / std::chrono::milliseconds(1)));
     if (ready == 0 || (ready < 0 && errno == EINTR)) return std::optional<std::string>();

@@ -61,7 +61,7 @@ std::string bar(double p99, double deadline) {
   return "[" + std::string(filled, share > 1 ? '!' : '=') + std::string(10 - filled, ' ') + "]";
 }
 
-Paint paint_of(const LiveView::Stage& s) {
+Paint paint_of(const app::LiveView::Stage& s) {
   if (s.misses > 0 || (s.deadline_ms > 0 && s.p99_ms > s.deadline_ms)) return Paint::kBad;
   return s.slips + s.dropped > 0 || s.overruns > 0 ? Paint::kWarn : Paint::kPlain;
 }
@@ -71,7 +71,7 @@ Paint paint_of(std::string_view mode) {
   return mode == "degraded" ? Paint::kWarn : Paint::kBad;
 }
 
-std::string row(const LiveView::Stage& s) {
+std::string row(const app::LiveView::Stage& s) {
   const std::string deadline = s.deadline_ms > 0 ? ms(s.deadline_ms) : "      -";
   const std::string queue = s.capacity > 0 ? fmt::format("{:>3}/{:<3}", std::min<std::uint64_t>(s.queued, 999),
                                                          std::min<std::uint64_t>(s.capacity, 999))
@@ -89,7 +89,7 @@ std::string joined(const std::vector<std::string>& words) {
 
 }  // namespace
 
-std::vector<std::string> render(const LiveView& v, const Screen& screen) {
+std::vector<std::string> render(const app::LiveView& v, const Screen& screen) {
   Lines lines(screen);
   lines.add(fmt::format("{}   t {:.1f} s   {} scans   {:.0f} MB", safe(v.robot), v.t_s, v.scans, v.rss_mb),
             Paint::kBold);
@@ -101,7 +101,7 @@ std::vector<std::string> render(const LiveView& v, const Screen& screen) {
   lines.add(fmt::format("{:<12}{:>7}{:>7}{:>7}{:>7} {:>8} {:<12}{:>6}{:>6}{:>6}{:>6}  {}", "task (ms)", "p50", "p99",
                         "p99.9", "max", "deadline", "p99/deadline", "over", "slips", "miss", "drop", "queue"),
             Paint::kBold);
-  for (const LiveView::Stage& s : v.stages) lines.add(row(s), paint_of(s));
+  for (const app::LiveView::Stage& s : v.stages) lines.add(row(s), paint_of(s));
   lines.add("");
   lines.add(v.events.empty() ? "no events" : "events, newest first", Paint::kBold);
   for (auto e = v.events.rbegin(); e != v.events.rend(); ++e)

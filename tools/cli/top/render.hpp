@@ -15,6 +15,6 @@ struct Screen {
 
 /// A live view as lines of a terminal, none wider than the screen and not more than it has rows: stages first, then as
 /// many events as fit, newest first. Pure. Characters that a terminal would obey are replaced.
-[[nodiscard]] std::vector<std::string> render(const LiveView& view, const Screen& screen);
+[[nodiscard]] std::vector<std::string> render(const app::LiveView& view, const Screen& screen);
 
 }  // namespace cairn::cli

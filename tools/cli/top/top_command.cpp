@@ -31,9 +31,9 @@ Screen screen_now() {
   return {size.ws_col, std::max(2, static_cast<int>(size.ws_row)) - 1, true};
 }
 
-void show(const LiveView& view, const TopArguments& a) {
+void show(const app::LiveView& view, const TopArguments& a) {
   if (a.json) {
-    std::cout << to_line(view) << std::flush;
+    std::cout << app::to_line(view) << std::flush;
     return;
   }
   const Screen screen = screen_now();
@@ -46,23 +46,24 @@ void show(const LiveView& view, const TopArguments& a) {
 
 int watch(const TopArguments& a) {
   auto client = LiveClient::connect(a.socket);
-  if (!client) return fail(client.error());
+  if (!client) return app::fail(client.error());
   if (!a.once && !a.json && ::isatty(STDOUT_FILENO) != 0) std::cout << "\x1b[2J";
   for (;;) {
     const auto line = client->next(kPatience);
-    if (!line) return fail(line.error());
-    if (!*line) return fail({Errc::kLinkDown, "the core says nothing", a.socket.string(), {}, "its watch task hangs"});
-    const auto view = parse_line(**line);
-    if (!view) return fail(view.error());
+    if (!line) return app::fail(line.error());
+    if (!*line)
+      return app::fail({Errc::kLinkDown, "the core says nothing", a.socket.string(), {}, "its watch task hangs"});
+    const auto view = app::parse_line(**line);
+    if (!view) return app::fail(view.error());
     show(*view, a);
-    if (a.once) return kDone;
-    if (!std::cout) return kDone;  // whoever read is gone
+    if (a.once) return app::kDone;
+    if (!std::cout) return app::kDone;  // whoever read is gone
   }
 }
 
 }  // namespace
 
-void add_top_command(Commands& commands) {
+void add_top_command(app::Commands& commands) {
   auto* sub =
       commands.app.add_subcommand("top", "shows a running core: mode, faults, tasks with their deadlines, events");
   auto a = std::make_shared<TopArguments>();

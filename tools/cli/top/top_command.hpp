@@ -6,6 +6,6 @@
 namespace cairn::cli {
 
 /// `cairn top`: shows a running core in a terminal.
-void add_top_command(Commands& commands);
+void add_top_command(app::Commands& commands);
 
 }  // namespace cairn::cli

@@ -40,7 +40,7 @@ Result<FusedEntropy> fused_entropy(const MapPair& pair, std::string name, mergin
   options.policy = policy;
   const auto fused = merging::merge(team, options);
   if (!fused) return fused.error();
-  const MapSummary summary = summarise(**fused);
+  const report::MapSummary summary = report::summarise(**fused);
   return FusedEntropy{std::move(name), summary.mean_entropy_occupancy.value_or(0),
                       summary.mean_entropy_book.value_or(0), summary.occupied};
 }
@@ -71,7 +71,7 @@ Result<PairOutcome> load_pair_outcome(const fs::path& dir) {
 
 /// The voxels of both maps, none of them fused: as the book's "directly stitch" grows the map.
 FusedEntropy side_by_side(const MapPair& pair) {
-  const MapSummary a = summarise(*pair.a), b = summarise(*pair.b);
+  const report::MapSummary a = report::summarise(*pair.a), b = report::summarise(*pair.b);
   const auto n_a = static_cast<double>(a.occupied), n_b = static_cast<double>(b.occupied);
   const auto mean = [&](const std::optional<double>& of_a, const std::optional<double>& of_b) {
     return (n_a * of_a.value_or(0) + n_b * of_b.value_or(0)) / std::max(1.0, n_a + n_b);

@@ -43,7 +43,7 @@ using PlaneIcp = Counted<pcl::IterativeClosestPointWithNormals<pcl::PointNormal,
 using Gicp = Counted<pcl::GeneralizedIterativeClosestPoint<pcl::PointXYZ, pcl::PointXYZ>>;
 using Ndt = Counted<pcl::NormalDistributionsTransform<pcl::PointXYZ, pcl::PointXYZ>>;
 
-Cloud::Ptr cloud_of(const SemanticOcTree& map, std::size_t most) {
+Cloud::Ptr cloud_of(const mapping::SemanticOcTree& map, std::size_t most) {
   const auto centres = occupied_centres(map);
   Cloud::Ptr cloud(new Cloud);
   for (const Eigen::Vector3f& p : matching::sample(std::span<const Eigen::Vector3f>(centres), most))

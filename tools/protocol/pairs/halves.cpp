@@ -23,11 +23,12 @@ struct Extent {
 /// The copy of what a map holds inside of a part of it.
 class Copy {
  public:
-  Copy(const SemanticOcTree& whole, const SE3& T_copy_whole, Inside inside, const HalvesOptions& options, unsigned seed)
+  Copy(const mapping::SemanticOcTree& whole, const SE3& T_copy_whole, Inside inside, const HalvesOptions& options,
+       unsigned seed)
       : whole_(whole), T_(T_copy_whole), inside_(std::move(inside)), options_(options), random_(seed) {}
 
-  std::shared_ptr<SemanticOcTree> make() {
-    copy_ = std::make_shared<SemanticOcTree>(options_.resolution_m);
+  std::shared_ptr<mapping::SemanticOcTree> make() {
+    copy_ = std::make_shared<mapping::SemanticOcTree>(options_.resolution_m);
     for (auto leaf = whole_.begin_leafs(), end = whole_.end_leafs(); leaf != end; ++leaf)
       copy_leaf({leaf.getX(), leaf.getY(), leaf.getZ()}, leaf.getSize(), whole_.isNodeOccupied(*leaf));
     carry_free_space();
@@ -71,16 +72,16 @@ class Copy {
         }
   }
 
-  const SemanticOcTree& whole_;
+  const mapping::SemanticOcTree& whole_;
   SE3 T_;
   Inside inside_;
   HalvesOptions options_;
   std::mt19937 random_;
-  std::shared_ptr<SemanticOcTree> copy_;
+  std::shared_ptr<mapping::SemanticOcTree> copy_;
   Extent extent_;
 };
 
-Extent extent_of(const SemanticOcTree& map) {
+Extent extent_of(const mapping::SemanticOcTree& map) {
   Extent extent;
   for (auto leaf = map.begin_leafs(), end = map.end_leafs(); leaf != end; ++leaf)
     if (map.isNodeOccupied(*leaf)) extent.add({leaf.getX(), leaf.getY(), leaf.getZ()});
@@ -89,7 +90,7 @@ Extent extent_of(const SemanticOcTree& map) {
 
 }  // namespace
 
-MapPair halves(const SemanticOcTree& whole, std::string name, const HalvesOptions& options) {
+MapPair halves(const mapping::SemanticOcTree& whole, std::string name, const HalvesOptions& options) {
   const auto [low, high] = extent_of(whole);
   const Eigen::Vector3d size = high - low;
   const int axis = size.x() > size.y() ? 0 : 1;

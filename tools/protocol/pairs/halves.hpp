@@ -21,6 +21,6 @@ struct HalvesOptions {
 ///
 /// Free space is carried over. b has a frame, and so a grid, of its own. The pair's overlap and
 /// counts are not filled in.
-[[nodiscard]] MapPair halves(const SemanticOcTree& whole, std::string name, const HalvesOptions& options);
+[[nodiscard]] MapPair halves(const mapping::SemanticOcTree& whole, std::string name, const HalvesOptions& options);
 
 }  // namespace cairn::protocol

@@ -22,8 +22,8 @@ namespace fs = std::filesystem;
 // Of what is mapped. Chosen by hand, not tuned.
 constexpr double kLidarRangeM = 20, kDepthRangeM = 10;
 
-MappingConfig mapping(double range_m) {
-  MappingConfig config;
+mapping::MappingConfig mapping(double range_m) {
+  mapping::MappingConfig config;
   config.resolution_m = 0.1;
   config.max_range_m = range_m;
   return config;
@@ -38,7 +38,7 @@ SE3 T_map_world(const SE3& T_world_start, double yaw) {
 }
 
 struct MadeMap {
-  std::shared_ptr<const SemanticOcTree> map;
+  std::shared_ptr<const mapping::SemanticOcTree> map;
   SE3 T_map_world;
 };
 
@@ -110,7 +110,7 @@ Result<void> make_halves(const PairsOptions& options) {
   if (code) return Error{Errc::kIo, "cannot read the folder", options.octomaps.string(), {}, code.message()};
   std::sort(files.begin(), files.end());
   for (const fs::path& file : files) {
-    const auto whole = load_map(file);
+    const auto whole = mapping::load_map(file);
     if (!whole) return at(file.string(), whole.error());
     HalvesOptions how;
     how.seed = options.seed;

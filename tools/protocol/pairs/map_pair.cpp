@@ -22,7 +22,7 @@ using Points = std::vector<Eigen::Vector3f>;
 
 constexpr std::uint64_t kMaxJsonBytes = 1U << 20U;  // of pair.json: a bound on memory
 
-std::vector<Voxel> voxels_of(const SemanticOcTree& map) {
+std::vector<Voxel> voxels_of(const mapping::SemanticOcTree& map) {
   return matching::occupied_voxels(map).value_or(std::vector<Voxel>());
 }
 
@@ -31,7 +31,7 @@ Points moved(Points points, const SE3& T) {
   return points;
 }
 
-float gate_of(const SemanticOcTree& map) { return std::sqrt(3.0F) * static_cast<float>(map.getResolution()); }
+float gate_of(const mapping::SemanticOcTree& map) { return std::sqrt(3.0F) * static_cast<float>(map.getResolution()); }
 
 /// How far along both maps' voxels lie, and of each the nearest one of the other map.
 struct Partners {
@@ -73,8 +73,9 @@ struct Partners {
   }
 };
 
-std::shared_ptr<SemanticOcTree> kept(const SemanticOcTree& map, const std::function<bool(const Eigen::Vector3d&)>& in) {
-  auto part = std::make_shared<SemanticOcTree>(map.getResolution());
+std::shared_ptr<mapping::SemanticOcTree> kept(const mapping::SemanticOcTree& map,
+                                              const std::function<bool(const Eigen::Vector3d&)>& in) {
+  auto part = std::make_shared<mapping::SemanticOcTree>(map.getResolution());
   part->set_sensor_model(map.sensor_model());
   for (auto leaf = map.begin_leafs(), end = map.end_leafs(); leaf != end; ++leaf) {
     const auto n = static_cast<int>(std::lround(leaf.getSize() / map.getResolution()));
@@ -92,7 +93,7 @@ std::shared_ptr<SemanticOcTree> kept(const SemanticOcTree& map, const std::funct
 
 }  // namespace
 
-std::vector<Eigen::Vector3f> occupied_centres(const SemanticOcTree& map) {
+std::vector<Eigen::Vector3f> occupied_centres(const mapping::SemanticOcTree& map) {
   Points centres;
   for (const Voxel& v : voxels_of(map)) centres.push_back(v.centre);
   return centres;
@@ -107,7 +108,7 @@ void measure(MapPair& pair) {
   pair.edges_b = matching::structural_edges(b, pair.b->getResolution()).voxels.size();
 }
 
-double overlap_of(const SemanticOcTree& a, const SemanticOcTree& b, const SE3& T_a_b) {
+double overlap_of(const mapping::SemanticOcTree& a, const mapping::SemanticOcTree& b, const SE3& T_a_b) {
   const Points of_a = occupied_centres(a), of_b = moved(occupied_centres(b), T_a_b);
   const float gate = gate_of(a);
   const PointGrid grid_a(of_a, 2 * gate), grid_b(of_b, 2 * gate);
@@ -139,8 +140,8 @@ Result<void> save_pair(const MapPair& pair, const std::filesystem::path& dir) {
   std::error_code code;
   std::filesystem::create_directories(dir, code);
   if (code) return Error{Errc::kIo, "cannot make the folder", dir.string(), {}, code.message()};
-  if (auto saved = save_ot(*pair.a, dir / "a.ot"); !saved) return saved;
-  if (auto saved = save_ot(*pair.b, dir / "b.ot"); !saved) return saved;
+  if (auto saved = mapping::save_ot(*pair.a, dir / "a.ot"); !saved) return saved;
+  if (auto saved = mapping::save_ot(*pair.b, dir / "b.ot"); !saved) return saved;
   const Json json = {{"name", pair.name},       {"scene", pair.scene},       {"kind", pair.kind},
                      {"overlap", pair.overlap}, {"voxels_a", pair.voxels_a}, {"voxels_b", pair.voxels_b},
                      {"edges_a", pair.edges_a}, {"edges_b", pair.edges_b},   {"T_a_b", pose_to_json(pair.T_a_b)}};
@@ -148,7 +149,7 @@ Result<void> save_pair(const MapPair& pair, const std::filesystem::path& dir) {
 }
 
 Result<MapPair> load_pair(const std::filesystem::path& dir) {
-  auto a = load_map(dir / "a.ot"), b = load_map(dir / "b.ot");
+  auto a = mapping::load_map(dir / "a.ot"), b = mapping::load_map(dir / "b.ot");
   if (!a) return at((dir / "a.ot").string(), a.error());
   if (!b) return at((dir / "b.ot").string(), b.error());
   const auto bytes = read_file(dir / "pair.json", kMaxJsonBytes);

@@ -23,7 +23,7 @@ inline constexpr const char* kHeterogeneous = "heterogeneous";
 /// Two maps of one place and where b's frame lies in a's.
 struct MapPair {
   std::string name, scene, kind = kScene;
-  std::shared_ptr<const SemanticOcTree> a, b;
+  std::shared_ptr<const mapping::SemanticOcTree> a, b;
   SE3 T_a_b;
   double overlap = 0;  ///< see overlap_of()
   std::size_t voxels_a = 0, voxels_b = 0, edges_a = 0, edges_b = 0;
@@ -31,7 +31,7 @@ struct MapPair {
 
 /// Centres of the occupied voxels, m, in depth-first order. Empty for a map beyond
 /// matching::kMaxVoxels.
-[[nodiscard]] std::vector<Eigen::Vector3f> occupied_centres(const SemanticOcTree& map);
+[[nodiscard]] std::vector<Eigen::Vector3f> occupied_centres(const mapping::SemanticOcTree& map);
 
 /// Fills in overlap and counts from the maps.
 void measure(MapPair& pair);
@@ -42,7 +42,7 @@ void measure(MapPair& pair);
 
 /// The book's ε (4.21) at a pose: the mean, over both maps, of the share of occupied voxels that
 /// have one of the other map within the diagonal of a voxel.
-[[nodiscard]] double overlap_of(const SemanticOcTree& a, const SemanticOcTree& b, const SE3& T_a_b);
+[[nodiscard]] double overlap_of(const mapping::SemanticOcTree& a, const mapping::SemanticOcTree& b, const SE3& T_a_b);
 
 /// Cuts both maps across `along` (in frame a) so that their overlap becomes `overlap`. A smaller
 /// overlap stays as it is. a keeps what lies below one plane, b what lies above another. Both

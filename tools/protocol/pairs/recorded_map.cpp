@@ -57,7 +57,7 @@ Result<std::unique_ptr<ScanDecoder>> decoder_of(const fs::path& dir, const recor
     if (!lidar) return lidar.error();
     return std::unique_ptr<ScanDecoder>(*std::move(lidar));
   }
-  const auto profile = load_profile(dir / "robot.yaml");
+  const auto profile = app::load_profile(dir / "robot.yaml");
   if (!profile) return profile.error();
   auto camera = depth::DepthCamera::create(profile->depth.driver);
   if (!camera) return camera.error();
@@ -68,7 +68,7 @@ Result<std::unique_ptr<ScanDecoder>> decoder_of(const fs::path& dir, const recor
 class Placement {
  public:
   Placement(const TruePath& path, const SE3& T_map_world, const SE3& T_base_sensor, const Portion& portion,
-            Mapper& mapper)
+            mapping::Mapper& mapper)
       : path_(path), T_map_world_(T_map_world), T_base_sensor_(T_base_sensor), portion_(portion), mapper_(mapper) {}
 
   Result<void> insert(const Scan& scan) {
@@ -94,7 +94,7 @@ class Placement {
   const TruePath& path_;
   SE3 T_map_world_, T_base_sensor_;
   Portion portion_;
-  Mapper& mapper_;
+  mapping::Mapper& mapper_;
   int seen_ = 0;
   std::vector<Eigen::Vector3f> points_;
 };
@@ -121,8 +121,9 @@ Result<SE3> first_true_pose(const fs::path& recording) {
   return path->at(path->start());
 }
 
-Result<std::shared_ptr<SemanticOcTree>> map_of_recording(const fs::path& dir, const Portion& portion,
-                                                         const SE3& T_map_world, const MappingConfig& config) {
+Result<std::shared_ptr<mapping::SemanticOcTree>> map_of_recording(const fs::path& dir, const Portion& portion,
+                                                                  const SE3& T_map_world,
+                                                                  const mapping::MappingConfig& config) {
   const auto path = true_path(dir);
   if (!path) return path.error();
   const auto recording = recording::load_recording(dir);
@@ -139,10 +140,10 @@ Result<std::shared_ptr<SemanticOcTree>> map_of_recording(const fs::path& dir, co
   const auto decoder = decoder_of(dir, *entry, static_cast<SourceId>(index), monitor);
   if (!decoder) return decoder.error();
   Workers workers(1);
-  Mapper mapper(config, workers);
+  mapping::Mapper mapper(config, workers);
   Placement placement(*path, T_map_world, entry->T_base_sensor(), portion, mapper);
   if (auto inserted = insert_all(**source, **decoder, placement); !inserted) return inserted.error();
-  auto map = std::make_shared<SemanticOcTree>(mapper.tree());
+  auto map = std::make_shared<mapping::SemanticOcTree>(mapper.tree());
   map->canonicalise();
   return map;
 }

@@ -27,8 +27,9 @@ struct Portion {
 /// for each point. Odometry has no part in it, so that the errors of a match are the matcher's own.
 /// `T_map_world` says where the map's frame lies. Errors: those of the files; kNotFound without a
 /// source of the kind; kMalformed without ground truth.
-[[nodiscard]] Result<std::shared_ptr<SemanticOcTree>> map_of_recording(const std::filesystem::path& recording,
-                                                                       const Portion& portion, const SE3& T_map_world,
-                                                                       const MappingConfig& config);
+[[nodiscard]] Result<std::shared_ptr<mapping::SemanticOcTree>> map_of_recording(const std::filesystem::path& recording,
+                                                                                const Portion& portion,
+                                                                                const SE3& T_map_world,
+                                                                                const mapping::MappingConfig& config);
 
 }  // namespace cairn::protocol

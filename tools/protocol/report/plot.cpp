@@ -37,14 +37,14 @@ std::vector<double> marks_of(const Axis& axis) {
   if (axis.logarithmic) {
     for (double m = axis.low; m < axis.high * 1.001; m *= 10) marks.push_back(m);
   } else {
-    const double step = html::round_step(axis.high - axis.low, 5);
+    const double step = report::html::round_step(axis.high - axis.low, 5);
     for (int i = 0; axis.low + i * step < axis.high + 0.001 * step; ++i) marks.push_back(axis.low + i * step);
   }
   return marks;
 }
 
 std::string text(double u, double v, const char* css, const std::string& words) {
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"{}\">{}</text>", u, v, css, html::escape(words));
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" class=\"{}\">{}</text>", u, v, css, report::html::escape(words));
 }
 
 /// Grid lines, the y axis's numbers and its label.
@@ -57,7 +57,7 @@ std::string background(const Frame& frame, const Axis& y) {
   }
   const double middle = 0.5 * (frame.base() + kTop);
   svg += fmt::format("<text class=\"m\" transform=\"translate(13 {:.1f}) rotate(-90)\">{}</text>", middle,
-                     html::escape(y.label));
+                     report::html::escape(y.label));
   return svg + fmt::format("<path class=\"axis\" d=\"M{} {:.1f}H{}\"/>", kLeft, frame.base(), kWidth - kRight);
 }
 
@@ -121,7 +121,7 @@ std::string box_plot(const Axis& y, const std::vector<NamedBox>& boxes) {
     const double u = frame.u(static_cast<double>(i) + 0.5);
     svg += drawn(frame, boxes[i], u);
     svg += fmt::format("<text class=\"r\" transform=\"translate({:.1f} {:.1f}) rotate(-35)\">{}</text>", u + 6,
-                       frame.base() + 13, html::escape(boxes[i].name));
+                       frame.base() + 13, report::html::escape(boxes[i].name));
   }
   return svg + "</svg>";
 }
@@ -129,7 +129,7 @@ std::string box_plot(const Axis& y, const std::vector<NamedBox>& boxes) {
 std::string legend(const std::vector<Line>& lines) {
   std::string keys = "<div class=\"key\">";
   for (const Line& line : lines)
-    keys += fmt::format("<span><i class=\"{}\"></i>{}</span>", css_of(line.colour), html::escape(line.name));
+    keys += fmt::format("<span><i class=\"{}\"></i>{}</span>", css_of(line.colour), report::html::escape(line.name));
   return keys + "</div>";
 }
 

@@ -23,12 +23,12 @@ std::size_t colour_of(std::string_view method) {
 }
 
 std::string figure(const std::string& title, const std::string& svg) {
-  return fmt::format("<figure><figcaption>{}</figcaption>{}</figure>", html::escape(title), svg);
+  return fmt::format("<figure><figcaption>{}</figcaption>{}</figure>", report::html::escape(title), svg);
 }
 
 std::string section(const std::string& title, const std::string& figures, const std::string& below) {
-  return fmt::format("<section><h2>{}</h2><div class=\"charts\">{}</div>{}</section>", html::escape(title), figures,
-                     below);
+  return fmt::format("<section><h2>{}</h2><div class=\"charts\">{}</div>{}</section>", report::html::escape(title),
+                     figures, below);
 }
 
 template <class Value>
@@ -121,8 +121,9 @@ std::string claims_section(const Outcome& outcome, const std::string& title, boo
   std::string items;
   for (const Claim& c : claims_of(outcome))
     if (c.books == books)
-      items += fmt::format("<li class=\"{}\">{}<span>: {}</span></li>", c.holds ? "good" : "bad", html::escape(c.claim),
-                           html::escape((c.holds ? "" : "not so here, ") + c.figures));
+      items += fmt::format("<li class=\"{}\">{}<span>: {}</span></li>", c.holds ? "good" : "bad",
+                           report::html::escape(c.claim),
+                           report::html::escape((c.holds ? "" : "not so here, ") + c.figures));
   return items.empty() ? items : fmt::format("<section><h2>{}</h2><ul class=\"notes\">{}</ul></section>", title, items);
 }
 
@@ -133,7 +134,7 @@ std::string to_page(const Outcome& outcome) {
       "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
       "content=\"width=device-width\"><title>Map matching: the "
       "protocol</title><style>{}{}{}</style></head><body><main>",
-      html::kStyle, kPlotStyle, kPageStyle);
+      report::html::kStyle, kPlotStyle, kPageStyle);
   page += fmt::format(
       "<header><h1>Map matching: the book's protocol</h1><p>Yue &amp; Wang, Collaborative Perception, Localization and "
       "Mapping for Autonomous Systems, ch. 3 to 5; 125 starts: x and y ±2 m by 1 m, yaw ±15° by 7.5°. Seed {}.</p>"

@@ -38,18 +38,19 @@ std::string to_text(const Table& table) {
 }
 
 std::string to_html(const Table& table) {
-  std::string html = fmt::format("<section><h2>{}</h2><div class=\"scroll\"><table><tr>", html::escape(table.title));
+  std::string html =
+      fmt::format("<section><h2>{}</h2><div class=\"scroll\"><table><tr>", report::html::escape(table.title));
   for (std::size_t i = 0; i < table.header.size(); ++i)
-    html += fmt::format("<th{}>{}</th>", i == 0 ? " class=\"l\"" : "", html::escape(table.header[i]));
+    html += fmt::format("<th{}>{}</th>", i == 0 ? " class=\"l\"" : "", report::html::escape(table.header[i]));
   html += "</tr>";
   for (const auto& row : table.rows) {
     html += "<tr>";
     for (std::size_t i = 0; i < row.size(); ++i)
-      html += fmt::format("<td{}>{}</td>", i == 0 ? " class=\"l\"" : "", html::escape(row[i]));
+      html += fmt::format("<td{}>{}</td>", i == 0 ? " class=\"l\"" : "", report::html::escape(row[i]));
     html += "</tr>";
   }
   html += "</table></div>";
-  if (!table.note.empty()) html += fmt::format("<p class=\"note\">{}</p>", html::escape(table.note));
+  if (!table.note.empty()) html += fmt::format("<p class=\"note\">{}</p>", report::html::escape(table.note));
   return html + "</section>";
 }
 

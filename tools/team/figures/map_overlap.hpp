@@ -7,21 +7,21 @@
 #include "hal/se3.hpp"
 #include "onboard/mapping/tree/semantic_octree.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 
 /// The part of space that another map knows.
 struct Area {
-  const SemanticOcTree& map;
+  const mapping::SemanticOcTree& map;
   SE3 T_map_area;  ///< where it lies in the map that is compared
 };
 
 /// Intersection over union of the occupied leaves of a map and of the true world, 0…1. Only places that the map knows
 /// count, and, with `within`, that this area knows too. Leaves that are one voxel apart fit. Nothing if no leaf is
 /// occupied. `T_world_map` takes a point of the map to the world.
-[[nodiscard]] std::optional<double> iou_with_world(const SemanticOcTree& map, const SE3& T_world_map,
-                                                   const SemanticOcTree& world, const Area* within = nullptr);
+[[nodiscard]] std::optional<double> iou_with_world(const mapping::SemanticOcTree& map, const SE3& T_world_map,
+                                                   const mapping::SemanticOcTree& world, const Area* within = nullptr);
 
-[[nodiscard]] std::size_t occupied_leaves(const SemanticOcTree& map);
+[[nodiscard]] std::size_t occupied_leaves(const mapping::SemanticOcTree& map);
 
 /// A robot where it stands at the end.
 struct Standing {
@@ -37,4 +37,4 @@ struct Standing {
 /// Whether the merge itself is wrong, not just inexact: more than 1 m or 10°.
 [[nodiscard]] bool is_wrong_merge(const SE3& sight_error);
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

@@ -7,7 +7,7 @@
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/figures/trajectory_error.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -79,7 +79,7 @@ void take_peers(const Json& report, RobotResult& result) {
 std::optional<Standing> standing_of(const std::vector<StampedPose>& trajectory, const fs::path& truth_file) {
   const auto truth = recording::read_tum(truth_file);
   if (!truth) return std::nullopt;
-  const auto matched = match_by_time(trajectory, *truth, TrajectoryErrorOptions{}.max_gap);
+  const auto matched = report::match_by_time(trajectory, *truth, report::TrajectoryErrorOptions{}.max_gap);
   if (matched.empty()) return std::nullopt;
   return Standing{matched.back().estimate, matched.back().truth};
 }
@@ -101,10 +101,10 @@ Result<RobotResult> read_robot_result(const fs::path& out, const fs::path& recor
   if (!trajectory) return trajectory.error();
   result.trajectory = *std::move(trajectory);
   result.standing = standing_of(result.trajectory, recorded / "ground_truth.tum");
-  auto map = load_map(out / "team.cairn");
+  auto map = mapping::load_map(out / "team.cairn");
   if (!map) return at((out / "team.cairn").string(), map.error());
   result.team_map = *std::move(map);
   return result;
 }
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

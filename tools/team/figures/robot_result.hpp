@@ -15,7 +15,7 @@
 #include "onboard/mapping/tree/semantic_octree.hpp"
 #include "tools/team/figures/map_overlap.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 
 /// What a robot's run left about its part in the team, and the truth if its recording has it.
 struct RobotResult {
@@ -29,7 +29,7 @@ struct RobotResult {
   std::uint64_t ticks = 0, missed_ticks = 0;
   std::vector<recording::StampedPose> trajectory;  ///< T_odom_base
   std::optional<Standing> standing;                ///< at the end; nothing without truth
-  std::shared_ptr<const SemanticOcTree> team_map;
+  std::shared_ptr<const mapping::SemanticOcTree> team_map;
 };
 
 /// Reads report.json, trajectory.tum and team.cairn of the run in `out`, and ground_truth.tum of `recorded` if it is
@@ -38,4 +38,4 @@ struct RobotResult {
 Result<RobotResult> read_robot_result(const std::filesystem::path& out, const std::filesystem::path& recorded,
                                       const std::vector<std::string>& names);
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

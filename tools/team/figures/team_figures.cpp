@@ -5,7 +5,7 @@
 
 #include "tools/team/figures/map_overlap.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 constexpr double kDegrees = 57.29577951308232;
@@ -27,13 +27,14 @@ std::optional<SE3> error_between(const RobotResult& robot, const RobotResult& ot
 }
 
 std::optional<double> iou_of(const std::vector<RobotResult>& robots, const RobotResult& robot,
-                             const SemanticOcTree* world) {
+                             const mapping::SemanticOcTree* world) {
   const RobotResult* anchor = find(robots, robot.anchor);
   if (world == nullptr || robot.team_map == nullptr || anchor == nullptr || !anchor->standing) return std::nullopt;
   return iou_with_world(*robot.team_map, anchor->standing->T_world_odom() * anchor->T_team_odom.inverse(), *world);
 }
 
-RobotFigures figures_of(const std::vector<RobotResult>& robots, const RobotResult& robot, const SemanticOcTree* world) {
+RobotFigures figures_of(const std::vector<RobotResult>& robots, const RobotResult& robot,
+                        const mapping::SemanticOcTree* world) {
   RobotFigures figures{robot.name,  robot.team_sha256, robot.merged_with, {}, {}, iou_of(robots, robot, world),
                        robot.ticks, robot.missed_ticks};
   for (const std::string& name : robot.merged_with) {
@@ -69,7 +70,7 @@ std::size_t in_largest_team(const std::vector<RobotResult>& robots) {
   return static_cast<std::size_t>(std::ranges::max_element(robots, {}, size) - robots.begin());
 }
 
-TeamFigures compare_team(const std::vector<RobotResult>& robots, const SemanticOcTree* world) {
+TeamFigures compare_team(const std::vector<RobotResult>& robots, const mapping::SemanticOcTree* world) {
   TeamFigures figures;
   for (const RobotResult& robot : robots) figures.robots.push_back(figures_of(robots, robot, world));
   figures.wrong_merges = count_wrong_merges(robots);
@@ -80,4 +81,4 @@ TeamFigures compare_team(const std::vector<RobotResult>& robots, const SemanticO
   return figures;
 }
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

@@ -9,7 +9,7 @@
 #include "onboard/mapping/tree/semantic_octree.hpp"
 #include "tools/team/figures/robot_result.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 
 struct RobotFigures {
   std::string name, team_sha256;
@@ -32,9 +32,9 @@ struct TeamFigures {
 };
 
 /// Compares what the robots of a team left. `world` is the true map, or null. Pure.
-[[nodiscard]] TeamFigures compare_team(const std::vector<RobotResult>& robots, const SemanticOcTree* world);
+[[nodiscard]] TeamFigures compare_team(const std::vector<RobotResult>& robots, const mapping::SemanticOcTree* world);
 
 /// The index of the robot whose team is the largest; the first of several.
 [[nodiscard]] std::size_t in_largest_team(const std::vector<RobotResult>& robots);
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

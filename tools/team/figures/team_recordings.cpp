@@ -7,7 +7,7 @@
 
 #include "drivers/recording/recording_reader.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -64,4 +64,4 @@ Result<std::vector<TeamRecording>> survey_recordings(const std::vector<fs::path>
   return all;
 }
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

@@ -9,7 +9,7 @@
 #include "hal/result.hpp"
 #include "hal/time.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 
 /// A robot's recording, read once from end to end.
 struct TeamRecording {
@@ -24,4 +24,4 @@ struct TeamRecording {
 /// two.
 Result<std::vector<TeamRecording>> survey_recordings(const std::vector<std::filesystem::path>& folders);
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

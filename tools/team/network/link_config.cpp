@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/team/network/link_config.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 
 void declare(config::Section& s, LinkConfig& link) {
   s.number("rate_bit_s", link.rate_bit_s, {0, 1e9}, "bit/s",
@@ -30,4 +30,4 @@ Result<LinkConfig> load_link(const std::string& name) {
   return link;
 }
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

@@ -6,7 +6,7 @@
 #include "hal/config/config.hpp"
 #include "hal/result.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 
 /// What the emulated radio does to every IP packet between two robots; link.yaml has these fields. The defaults are
 /// those of a bad link.
@@ -28,4 +28,4 @@ void declare(config::Section& section, LinkConfig& link);
 /// config::load().
 Result<LinkConfig> load_link(const std::string& name);
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

@@ -10,11 +10,11 @@
 #include "tools/team/network/network.hpp"
 #include "tools/team/network/tun_device.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
-using peers::LinkFrame;
-using peers::LocalLink;
+using peer_link::LinkFrame;
+using peer_link::LocalLink;
 
 constexpr const char* kRadioSocket = "radio.sock";  // in the robot's folder
 constexpr Index kMaxRobots = 8;                     // that cairn-peers lets share one address
@@ -42,7 +42,7 @@ Result<Tap> open_tap(const std::filesystem::path& path) {
 
 class LoopbackNetwork final : public Network {
  public:
-  LoopbackNetwork(const LinkConfig& link, std::vector<Tap> taps, peers::DomainClaim claim)
+  LoopbackNetwork(const LinkConfig& link, std::vector<Tap> taps, peer_link::DomainClaim claim)
       : taps_(std::move(taps)), claim_(std::move(claim)), radio_(link, taps_.size()) {}
 
   [[nodiscard]] std::string_view kind() const override {
@@ -82,7 +82,7 @@ class LoopbackNetwork final : public Network {
   }
 
   std::vector<Tap> taps_;
-  peers::DomainClaim claim_;
+  peer_link::DomainClaim claim_;
   Radio radio_;
   std::vector<std::byte> memory_;
   std::vector<Radio::Packet> arrived_;
@@ -100,9 +100,9 @@ Result<std::unique_ptr<Network>> make_loopback_network(const LinkConfig& link,
     if (!tap) return tap.error();
     taps.push_back(*std::move(tap));
   }
-  auto claim = peers::DomainClaim::make();
+  auto claim = peer_link::DomainClaim::make();
   if (!claim) return claim.error();
   return std::unique_ptr<Network>(std::make_unique<LoopbackNetwork>(link, std::move(taps), *std::move(claim)));
 }
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

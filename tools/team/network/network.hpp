@@ -13,7 +13,7 @@
 #include "hal/time.hpp"
 #include "tools/team/network/radio.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 
 /// Each robot's network, and the radio that joins them.
 class Network {
@@ -51,4 +51,4 @@ Result<std::unique_ptr<Network>> make_tun_network(const LinkConfig& link, Index 
 Result<std::unique_ptr<Network>> make_loopback_network(const LinkConfig& link,
                                                        const std::vector<std::filesystem::path>& folders);
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 /// SplitMix64 (Steele, Lea, Flood, "Fast splittable pseudorandom number generators", 2014): mixes one word.
@@ -72,4 +72,4 @@ void Radio::arrived(Time now, std::vector<Packet>& out) {
   on_the_way_.erase(on_the_way_.begin(), end);
 }
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

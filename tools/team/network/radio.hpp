@@ -13,7 +13,7 @@
 #include "hal/time.hpp"
 #include "tools/team/network/link_config.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 
 /// Counts the robots of a run from 0, in the order of their recordings.
 using Index = std::size_t;
@@ -67,4 +67,4 @@ class Radio {
   Duration most_late_{};
 };
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

@@ -14,7 +14,7 @@
 #include <cstring>
 #include <system_error>
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 Error refused(const char* step) {
@@ -97,4 +97,4 @@ Result<void> enter_user_namespace() {
   return {};
 }
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

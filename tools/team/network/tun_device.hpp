@@ -6,7 +6,7 @@
 
 #include "hal/result.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 
 /// An open file, which is closed with its object.
 class File {
@@ -44,4 +44,4 @@ Result<void> enter_user_namespace();
 /// The network namespace of this thread.
 Result<File> current_network();
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

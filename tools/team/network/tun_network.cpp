@@ -9,7 +9,7 @@
 #include "tools/team/network/network.hpp"
 #include "tools/team/network/tun_device.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 constexpr Index kMostAddresses = 200;
@@ -94,4 +94,4 @@ Result<std::unique_ptr<Network>> make_tun_network(const LinkConfig& link, Index 
   return std::unique_ptr<Network>(std::make_unique<TunNetwork>(link, std::move(made)));
 }
 
-}  // namespace cairn::team
+}  // namespace cairn::team_run

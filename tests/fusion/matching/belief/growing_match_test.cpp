@@ -53,8 +53,8 @@ TEST(GrowingMatch, AbstainsInACorridorWithoutEnds) {
 }
 
 /// The same voxels, seen by a robot that leans to its left.
-SemanticOcTree leant_to_the_left(const SemanticOcTree& map, double rad) {
-  SemanticOcTree turned(map.getResolution());
+mapping::SemanticOcTree leant_to_the_left(const mapping::SemanticOcTree& map, double rad) {
+  mapping::SemanticOcTree turned(map.getResolution());
   const Eigen::AngleAxisf turn(static_cast<float>(rad), Eigen::Vector3f::UnitX());
   const auto voxels = occupied_voxels(map);
   for (const Voxel& v : voxels.value()) {
@@ -70,7 +70,7 @@ TEST(DefaultMatcher, ASearchWithoutAGuessFindsNoPoseThatLeans) {
   const auto a = MapFeatures::build(*pair.a);
   ASSERT_TRUE(a);
   for (const double rad : {0.0, 0.2}) {
-    const SemanticOcTree map_b = leant_to_the_left(*pair.b, rad);
+    const mapping::SemanticOcTree map_b = leant_to_the_left(*pair.b, rad);
     const auto b = MapFeatures::build(map_b);
     ASSERT_TRUE(b);
     Budget budget = Budget::steps(kAmpleSteps);

@@ -24,7 +24,7 @@ struct SlippedRide {
     Budget budget = Budget::steps(steps);
     return check_submaps(submaps, budget);
   }
-  std::vector<std::unique_ptr<SemanticOcTree>> maps;
+  std::vector<std::unique_ptr<mapping::SemanticOcTree>> maps;
   std::vector<MapFeatures> features;
   std::vector<const MapFeatures*> submaps;
 };
@@ -52,7 +52,7 @@ TEST(MapCheck, ASlipIsFoundAndSaidHowLarge) {
 }
 
 TEST(MapCheck, NothingInCommonAndNothingAtAllSayNothing) {
-  const SemanticOcTree empty(0.1);
+  const mapping::SemanticOcTree empty(0.1);
   const auto none = MapFeatures::build(empty);
   const MapFeatures* two[] = {&*none, &*none};
   Budget budget = Budget::steps(10);

@@ -9,14 +9,14 @@ namespace cairn::matching {
 namespace {
 
 TEST(EveryMethod, MapsWithTooLittleGiveAReason) {
-  const SemanticOcTree empty(0.1);
-  SemanticOcTree voxel(0.1), plane(0.1);
+  const mapping::SemanticOcTree empty(0.1);
+  mapping::SemanticOcTree voxel(0.1), plane(0.1);
   voxel.setNodeValue(octomap::point3d(1, 2, 3), 1.0F);
   for (int x = 0; x < 60; ++x)
     for (int y = 0; y < 60; ++y) plane.setNodeValue(octomap::point3d(0.1F * float(x), 0.1F * float(y), 0), 1.0F);
-  for (const SemanticOcTree* one :
-       {&empty, static_cast<const SemanticOcTree*>(&voxel), static_cast<const SemanticOcTree*>(&plane)})
-    for (const SemanticOcTree* other : {&empty, static_cast<const SemanticOcTree*>(&plane)}) {
+  for (const mapping::SemanticOcTree* one : {&empty, static_cast<const mapping::SemanticOcTree*>(&voxel),
+                                             static_cast<const mapping::SemanticOcTree*>(&plane)})
+    for (const mapping::SemanticOcTree* other : {&empty, static_cast<const mapping::SemanticOcTree*>(&plane)}) {
       const auto a = MapFeatures::build(*one), b = MapFeatures::build(*other);
       ASSERT_TRUE(a && b);
       for (const std::string_view name : all_method_names()) {
@@ -31,7 +31,7 @@ TEST(EveryMethod, MapsWithTooLittleGiveAReason) {
 }
 
 TEST(EveryMethod, AnUnknownMethodIsNamed) {
-  const SemanticOcTree empty(0.1);
+  const mapping::SemanticOcTree empty(0.1);
   const auto features = MapFeatures::build(empty);
   const auto matcher = make_any_matcher("magic", *features, *features);
   ASSERT_FALSE(matcher);

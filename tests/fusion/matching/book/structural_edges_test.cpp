@@ -10,7 +10,7 @@ namespace {
 
 /// Two walls of 4 × 2 m and 0.1 m voxels that meet along the z axis at an angle; 180° is one flat wall.
 std::vector<Voxel> two_walls(double degrees) {
-  SemanticOcTree map(0.1);
+  mapping::SemanticOcTree map(0.1);
   const double turn = degrees * M_PI / 180;
   for (double s = 0; s < 4; s += 0.04)
     for (double z = -1; z < 1; z += 0.05) {

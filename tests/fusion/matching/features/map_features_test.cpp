@@ -28,7 +28,7 @@ TEST(MapFeatures, KeptAsTheMapGrowsAreThoseOfTheWholeMap) {
   const support::Scene scene = support::corridor();
   support::Vlp16 lidar({}, 0.02, 1);
   Workers workers(1);
-  Mapper mapper({}, workers);
+  mapping::Mapper mapper({}, workers);
   auto kept = MapFeatures::build(mapper.tree());
   ASSERT_TRUE(kept);
   EXPECT_TRUE(kept->fine().empty());
@@ -43,13 +43,13 @@ TEST(MapFeatures, KeptAsTheMapGrowsAreThoseOfTheWholeMap) {
     ASSERT_TRUE(mapper.insert(points, at.translation().cast<float>()));
     // Tiles may come in any order and more than once.
     auto changed = mapper.take_changed_tiles();
-    const std::vector<TileKey> half(changed.begin(), changed.begin() + static_cast<long>(changed.size() / 2));
+    const std::vector<mapping::TileKey> half(changed.begin(), changed.begin() + static_cast<long>(changed.size() / 2));
     std::reverse(changed.begin(), changed.end());
     kept->update(changed);
     kept->update(half);
   }
   // Log-odds that merely move are not told, so let them be told once.
-  std::vector<TileKey> all;
+  std::vector<mapping::TileKey> all;
   const auto voxels = occupied_voxels(mapper.tree());
   ASSERT_TRUE(voxels);
   for (const Voxel& v : *voxels)
@@ -66,7 +66,7 @@ TEST(MapFeatures, KeptAsTheMapGrowsAreThoseOfTheWholeMap) {
 TEST(MapFeatures, AWallShowsItsThicknessWhereBothFacesWereSeen) {
   const Eigen::Vector3f normal = Eigen::Vector3f(0.8F, 0.6F, 0);
   for (const float thickness : {0.0F, 0.12F, 0.2F}) {
-    SemanticOcTree map(0.1);
+    mapping::SemanticOcTree map(0.1);
     for (float u = -3; u < 3; u += 0.02F)
       for (float z = -1; z < 1; z += 0.02F)
         for (const float face : {-0.5F, 0.5F}) {
@@ -83,7 +83,7 @@ TEST(MapFeatures, AWallShowsItsThicknessWhereBothFacesWereSeen) {
 }
 
 TEST(MapFeatures, ATiltedPlaneIsAPlaneNotAStaircase) {
-  SemanticOcTree map(0.1);
+  mapping::SemanticOcTree map(0.1);
   const Eigen::Vector3f normal = Eigen::Vector3f(0.3F, -0.2F, 1).normalized();
   for (float x = -3; x < 3; x += 0.02F)
     for (float y = -3; y < 3; y += 0.02F) {
@@ -109,7 +109,7 @@ TEST(MapFeatures, ATiltedPlaneIsAPlaneNotAStaircase) {
 
 TEST(MapFeatures, CellsFitTilesAtAnyResolution) {
   for (const double resolution : {0.01, 0.05, 0.08, 0.1, 0.2, 0.5}) {
-    SemanticOcTree map(resolution);
+    mapping::SemanticOcTree map(resolution);
     map.setNodeValue(octomap::OcTreeKey(32767, 32768, 30000), 1.0F);
     const auto features = MapFeatures::build(map);
     ASSERT_TRUE(features);

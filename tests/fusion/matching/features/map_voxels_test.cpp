@@ -13,9 +13,9 @@ namespace cairn::matching {
 namespace {
 
 TEST(MapVoxels, AreTheCentresThatExportGives) {
-  const auto map = random_map<SemanticOcTree>(3, 3000);
+  const auto map = mapping::random_map<mapping::SemanticOcTree>(3, 3000);
   const auto voxels = occupied_voxels(*map);
-  const auto centres = occupied_voxel_centres(*map);
+  const auto centres = mapping::occupied_voxel_centres(*map);
   ASSERT_TRUE(voxels && centres);
   ASSERT_EQ(voxels->size(), centres->size());
   for (std::size_t i = 0; i < voxels->size(); ++i) {
@@ -28,7 +28,7 @@ TEST(MapVoxels, AreTheCentresThatExportGives) {
 }
 
 TEST(MapVoxels, TilesTogetherAreTheMapInOrder) {
-  auto map = random_map<SemanticOcTree>(4, 3000);
+  auto map = mapping::random_map<mapping::SemanticOcTree>(4, 3000);
   // A pruned cube of 16³ voxels is a leaf above the tiles.
   for (int x = 0; x < 16; ++x)
     for (int y = 0; y < 16; ++y)
@@ -39,7 +39,7 @@ TEST(MapVoxels, TilesTogetherAreTheMapInOrder) {
   map->canonicalise();
   const auto all = occupied_voxels(*map);
   ASSERT_TRUE(all);
-  std::map<TileKey, std::size_t> tiles;
+  std::map<mapping::TileKey, std::size_t> tiles;
   for (const Voxel& v : *all) ++tiles[tile_of(v)];
   std::size_t at = 0;
   for (const auto& [tile, count] : tiles) {
@@ -51,18 +51,18 @@ TEST(MapVoxels, TilesTogetherAreTheMapInOrder) {
     }
   }
   EXPECT_EQ(at, all->size());
-  EXPECT_TRUE(occupied_voxels(*map, TileKey::of_voxel(5, 5, 5)).empty());
+  EXPECT_TRUE(occupied_voxels(*map, mapping::TileKey::of_voxel(5, 5, 5)).empty());
 }
 
 TEST(MapVoxels, TooManyAreAnErrorBeforeTheyAreListed) {
-  SemanticOcTree map(0.1);
+  mapping::SemanticOcTree map(0.1);
   bool made = false;
   map.root_or_new(made)->setLogOdds(2.0F);  // one leaf that claims 2⁴⁸ voxels
   map.settle_count();
   const auto voxels = occupied_voxels(map);
   ASSERT_FALSE(voxels);
   EXPECT_EQ(voxels.error().code, Errc::kLimit);
-  EXPECT_TRUE(occupied_voxels(SemanticOcTree(0.1))->empty());
+  EXPECT_TRUE(occupied_voxels(mapping::SemanticOcTree(0.1))->empty());
 }
 
 /// Of these voxels as of those of 0.1 m: two maps may have a surface in neighbouring voxels, however large.
@@ -70,8 +70,8 @@ class FreeSpaceOf : public testing::TestWithParam<double> {};
 INSTANTIATE_TEST_SUITE_P(Voxels, FreeSpaceOf, testing::Values(0.1, 0.2));
 
 TEST_P(FreeSpaceOf, IsWhatWasSeenFreeAwayFromAnythingOccupied) {
-  SemanticOcTree tree(GetParam());
-  const SemanticOcTree* map = &tree;
+  mapping::SemanticOcTree tree(GetParam());
+  const mapping::SemanticOcTree* map = &tree;
   std::mt19937 random(2);
   for (int i = 0; i < 20000; ++i) {
     const auto key = [&] { return static_cast<octomap::key_type>(32768 - 12 + static_cast<int>(random() % 24)); };
@@ -104,7 +104,7 @@ TEST_P(FreeSpaceOf, IsWhatWasSeenFreeAwayFromAnythingOccupied) {
 }
 
 TEST(FreeSpace, AnyFloatIsSafe) {
-  const auto map = random_map<SemanticOcTree>(5, 100);
+  const auto map = mapping::random_map<mapping::SemanticOcTree>(5, 100);
   const FreeSpace free(*map);
   for (const float bad :
        {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), -1e30F, 3276.8F})
@@ -113,7 +113,7 @@ TEST(FreeSpace, AnyFloatIsSafe) {
       p[axis] = bad;
       EXPECT_FALSE(free.contains(p));
     }
-  EXPECT_FALSE(FreeSpace(SemanticOcTree(0.1)).contains(Eigen::Vector3f::Zero()));
+  EXPECT_FALSE(FreeSpace(mapping::SemanticOcTree(0.1)).contains(Eigen::Vector3f::Zero()));
 }
 
 }  // namespace

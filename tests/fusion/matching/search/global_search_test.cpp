@@ -82,7 +82,7 @@ TEST_F(OfOffice, APlanKnowsWallsRoomAndHeights) {
 }
 
 TEST(PlanView, OfNothingIsEmptyAndOfFarThingsBounded) {
-  const SemanticOcTree empty(0.1);
+  const mapping::SemanticOcTree empty(0.1);
   const PlanView none({}, empty);
   EXPECT_TRUE(none.columns().empty());
   std::vector<Surfel> far(2);

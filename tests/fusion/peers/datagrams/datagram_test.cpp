@@ -38,7 +38,7 @@ Said random_items(std::mt19937& random, std::size_t count) {
     encode_tile(random_tile_state(random), said.payloads.back());
   }
   for (std::size_t i = 0; i < count; ++i) {
-    const TileKey tile{(std::uint64_t{random()} << 7 ^ i) & ((std::uint64_t{1} << 39) - 1)};
+    const mapping::TileKey tile{(std::uint64_t{random()} << 7 ^ i) & ((std::uint64_t{1} << 39) - 1)};
     const Version version = 1 + random() % 100000;
     said.updates.push_back({ItemId::tile(static_cast<std::uint16_t>(random() % 2), tile), version,
                             random() % 3 == 0 ? random() % version : 0, said.payloads[i]});

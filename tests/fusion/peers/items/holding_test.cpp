@@ -79,7 +79,7 @@ TEST(Holding, ATileIsHeldInTheSubmapItWasSaidInLastWhateverArrivesWhen) {
   for (unsigned seed = 0; seed < 40; ++seed) {
     std::mt19937 random(seed);
     Holding own, peer;
-    std::map<TileKey, ItemId> last;
+    std::map<mapping::TileKey, ItemId> last;
     std::vector<std::pair<ItemUpdate, std::vector<std::byte>>> on_the_way;
     for (unsigned step = 0; step < 300; ++step) {
       const auto submap = static_cast<std::uint16_t>(step / 60);

@@ -8,7 +8,7 @@
 namespace cairn::peers {
 namespace {
 
-std::vector<std::byte> encoded(const TileState& state) {
+std::vector<std::byte> encoded(const mapping::TileState& state) {
   std::vector<std::byte> bytes;
   encode_tile(state, bytes);
   return bytes;
@@ -30,7 +30,7 @@ bool decodes_damaged(std::vector<std::byte> bytes, std::mt19937& random) {
 TEST(TileCodec, DecodesWhatItEncodes) {
   std::mt19937 random(1);
   for (int i = 0; i < 3000; ++i) {
-    const TileState state = random_tile_state(random);
+    const mapping::TileState state = random_tile_state(random);
     const auto bytes = encoded(state);
     ASSERT_LE(bytes.size(), kMaxTileBytes);
     const auto decoded = decode_tile(bytes);
@@ -42,9 +42,9 @@ TEST(TileCodec, DecodesWhatItEncodes) {
 TEST(TileCodec, LabelsComeBackAndCostNothingWhereThereAreNone) {
   std::mt19937 random(4);
   for (int i = 0; i < 2000; ++i) {
-    const TileState plain = random_tile_state(random);
-    const auto kinds = static_cast<unsigned>(1 + random() % VoxelLabel::kCodes);
-    const TileState state = with_labels(plain, random, kinds);
+    const mapping::TileState plain = random_tile_state(random);
+    const auto kinds = static_cast<unsigned>(1 + random() % mapping::VoxelLabel::kCodes);
+    const mapping::TileState state = with_labels(plain, random, kinds);
     const auto bytes = encoded(state);
     ASSERT_LE(bytes.size(), kMaxTileBytes);
     const auto decoded = decode_tile(bytes);
@@ -61,7 +61,7 @@ TEST(TileCodec, OnlyOneFormOfLabelsIsTaken) {
   std::mt19937 random(5);
   int decoded_ones = 0;
   for (int i = 0; i < 30000; ++i) {
-    const TileState wall = wall_tile_state(random);
+    const mapping::TileState wall = wall_tile_state(random);
     const auto kinds = static_cast<unsigned>(1 + random() % 20);
     decoded_ones += decodes_damaged(encoded(with_labels(wall, random, kinds)), random) ? 1 : 0;
   }
@@ -70,7 +70,7 @@ TEST(TileCodec, OnlyOneFormOfLabelsIsTaken) {
 
 TEST(TileCodec, ATileOfOneKindIsOneByte) {
   for (const float value : {-1.6F, -0.4F, 0.5F, 1.5F, 2.5F, 3.5F}) {
-    TileState state;
+    mapping::TileState state;
     for (unsigned i = 0; i < 512; ++i) state.set(i % 8, i / 8 % 8, i / 64, value);
     EXPECT_EQ(encoded(state).size(), 1U);
     EXPECT_EQ(decode_tile(encoded(state)).value(), state);
@@ -79,7 +79,7 @@ TEST(TileCodec, ATileOfOneKindIsOneByte) {
 
 TEST(TileCodec, TheWorstTileFits) {
   std::mt19937 random(2);
-  TileState worst;
+  mapping::TileState worst;
   for (unsigned i = 0; i < 512; ++i)
     if (i % 2 == (i / 8 + i / 64) % 2) worst.set(i % 8, i / 8 % 8, i / 64, i % 4 < 2 ? -0.4F : 1.5F);
   worst = with_labels(worst, random, 16);

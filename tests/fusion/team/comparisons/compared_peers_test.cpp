@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 MatchJob job_about(peers::RobotId peer, peers::Epoch own_epoch, peers::Epoch peer_epoch) {
@@ -49,4 +49,4 @@ TEST(ComparedPeers, AJobIsAboutNobodyAfterABeginning) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

@@ -6,7 +6,7 @@
 #include "fusion/matching/belief/guess.hpp"
 #include "tests/fusion/team/comparisons/known_team.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 using matching::PendingHypotheses;
@@ -92,4 +92,4 @@ TEST_F(DeploymentsTest, AFaultNamesHowFarTheyAreOff) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

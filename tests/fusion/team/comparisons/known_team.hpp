@@ -12,7 +12,7 @@
 #include "fusion/peers/items/tile_codec.hpp"
 #include "fusion/team/comparisons/team_view.hpp"
 
-namespace cairn {
+namespace cairn::team {
 
 /// What robot 1 knows of its team, put together by hand.
 struct KnownTeam {
@@ -43,7 +43,7 @@ struct KnownTeam {
 
   /// A robot publishes a row of tiles with a wall each, along x from `first`, in one of its submaps.
   void publish_walls(peers::RobotId robot, std::uint16_t submap, int first, int count) {
-    TileState wall;
+    mapping::TileState wall;
     for (unsigned i = 0; i < 64; ++i) wall.set(i % 8, 3, i / 8, 2);
     std::vector<std::byte> payload;
     peers::encode_tile(wall, payload);
@@ -52,7 +52,9 @@ struct KnownTeam {
       (void)tiles.put(robot, tile_at(x), submap, true);
     }
   }
-  static TileKey tile_at(int x) { return TileKey::of_voxel(static_cast<std::uint16_t>(32768 + 8 * x), 32768, 32768); }
+  static mapping::TileKey tile_at(int x) {
+    return mapping::TileKey::of_voxel(static_cast<std::uint16_t>(32768 + 8 * x), 32768, 32768);
+  }
 
   /// A robot publishes where it was put down, with standard deviations of position and attitude.
   void deploy(peers::RobotId robot, const SE3& T_site_odom, double sigma_m, double sigma_rad) {
@@ -90,4 +92,4 @@ inline matching::Look contradicting(const SE3& T_a_b) {
   return look;
 }
 
-}  // namespace cairn
+}  // namespace cairn::team

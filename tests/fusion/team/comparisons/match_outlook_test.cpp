@@ -7,7 +7,7 @@
 
 #include "tests/fusion/team/comparisons/known_team.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 using matching::PendingHypotheses;
@@ -61,10 +61,10 @@ TEST(MatchOutlook, AVagueDeploymentIsNoPose) {
 }
 
 TEST(MatchOutlook, CommonTilesAreThoseThatLieOnEachOther) {
-  std::set<TileKey> row, turned;  // along x, and the same as a robot sees it whose x axis is the other's −y
+  std::set<mapping::TileKey> row, turned;  // along x, and the same as a robot sees it whose x axis is the other's −y
   for (int i = 0; i < 3000; ++i) {
-    row.insert(TileKey::of_voxel(static_cast<std::uint16_t>(32768 + 8 * i), 32768, 32768));
-    turned.insert(TileKey::of_voxel(32768, static_cast<std::uint16_t>(32768 - 8 * i), 32768));
+    row.insert(mapping::TileKey::of_voxel(static_cast<std::uint16_t>(32768 + 8 * i), 32768, 32768));
+    turned.insert(mapping::TileKey::of_voxel(32768, static_cast<std::uint16_t>(32768 - 8 * i), 32768));
   }
   const auto at = [](double x, double y, double yaw) {
     return SE3::from_xyz_rpy((Vector6() << x, y, 0, 0, 0, yaw).finished());
@@ -78,4 +78,4 @@ TEST(MatchOutlook, CommonTilesAreThoseThatLieOnEachOther) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

@@ -7,7 +7,7 @@
 
 #include "tests/fusion/team/comparisons/known_team.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 using std::chrono::seconds;
@@ -122,4 +122,4 @@ TEST_F(MatchPlanTest, WithoutWholeMapsToCompareItComparesSubmapsOfTheTeam) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

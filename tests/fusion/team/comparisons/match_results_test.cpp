@@ -8,7 +8,7 @@
 
 #include "tests/fusion/team/comparisons/known_team.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 class MatchResultsTest : public testing::Test {
@@ -92,4 +92,4 @@ TEST_F(MatchResultsTest, SubmapsThatAreVoidSinceAreNoEdge) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

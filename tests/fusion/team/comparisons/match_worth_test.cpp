@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 using std::chrono::milliseconds;
@@ -87,4 +87,4 @@ TEST(MatchWorth, MoreIsWorthMore) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

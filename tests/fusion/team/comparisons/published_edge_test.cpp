@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 peers::Edge edge_at(double x, double yaw = 0, std::uint16_t own_submap = 0) {
@@ -54,4 +54,4 @@ TEST(PublishedEdge, IsWithdrawnOnceAndCanStandAgain) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

@@ -5,7 +5,7 @@
 
 #include <set>
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 constexpr double kTileEdgeM = 1.6;
@@ -14,7 +14,7 @@ constexpr double kTileEdgeM = 1.6;
 void add(RobotTiles& robot, std::uint16_t submap, int first, int count) {
   const auto voxel = [](int tile) { return static_cast<std::uint16_t>(32768 + 8 * tile); };
   for (int x = first; x < first + count; ++x)
-    for (int y = -1; y <= 1; ++y) robot.put(TileKey::of_voxel(voxel(x), voxel(y), voxel(0)), submap, true);
+    for (int y = -1; y <= 1; ++y) robot.put(mapping::TileKey::of_voxel(voxel(x), voxel(y), voxel(0)), submap, true);
 }
 
 TeamPoses all_at_the_origin(std::uint16_t submaps) {
@@ -85,4 +85,4 @@ TEST(Refinements, WholeMapsAndTooLittleInCommonAreNotCompared) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

@@ -5,7 +5,7 @@
 
 #include "tests/fusion/team/comparisons/known_team.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 /// Robot 1 has driven along x, tile by tile, in three submaps; robot 2 has seen a part of that.
@@ -62,4 +62,4 @@ TEST(SubmapEdge, ASubmapWithoutAPlaceInOdomIsNotNamed) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

@@ -31,7 +31,7 @@ class Fleet {
 
   [[nodiscard]] Time now() const { return now_; }
   [[nodiscard]] const Exchange& robot(RobotId id) const { return robots_.at(id)->exchange(); }
-  [[nodiscard]] const Team& team(RobotId id) const { return *robots_.at(id); }
+  [[nodiscard]] const team::Team& team(RobotId id) const { return *robots_.at(id); }
   [[nodiscard]] bool hears(RobotId id, RobotId other) const { return robot(id).hears(other, clock(id)); }
   [[nodiscard]] bool up(RobotId id) const { return robots_.at(id) != nullptr; }
   [[nodiscard]] std::size_t refused() const { return refused_; }
@@ -39,12 +39,12 @@ class Fleet {
   /// A robot begins for the nth time, as far as it remembers, knowing nothing.
   void start(RobotId id, std::uint64_t nth) {
     const peers::Epoch epoch = nth << 32U | (random_() & 0xFFFFFFFFU);
-    TeamConfig config;
+    team::TeamConfig config;
     config.id = id;
     config.name = "robot_" + std::to_string(id);
     config.exchange.bytes_per_second = bytes_per_second_;
     config.own_submaps.length_m = 120;
-    robots_[id] = std::make_unique<Team>(config, epoch);
+    robots_[id] = std::make_unique<team::Team>(config, epoch);
     for (const RobotId other : {id - 1, id + 1})
       if (other > 0) robots_[id]->claim(other, T_of(id, other), 0.99);
   }
@@ -58,7 +58,7 @@ class Fleet {
     for (int i = 0; i < tiles; ++i) {
       const auto at = [&](unsigned most) { return static_cast<std::uint16_t>(32768 + 8 * (random_() % most)); };
       const auto z = at(4), y = at(6), x = at(5);  // of arguments, each compiler draws another first
-      robots_.at(id)->observe(TileKey::of_voxel(x, y, z), peers::wall_tile_state(random_), clock(id));
+      robots_.at(id)->observe(mapping::TileKey::of_voxel(x, y, z), peers::wall_tile_state(random_), clock(id));
     }
   }
   /// How many tiles a robot fuses, and how often.
@@ -95,7 +95,7 @@ class Fleet {
     for (const auto& [id, robot] : robots_) {
       if (!robot) continue;
       std::ostringstream bytes;
-      SemanticOcTree copy(robot->map().map());
+      mapping::SemanticOcTree copy(robot->map().map());
       (void)copy.writeData(bytes);
       maps.insert(bytes.str());
     }
@@ -124,7 +124,7 @@ class Fleet {
     return now_ + drift + std::chrono::seconds(2) * static_cast<std::int64_t>(id % 2) + std::chrono::hours(id);
   }
 
-  void step(RobotId id, Team& robot) {
+  void step(RobotId id, team::Team& robot) {
     out_.clear();
     robot.step(clock(id), out_);
     for (const peers::Outgoing& datagram : out_) network.send(id, robots_.size(), datagram, now_);
@@ -134,7 +134,7 @@ class Fleet {
     (void)robot.fuse(budget);
   }
 
-  void compare(Team& robot, Time now) {
+  void compare(team::Team& robot, Time now) {
     auto job = robot.next_match(now);
     if (!job) return;
     if (job->refinement) {
@@ -161,7 +161,7 @@ class Fleet {
   Time now_{};
   std::size_t bytes_per_second_;
   std::mt19937 random_;
-  std::map<RobotId, std::unique_ptr<Team>> robots_;
+  std::map<RobotId, std::unique_ptr<team::Team>> robots_;
   int slice_ = 1;
   Duration every_ = std::chrono::seconds(1);  // little, while nobody asks: a test runs thousands of minutes
   std::vector<peers::Outgoing> out_;

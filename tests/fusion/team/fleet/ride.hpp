@@ -21,7 +21,8 @@ struct Start {
 /// Robots, their network and their common time.
 class Ride {
  public:
-  Ride(const support::Scene& scene, const std::vector<Start>& starts, const LinkQuality& quality, TeamConfig config)
+  Ride(const support::Scene& scene, const std::vector<Start>& starts, const LinkQuality& quality,
+       team::TeamConfig config)
       : network_(quality, 1) {
     for (const Start& start : starts) {
       config.id = robots_.size() + 1;
@@ -57,7 +58,7 @@ class Ride {
     for (const auto& datagram : out) network_.send(self, robots_.size(), datagram, now_);
     if (auto job = robot.team.next_match(now_)) {
       Budget budget = Budget::steps(matching::kAmpleSteps);
-      cairn::run(*job, budget);
+      cairn::team::run(*job, budget);
       robot.team.matched(std::move(*job), now_);
     }
     Budget slice = Budget::steps(200);

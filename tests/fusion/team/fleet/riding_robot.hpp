@@ -21,7 +21,8 @@ struct Drift {
 /// Its odom frame is that of its start, turned by `yaw`.
 class RidingRobot {
  public:
-  RidingRobot(const TeamConfig& config, const support::Scene& scene, double from, double yaw, const Drift& drift = {})
+  RidingRobot(const team::TeamConfig& config, const support::Scene& scene, double from, double yaw,
+              const Drift& drift = {})
       : team(config, std::uint64_t{1} << 32U),
         scene_(scene),
         phi_(from),
@@ -47,16 +48,17 @@ class RidingRobot {
     for (const Eigen::Vector3f& p : scan.cloud.xyz)
       points_.emplace_back((T_odom_lidar * p.cast<double>()).cast<float>());
     (void)mapper_.insert(points_, T_odom_lidar.translation().cast<float>());
-    for (const TileKey tile : mapper_.take_changed_tiles()) team.observe(tile, read_tile(mapper_.tree(), tile), now);
+    for (const mapping::TileKey tile : mapper_.take_changed_tiles())
+      team.observe(tile, mapping::read_tile(mapper_.tree(), tile), now);
   }
 
   /// Where the robot is in the world.
   [[nodiscard]] SE3 T_world_base() const { return support::pose_on(scene_.ride, phi_); }
   /// By now.
   [[nodiscard]] const SE3& T_odom_world() const { return T_odom_world_; }
-  [[nodiscard]] const SemanticOcTree& map() const { return mapper_.tree(); }
+  [[nodiscard]] const mapping::SemanticOcTree& map() const { return mapper_.tree(); }
 
-  Team team;
+  team::Team team;
 
  private:
   [[nodiscard]] SE3 drifted(const SE3& moved) const {
@@ -70,8 +72,8 @@ class RidingRobot {
     v << 0.2, 0, 0.6, 0, 0, 0;
     return SE3::from_xyz_rpy(v);
   }
-  static MappingConfig mapping(double resolution_m) {
-    MappingConfig config;
+  static mapping::MappingConfig mapping(double resolution_m) {
+    mapping::MappingConfig config;
     config.resolution_m = resolution_m;
     config.max_range_m = 12;
     return config;
@@ -83,7 +85,7 @@ class RidingRobot {
   SE3 T_odom_world_;
   support::Vlp16 lidar_;
   Workers workers_{1};
-  Mapper mapper_;
+  mapping::Mapper mapper_;
   std::vector<Eigen::Vector3f> points_;
 };
 

@@ -6,7 +6,7 @@
 #include <Eigen/Cholesky>
 #include <random>
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 Matrix6 spread(double metres, double radians) {
@@ -84,4 +84,4 @@ TEST(PoseGraph, ANodeAloneStays) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

@@ -7,7 +7,7 @@
 #include "fusion/team/graph/indexed_edge.hpp"
 #include "tests/fusion/team/comparisons/known_team.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 constexpr peers::Epoch kEpoch = KnownTeam::kEpoch;
@@ -91,4 +91,4 @@ TEST(EdgeIndex, SaysTheOrigin) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

@@ -7,7 +7,7 @@
 #include <algorithm>
 #include <random>
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 SE3 pose(double x, double y, double yaw) {
@@ -248,4 +248,4 @@ TEST(TeamGraphWithDrift, RefinementsConnectNobody) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

@@ -5,7 +5,7 @@
 
 #include "tests/fusion/team/comparisons/known_team.hpp"
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 constexpr std::size_t kAllTiles = 1U << 20U;
@@ -27,14 +27,14 @@ TEST_F(PublishedTilesTest, AreThoseOfAllSubmapsOrOfOne) {
   EXPECT_EQ(tiles().tiles.size(), 8U);
   EXPECT_EQ(tiles(0).tiles.size(), 5U);
   EXPECT_EQ(tiles(1).tiles.size(), 3U);
-  EXPECT_EQ(known_tiles(tiles().map(), kAllTiles).size(), 8U);
+  EXPECT_EQ(mapping::known_tiles(tiles().map(), kAllTiles).size(), 8U);
 }
 
 TEST_F(PublishedTilesTest, AMapInOdomHasTheSameTilesAsTheRobot) {
-  const SemanticOcTree map = tiles(1).map();
-  for (const TileKey tile : known_tiles(map, kAllTiles)) {
+  const mapping::SemanticOcTree map = tiles(1).map();
+  for (const mapping::TileKey tile : mapping::known_tiles(map, kAllTiles)) {
     const auto& item = team_.exchange.layers().at(2).holding.items().at(peers::ItemId::tile(1, tile));
-    EXPECT_EQ(read_tile(map, tile), peers::decode_tile(item.payload).value());
+    EXPECT_EQ(mapping::read_tile(map, tile), peers::decode_tile(item.payload).value());
   }
 }
 
@@ -42,10 +42,10 @@ TEST_F(PublishedTilesTest, AMovedSubmapLiesWhereItWasMovedTo) {
   PublishedTiles moved = tiles(1);
   moved.T_map_odom[1] = KnownTeam::at(1.6 * 100, 0);
   EXPECT_EQ(moved.T_map_odom_of(0).matrix(), Eigen::Matrix4d::Identity());
-  const auto where = known_tiles(moved.map(), kAllTiles);
+  const auto where = mapping::known_tiles(moved.map(), kAllTiles);
   ASSERT_FALSE(where.empty());
-  for (const TileKey tile : where) EXPECT_GE(tile.first_voxel(0), 32768 + 8 * 104);
+  for (const mapping::TileKey tile : where) EXPECT_GE(tile.first_voxel(0), 32768 + 8 * 104);
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

@@ -5,23 +5,23 @@
 
 #include <random>
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 constexpr double kTileM = 1.6;
 
-TileKey tile(int x, int y, int z) {
+mapping::TileKey tile(int x, int y, int z) {
   const auto voxel = [](int t) { return static_cast<std::uint16_t>(32768 + 8 * t); };
-  return TileKey::of_voxel(voxel(x), voxel(y), voxel(z));
+  return mapping::TileKey::of_voxel(voxel(x), voxel(y), voxel(z));
 }
 
 /// The slow way: who was where, said by said.
 TEST(RobotTiles, ATileIsInTheSubmapItWasSaidInLast) {
   std::mt19937 random(1);
   RobotTiles tiles;
-  std::map<TileKey, std::pair<std::uint16_t, bool>> last;
+  std::map<mapping::TileKey, std::pair<std::uint16_t, bool>> last;
   for (int step = 0; step < 2000; ++step) {
-    const TileKey key = tile(static_cast<int>(random() % 20) - 10, 0, 0);
+    const mapping::TileKey key = tile(static_cast<int>(random() % 20) - 10, 0, 0);
     const auto submap = static_cast<std::uint16_t>(random() % 3);
     const bool occupied = random() % 2 == 0;
     const auto held = last.find(key);
@@ -51,4 +51,4 @@ TEST(RobotTiles, CommonTilesAreThoseOnBothSidesOfTheOrigin) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

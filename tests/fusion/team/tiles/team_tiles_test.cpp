@@ -3,7 +3,7 @@
 
 #include <gtest/gtest.h>
 
-namespace cairn {
+namespace cairn::team {
 namespace {
 
 TEST(TeamTiles, ARobotOfWhichNothingIsKnownHasNone) {
@@ -33,4 +33,4 @@ TEST(TeamTiles, ABeginningVoidsTheTilesButNotTheVersion) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::team

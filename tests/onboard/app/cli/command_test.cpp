@@ -5,7 +5,7 @@
 
 #include <nlohmann/json.hpp>
 
-namespace cairn::cli {
+namespace cairn::app {
 namespace {
 
 TEST(Command, AFileNameThatIsNotUtf8IsPrintedAsValidJson) {
@@ -26,4 +26,4 @@ TEST(Command, OnlyAFaultyConfigurationCountsAsWrongArguments) {
 }
 
 }  // namespace
-}  // namespace cairn::cli
+}  // namespace cairn::app

@@ -6,7 +6,7 @@
 
 #include <algorithm>
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using ::testing::ElementsAre;
@@ -55,4 +55,4 @@ TEST(Devices, AMissingOneIsNamedWithItsRemedy) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

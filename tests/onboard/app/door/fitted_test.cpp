@@ -3,25 +3,27 @@
 
 #include <gtest/gtest.h>
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
-Fitted with(recording::SensorKind kind, const RobotProfile& profile = {}) {
+safety::Fitted with(recording::SensorKind kind, const RobotProfile& profile = {}) {
   std::vector<recording::SourceEntry> sources(1);
   sources[0].kind = kind;
   return fitted_with(sources, profile);
 }
 
-bool watches(const Fitted& fitted, Watched what) { return fitted.watched[static_cast<std::size_t>(what)]; }
+bool watches(const safety::Fitted& fitted, safety::Watched what) {
+  return fitted.watched[static_cast<std::size_t>(what)];
+}
 
 TEST(Fitted, EverySensorIsWatchedForSilence) {
-  EXPECT_TRUE(watches(with(recording::kVelodyne), Watched::kLidar));
-  EXPECT_TRUE(watches(with(recording::kScans), Watched::kLidar));
-  EXPECT_TRUE(watches(with(recording::kCamera), Watched::kCamera));
-  EXPECT_TRUE(watches(with(recording::kThermal), Watched::kThermal));
-  EXPECT_TRUE(watches(with(recording::kDepth), Watched::kDepth));
-  EXPECT_TRUE(watches(with(recording::kDrive), Watched::kFeedback));
-  EXPECT_FALSE(watches(with(recording::kCamera), Watched::kLidar));
+  EXPECT_TRUE(watches(with(recording::kVelodyne), safety::Watched::kLidar));
+  EXPECT_TRUE(watches(with(recording::kScans), safety::Watched::kLidar));
+  EXPECT_TRUE(watches(with(recording::kCamera), safety::Watched::kCamera));
+  EXPECT_TRUE(watches(with(recording::kThermal), safety::Watched::kThermal));
+  EXPECT_TRUE(watches(with(recording::kDepth), safety::Watched::kDepth));
+  EXPECT_TRUE(watches(with(recording::kDrive), safety::Watched::kFeedback));
+  EXPECT_FALSE(watches(with(recording::kCamera), safety::Watched::kLidar));
 }
 
 TEST(Fitted, ADriveIsOneThatCanBeStopped) {
@@ -38,4 +40,4 @@ TEST(Fitted, AnEStopCountsWhenTheProfileNamesItsLine) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

@@ -5,7 +5,7 @@
 
 #include <deque>
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using namespace std::chrono_literals;
@@ -83,4 +83,4 @@ TEST_F(LiveSourcesTest, ItEndsWhenAllHaveEnded) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

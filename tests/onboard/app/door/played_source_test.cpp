@@ -5,7 +5,7 @@
 
 #include <deque>
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 class ListSource final : public Source {
@@ -47,4 +47,4 @@ TEST(PlayedSource, AnEmptyOneHasNoFirstArrival) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

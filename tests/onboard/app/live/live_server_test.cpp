@@ -8,7 +8,7 @@
 #include "tests/support/local_socket.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using support::StreamClient;
@@ -85,4 +85,4 @@ TEST_F(LiveServerTest, AFileIsNotReplacedAndALongPathRefused) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

@@ -9,7 +9,7 @@
 
 #include "tests/support/sample_view.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 TEST(LiveView, ParseIsTheInverseOfToLine) {
@@ -83,4 +83,4 @@ TEST(LiveView, HostileShapesAreRefusedOrIgnored) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

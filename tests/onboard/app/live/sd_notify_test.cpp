@@ -6,7 +6,7 @@
 #include "tests/support/local_socket.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using namespace std::chrono_literals;
@@ -57,4 +57,4 @@ TEST(SdNotify, TheTimeOutIsForTheNamedProcessAlone) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

@@ -6,7 +6,7 @@
 #include <csignal>
 #include <cstdlib>
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 [[noreturn]] void signalled_twice(Duration patience) {
@@ -27,4 +27,4 @@ TEST(StopSignalDeathTest, ALaterOneKills) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

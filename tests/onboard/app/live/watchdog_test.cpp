@@ -6,7 +6,7 @@
 #include "tests/support/local_socket.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using namespace std::chrono_literals;
@@ -91,4 +91,4 @@ TEST_F(WatchdogTest, AStatusIsOneLine) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

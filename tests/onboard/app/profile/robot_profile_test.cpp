@@ -10,7 +10,7 @@
 #include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 TEST(RobotProfile, EveryProfileInConfigIsValid) {
@@ -75,4 +75,4 @@ TEST(RobotProfile, WithoutAFileTheDefaultsHold) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

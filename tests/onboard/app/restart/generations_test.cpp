@@ -12,7 +12,7 @@
 #include "tests/support/failing_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -28,9 +28,9 @@ SavedState state_at(int second) {
 }
 
 /// A map of its own for each number, small enough to damage every byte of its file.
-std::unique_ptr<SemanticOcTree> map_of(int number) {
-  auto map = std::make_unique<SemanticOcTree>(0.1);
-  scatter_updates(*map, static_cast<unsigned>(number), 6);
+std::unique_ptr<mapping::SemanticOcTree> map_of(int number) {
+  auto map = std::make_unique<mapping::SemanticOcTree>(0.1);
+  mapping::scatter_updates(*map, static_cast<unsigned>(number), 6);
   return map;
 }
 
@@ -42,7 +42,7 @@ class GenerationsTest : public testing::Test {
     const auto loaded = open().load(Time{});
     if (!loaded) return -1;
     const int number = static_cast<int>(to_seconds(loaded->state.stamp));
-    const bool same = differing_nodes(*loaded->map, *map_of(number)) == 0 &&
+    const bool same = mapping::differing_nodes(*loaded->map, *map_of(number)) == 0 &&
                       loaded->state.T_odom_base.mean.translation().x() == number;
     return same ? number : -2;
   }
@@ -187,4 +187,4 @@ TEST_F(GenerationsTest, WithoutAFolderNothingIsLoadedAndSavingSaysWhy) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

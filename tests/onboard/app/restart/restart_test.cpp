@@ -8,7 +8,7 @@
 #include "tests/onboard/mapping/tree_compare.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using namespace std::chrono_literals;
@@ -25,9 +25,9 @@ class RestartTest : public testing::Test {
   }
   void save() {
     Generations generations(folder.path(), *monitor);
-    ASSERT_TRUE(generations.save(*random_map<SemanticOcTree>(1, 20), state));
+    ASSERT_TRUE(generations.save(*mapping::random_map<mapping::SemanticOcTree>(1, 20), state));
     ASSERT_TRUE(generations.save_state(state));
-    ASSERT_TRUE(generations.save_scans({state.epoch, {PlacedScan{state.stamp, {}, {{1, 2, 3}}}}}));
+    ASSERT_TRUE(generations.save_scans({state.epoch, {odometry::PlacedScan{state.stamp, {}, {{1, 2, 3}}}}}));
   }
   PreviousRun look(double now_s, double resolution_m = 0.1) {
     Generations generations(folder.path(), *monitor);
@@ -63,7 +63,7 @@ TEST_F(RestartTest, TheStateIsLostOnlyWhenNoSavedMapCanBeRead) {
   save();
   Generations generations(folder.path(), *monitor);
   ASSERT_TRUE(generations.load({}));
-  ASSERT_TRUE(generations.save(*random_map<SemanticOcTree>(2, 20), state));
+  ASSERT_TRUE(generations.save(*mapping::random_map<mapping::SemanticOcTree>(2, 20), state));
   std::filesystem::resize_file(folder / Generations::kMapFiles[0], 20);
   EXPECT_FALSE(look(11).state_lost) << "the other generation is whole";
   std::filesystem::resize_file(folder / Generations::kMapFiles[1], 20);
@@ -108,7 +108,7 @@ TEST_F(RestartTest, WhatIsKeptWithARecordingIsFoundThere) {
   ASSERT_TRUE(keep_with_recording(recording.path(), *previous.resumed, *monitor));
   const auto found = resumed_in_recording(recording.path(), *monitor);
   ASSERT_TRUE(found);
-  EXPECT_EQ(differing_nodes(*found->map, *previous.resumed->map), 0U);
+  EXPECT_EQ(mapping::differing_nodes(*found->map, *previous.resumed->map), 0U);
   EXPECT_EQ(found->map_stamp, previous.resumed->map_stamp);
   EXPECT_EQ(found->state.stamp, previous.resumed->state.stamp);
   EXPECT_EQ(found->scans.front().points_base, previous.resumed->scans.front().points_base);
@@ -126,7 +126,7 @@ LocatedScan located(int number, std::uint32_t epoch) {
 /// Mapping and saving in turns, without threads.
 class SavingTest : public RestartTest {
  protected:
-  void drive(int from, int to, std::uint32_t epoch, const SemanticOcTree& map) {
+  void drive(int from, int to, std::uint32_t epoch, const mapping::SemanticOcTree& map) {
     for (int i = from; i < to; ++i) {
       copier.mapped(located(i, epoch));
       for (int k = 0; k < 9; ++k) copier.idle(at(0.1 * i + 0.01 * k), map);
@@ -141,13 +141,13 @@ class SavingTest : public RestartTest {
 };
 
 TEST_F(SavingTest, AfterADriveMapPoseAndScansAreThere) {
-  const auto map = random_map<SemanticOcTree>(2, 500);
+  const auto map = mapping::random_map<mapping::SemanticOcTree>(2, 500);
   drive(0, 35, 1, *map);
   EXPECT_EQ(task.maps_saved(), 4U);
   const PreviousRun previous = look(3.5);
   ASSERT_TRUE(previous.resumed) << said();
   EXPECT_EQ(previous.epoch, 6U);
-  EXPECT_EQ(differing_nodes(*previous.resumed->map, *map), 0U);
+  EXPECT_EQ(mapping::differing_nodes(*previous.resumed->map, *map), 0U);
   EXPECT_EQ(previous.resumed->state.stamp, at(3.4));
   EXPECT_GE(previous.resumed->map_stamp, at(3.0));
   // The first eight, and then one every 0.4 m; each thinned.
@@ -156,19 +156,20 @@ TEST_F(SavingTest, AfterADriveMapPoseAndScansAreThere) {
 }
 
 TEST_F(SavingTest, ANewEpochForgetsTheScansAndTheHalfCopyOfTheOld) {
-  const auto large = random_map<SemanticOcTree>(2, 200'000), small = random_map<SemanticOcTree>(3, 30);
+  const auto large = mapping::random_map<mapping::SemanticOcTree>(2, 200'000),
+             small = mapping::random_map<mapping::SemanticOcTree>(3, 30);
   copier.mapped(located(0, 1));
   copier.idle(at(0), *large);
   drive(1, 40, 2, *small);
   const PreviousRun previous = look(4);
   ASSERT_TRUE(previous.resumed) << said();
   EXPECT_EQ(previous.epoch, 7U);
-  EXPECT_EQ(differing_nodes(*previous.resumed->map, *small), 0U);
+  EXPECT_EQ(mapping::differing_nodes(*previous.resumed->map, *small), 0U);
   EXPECT_EQ(previous.resumed->scans.front().stamp, at(0.1));
 }
 
 TEST_F(SavingTest, AMapWithoutItsPoseFileHasAPoseOfItsOwn) {
-  const auto map = random_map<SemanticOcTree>(2, 50);
+  const auto map = mapping::random_map<mapping::SemanticOcTree>(2, 50);
   drive(2, 5, 1, *map);
   std::filesystem::remove(folder / Generations::kStateFile);
   const PreviousRun previous = look(1);
@@ -179,7 +180,7 @@ TEST_F(SavingTest, AMapWithoutItsPoseFileHasAPoseOfItsOwn) {
 }
 
 TEST_F(SavingTest, ALostScanMovesNothing) {
-  const auto map = random_map<SemanticOcTree>(2, 50);
+  const auto map = mapping::random_map<mapping::SemanticOcTree>(2, 50);
   drive(0, 5, 1, *map);
   TrackPoint lost{at(0.6), {}, Vector6::Zero(), 1};
   lost.lost = true;
@@ -189,4 +190,4 @@ TEST_F(SavingTest, ALostScanMovesNothing) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

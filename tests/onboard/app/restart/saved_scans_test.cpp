@@ -5,13 +5,13 @@
 
 #include <limits>
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 SavedScans some_scans() {
   SavedScans saved{7, {}};
   for (int i = 0; i < 3; ++i) {
-    PlacedScan scan{
+    odometry::PlacedScan scan{
         Time{Duration{100 * i}}, SE3::from_xyz_rpy((Vector6() << i, 1, 2, 0.1, 0.2, 0.3 * i).finished()), {}};
     for (int k = 0; k < 4 * i; ++k) scan.points_base.emplace_back(0.1F * static_cast<float>(k), 1.0F, -2.5F);
     saved.scans.push_back(scan);
@@ -48,9 +48,9 @@ TEST(SavedScans, RefusesWhatIsNotFiniteAndTooMany) {
   saved.scans[2].points_base[1].y() = std::numeric_limits<float>::quiet_NaN();
   EXPECT_EQ(decode_scans(encode(saved)).error().code, Errc::kMalformed);
   saved = some_scans();
-  saved.scans.resize(RecentScans::kScans + 1);
+  saved.scans.resize(odometry::RecentScans::kScans + 1);
   EXPECT_EQ(decode_scans(encode(saved)).error().code, Errc::kLimit);
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 SavedState random_state(unsigned seed) {
@@ -70,4 +70,4 @@ TEST(SavedState, AQuaternionOfAnotherLengthIsNone) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

@@ -8,7 +8,7 @@
 #include "tests/support/failing_disk.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using namespace std::chrono_literals;
@@ -53,4 +53,4 @@ TEST(StartLog, WhateverTheFileHoldsAndTheDiskDoesTheRobotStarts) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using namespace std::chrono_literals;
@@ -81,4 +81,4 @@ TEST_F(ConnectInputsTest, WithoutInputsNothingArrives) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

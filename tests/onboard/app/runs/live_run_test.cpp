@@ -18,7 +18,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/vlp16_drive.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 const Vector6 kMountOfLidar = (Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished();
@@ -62,7 +62,7 @@ TEST(LiveRun, IsRepeatedToTheBitFromWhatItRecorded) {
   live.pace = Pace::kLive;
   const auto result = run_while(drive.packets(), live);
   ASSERT_TRUE(result) << to_string(result.error());
-  const RunReport& ran = (*result)->report;
+  const report::RunReport& ran = (*result)->report;
   EXPECT_GE(ran.scans, kLeastScans);
   EXPECT_EQ(ran.control_thread_allocations, 0U);
   ASSERT_EQ(ran.losses.size(), 1U);
@@ -130,4 +130,4 @@ TEST(LiveRun, AStartAfterAnotherGoesOnInItsMapAndIsRepeatedToTheBit) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

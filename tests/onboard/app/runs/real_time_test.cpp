@@ -6,7 +6,7 @@
 #include "onboard/scheduler/idle_task.hpp"
 #include "onboard/scheduler/threads.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 TEST(RealTime, EverythingThatTheMachineRefusesIsAnEvent) {
@@ -22,4 +22,4 @@ TEST(RealTime, EverythingThatTheMachineRefusesIsAnEvent) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

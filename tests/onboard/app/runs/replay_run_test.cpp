@@ -3,7 +3,7 @@
 
 #include <gmock/gmock.h>
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using namespace std::chrono_literals;
@@ -65,4 +65,4 @@ TEST_F(ReplayRunTest, TheLogOfAnotherScheduleIsRefused) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

@@ -5,7 +5,7 @@
 
 #include "tests/onboard/app/tasks/safety_neighbours.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using namespace std::chrono_literals;
@@ -34,16 +34,16 @@ struct SafetyEventsTest : ::testing::Test {
 
 TEST_F(SafetyEventsTest, AFaultItsEndAndEveryModeAreEvents) {
   tick();
-  safety.report({Fault::kStageDemoted});
+  safety.report({safety::Fault::kStageDemoted});
   tick();
   safety_events.read();
-  EXPECT_EQ(safety_events.decision().mode, Mode::kDegraded);
-  EXPECT_TRUE(safety_events.decision().active.has(Fault::kStageDemoted));
+  EXPECT_EQ(safety_events.decision().mode, safety::Mode::kDegraded);
+  EXPECT_TRUE(safety_events.decision().active.has(safety::Fault::kStageDemoted));
   safety.report({});
   tick();
-  EXPECT_EQ(safety_events.decision().mode, Mode::kDegraded) << "as of the last read";
+  EXPECT_EQ(safety_events.decision().mode, safety::Mode::kDegraded) << "as of the last read";
   safety_events.read();
-  EXPECT_EQ(safety_events.decision().mode, Mode::kNormal);
+  EXPECT_EQ(safety_events.decision().mode, safety::Mode::kNormal);
   EXPECT_THAT(events(), ElementsAre("safety: mode: normal", "safety: fault: stage_demoted", "safety: mode: degraded",
                                     "safety: ended: stage_demoted"))
       << "events of one text are counted, not repeated";
@@ -52,4 +52,4 @@ TEST_F(SafetyEventsTest, AFaultItsEndAndEveryModeAreEvents) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

@@ -6,7 +6,7 @@
 #include "onboard/scheduler/execution/executive.hpp"
 #include "onboard/scheduler/idle_task.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using namespace std::chrono_literals;
@@ -24,12 +24,12 @@ TEST(ScheduleFaults, AMissOfTheSafetyTaskIsAFaultUntilTheNextLook) {
   ScheduledTask& safety = graph.add(spec("safety", 0), idle);
   ScheduledTask& other = graph.add(spec("other", 0), idle);
   ScheduleFaults faults(graph, safety);
-  EXPECT_EQ(faults.look(), FaultSet{});
+  EXPECT_EQ(faults.look(), safety::FaultSet{});
   ++other.stats.misses;
-  EXPECT_EQ(faults.look(), FaultSet{}) << "of another task";
+  EXPECT_EQ(faults.look(), safety::FaultSet{}) << "of another task";
   ++safety.stats.misses;
-  EXPECT_EQ(faults.look(), FaultSet{Fault::kSafetyMissed});
-  EXPECT_EQ(faults.look(), FaultSet{});
+  EXPECT_EQ(faults.look(), safety::FaultSet{safety::Fault::kSafetyMissed});
+  EXPECT_EQ(faults.look(), safety::FaultSet{});
 }
 
 TEST(ScheduleFaults, WhatIsNoPartOfTheRobotIsLeftOut) {
@@ -38,7 +38,7 @@ TEST(ScheduleFaults, WhatIsNoPartOfTheRobotIsLeftOut) {
   ScheduledTask& safety = graph.add(spec("safety", 0), idle);
   ScheduledTask& housekeeping = graph.add(spec("housekeeping", 0), idle, scheduler::TaskRole::kLiveOnly);
   housekeeping.stats.demoted = 1;
-  EXPECT_EQ(ScheduleFaults(graph, safety).look(), FaultSet{});
+  EXPECT_EQ(ScheduleFaults(graph, safety).look(), safety::FaultSet{});
 }
 
 /// Time that passes only where a task takes it: what else the machine does costs none.
@@ -75,7 +75,7 @@ TEST(ScheduleFaults, AStageThatKeepsOverrunningIsDemotedWhileItDoes) {
   ScheduleFaults faults(graph, safety);
   bool demoted = false;
   const auto over = [&] {
-    const bool now = faults.look().has(Fault::kStageDemoted);
+    const bool now = faults.look().has(safety::Fault::kStageDemoted);
     demoted = demoted || now;
     if (demoted) glutton.full = false;
     return demoted && !now;
@@ -87,4 +87,4 @@ TEST(ScheduleFaults, AStageThatKeepsOverrunningIsDemotedWhileItDoes) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

@@ -7,7 +7,7 @@
 #include "tests/support/local_socket.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using namespace std::chrono_literals;
@@ -43,13 +43,13 @@ TEST_F(StatusPublisherTest, TheViewHoldsTheTasksTheModeAndTheEvents) {
   odometry_->stats.soft_overruns = 2;  // of which one was above the hard budget, too
   odometry_->stats.hard_overruns = 1;
   monitor_.event(now_, "lidar", "late");
-  FailsafeDecision decision;
-  decision.mode = Mode::kHold;
-  decision.cause = Fault::kLidarSilent;
-  decision.active = {Fault::kLidarLate, Fault::kLidarSilent};
+  safety::FailsafeDecision decision;
+  decision.mode = safety::Mode::kHold;
+  decision.cause = safety::Fault::kLidarSilent;
+  decision.active = {safety::Fault::kLidarLate, safety::Fault::kLidarSilent};
   decision.epoch = 3;
   publisher.set_decision(decision);
-  publisher.set_shed(Shed::kMapDensity);
+  publisher.set_shed(safety::Shed::kMapDensity);
   publisher.set_scans(834);
   const LiveView v = publisher.view(now_);
   ASSERT_EQ(v.stages.size(), 2U);
@@ -68,7 +68,7 @@ TEST_F(StatusPublisherTest, TheViewHoldsTheTasksTheModeAndTheEvents) {
 
 TEST_F(StatusPublisherTest, ALevelThatLeavesNothingOutIsNotToldAsShed) {
   StatusPublisher publisher(graph_, monitor_, {"husky", {}, {}, {}}, now_);
-  for (const Shed level : {Shed::kPeerTiles, Shed::kSemantics}) {
+  for (const safety::Shed level : {safety::Shed::kPeerTiles, safety::Shed::kSemantics}) {
     publisher.set_shed(level);
     EXPECT_EQ(publisher.view(now_).shed, "nothing");
   }
@@ -97,4 +97,4 @@ TEST_F(StatusPublisherTest, WhatCannotBeOpenedIsAnEvent) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

@@ -5,7 +5,7 @@
 
 #include <map>
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using recording::SourceEntry;
@@ -74,4 +74,4 @@ TEST_F(RobotTasksTest, ARobotWithoutPeersHasNoTeam) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

@@ -10,17 +10,17 @@ class SafetyNeighbours final : public scheduler::Task {
  public:
   void tick(scheduler::Tick& /*tick*/) override {}
   /// Another task may follow; what waits in the channels goes to it.
-  void connect(SafetyTask& task) {
+  void connect(app::SafetyTask& task) {
     join(sensors, task.sensors, sensors_channel_);
     join(drive, task.drive, drive_channel_);
     join(task.decisions, decisions, decisions_channel_);
     join(odometry, task.odometry, odometry_channel_);
   }
 
-  scheduler::OutputPort<SensorsSeen> sensors{*this, "sensors"};
-  scheduler::OutputPort<DriveNews> drive{*this, "drive"};
-  scheduler::InputPort<FailsafeDecision> decisions{*this, "decisions"};
-  scheduler::OutputPort<OdometryNews> odometry{*this, "odometry"};
+  scheduler::OutputPort<app::SensorsSeen> sensors{*this, "sensors"};
+  scheduler::OutputPort<app::DriveNews> drive{*this, "drive"};
+  scheduler::InputPort<safety::FailsafeDecision> decisions{*this, "decisions"};
+  scheduler::OutputPort<app::OdometryNews> odometry{*this, "odometry"};
 
  private:
   template <class T>
@@ -30,10 +30,10 @@ class SafetyNeighbours final : public scheduler::Task {
   }
 
   scheduler::Progress nobody_;
-  scheduler::Channel<SensorsSeen> sensors_channel_{{.capacity = 8}, nobody_, nobody_};
-  scheduler::Channel<DriveNews> drive_channel_{{.capacity = 8}, nobody_, nobody_};
-  scheduler::Channel<FailsafeDecision> decisions_channel_{{.capacity = 8}, nobody_, nobody_};
-  scheduler::Channel<OdometryNews> odometry_channel_{{.capacity = 8}, nobody_, nobody_};
+  scheduler::Channel<app::SensorsSeen> sensors_channel_{{.capacity = 8}, nobody_, nobody_};
+  scheduler::Channel<app::DriveNews> drive_channel_{{.capacity = 8}, nobody_, nobody_};
+  scheduler::Channel<safety::FailsafeDecision> decisions_channel_{{.capacity = 8}, nobody_, nobody_};
+  scheduler::Channel<app::OdometryNews> odometry_channel_{{.capacity = 8}, nobody_, nobody_};
 };
 
 }  // namespace cairn::test

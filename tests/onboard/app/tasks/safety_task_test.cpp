@@ -10,7 +10,7 @@
 #include "tests/onboard/app/tasks/safety_neighbours.hpp"
 #include "tests/support/estop_line.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 using namespace std::chrono_literals;
@@ -30,7 +30,7 @@ class SafetyTaskTest : public testing::Test {
     make(&line_);
   }
   void make(EStopLine* line) {
-    task_.emplace(FailsafeConfig{}, fitted_);
+    task_.emplace(safety::FailsafeConfig{}, fitted_);
     neighbours_.connect(*task_);
     task_->watch_estop({}, line_, SourceId{0}, line, {});
   }
@@ -58,9 +58,9 @@ class SafetyTaskTest : public testing::Test {
     record.index = index;
     Tick drive_tick(Regime::kLive, now_, record);
     bool armed = false, stopped = false;
-    while (const FailsafeDecision* decision = neighbours_.decisions.take(drive_tick)) {
+    while (const safety::FailsafeDecision* decision = neighbours_.decisions.take(drive_tick)) {
       armed = armed || decision->arm;
-      stopped = decision->mode == Mode::kStop && !decision->arm;
+      stopped = decision->mode == safety::Mode::kStop && !decision->arm;
     }
     if (!armed && !stopped) return;
     DriveNews* news = neighbours_.drive.back(drive_tick);
@@ -82,58 +82,58 @@ class SafetyTaskTest : public testing::Test {
     task_->request_rearm(task_->decision().epoch);
     run(50ms);
   }
-  [[nodiscard]] Mode mode() const { return task_->decision().mode; }
+  [[nodiscard]] safety::Mode mode() const { return task_->decision().mode; }
 
   test::SafetyNeighbours neighbours_;
   EStopLine line_;
-  Fitted fitted_;
+  safety::Fitted fitted_;
   std::optional<SafetyTask> task_;
   Time now_{10s};
   std::vector<TickRecord> log_;
-  std::vector<FailsafeDecision> decisions_made_;
+  std::vector<safety::FailsafeDecision> decisions_made_;
   std::uint64_t allocated_ = 0;
 };
 
 TEST_F(SafetyTaskTest, ARobotIsStoppedUntilItIsAskedFor) {
   run(1s);
-  EXPECT_EQ(mode(), Mode::kStop);
+  EXPECT_EQ(mode(), safety::Mode::kStop);
   arm();
-  EXPECT_EQ(mode(), Mode::kNormal);
+  EXPECT_EQ(mode(), safety::Mode::kNormal);
   EXPECT_EQ(allocated_, 0U);
 }
 
 TEST_F(SafetyTaskTest, ALostEStopThatIsClosedAgainObeysTheNextRequest) {
   arm();
-  ASSERT_EQ(mode(), Mode::kNormal);
+  ASSERT_EQ(mode(), safety::Mode::kNormal);
   line_.there = false;
   run(kPeriod);
-  EXPECT_EQ(mode(), Mode::kStop) << "within the tick";
-  EXPECT_EQ(task_->decision().cause, Fault::kEStopLost);
+  EXPECT_EQ(mode(), safety::Mode::kStop) << "within the tick";
+  EXPECT_EQ(task_->decision().cause, safety::Fault::kEStopLost);
   task_->request_rearm(task_->decision().epoch);
   run(1s);
-  EXPECT_EQ(mode(), Mode::kStop) << "nobody moves with an e-stop that cannot be read";
+  EXPECT_EQ(mode(), safety::Mode::kStop) << "nobody moves with an e-stop that cannot be read";
   line_.there = true;
   run(2s);
-  EXPECT_EQ(mode(), Mode::kStop) << "not by itself";
-  EXPECT_FALSE(task_->decision().active.has(Fault::kEStopLost)) << "that is over";
+  EXPECT_EQ(mode(), safety::Mode::kStop) << "not by itself";
+  EXPECT_FALSE(task_->decision().active.has(safety::Fault::kEStopLost)) << "that is over";
   task_->request_rearm(task_->decision().epoch);
   run(50ms);
-  EXPECT_EQ(mode(), Mode::kNormal);
+  EXPECT_EQ(mode(), safety::Mode::kNormal);
 }
 
 TEST_F(SafetyTaskTest, ARequestBeforeTheContactWasClosedForLongEnoughIsLost) {
   arm();
   line_.move(false, now_);
   run(1s);
-  ASSERT_EQ(task_->decision().cause, Fault::kEStopOpen);
+  ASSERT_EQ(task_->decision().cause, safety::Fault::kEStopOpen);
   line_.move(true, now_);
   run(200ms);  // of estop_rearm_ms
   task_->request_rearm(task_->decision().epoch);
   run(2s);
-  EXPECT_EQ(mode(), Mode::kStop) << "a refused request is not kept for later";
+  EXPECT_EQ(mode(), safety::Mode::kStop) << "a refused request is not kept for later";
   task_->request_rearm(task_->decision().epoch);
   run(50ms);
-  EXPECT_EQ(mode(), Mode::kNormal);
+  EXPECT_EQ(mode(), safety::Mode::kNormal);
 }
 
 TEST_F(SafetyTaskTest, AnOldRequestEndsNoLaterStop) {
@@ -143,36 +143,37 @@ TEST_F(SafetyTaskTest, AnOldRequestEndsNoLaterStop) {
   line_.move(false, now_);
   line_.move(true, now_ + 1ms);
   run(2s);
-  ASSERT_EQ(mode(), Mode::kStop) << "two edges between two ticks";
+  ASSERT_EQ(mode(), safety::Mode::kStop) << "two edges between two ticks";
   task_->request_rearm(first);
   run(1s);
-  EXPECT_EQ(mode(), Mode::kStop);
+  EXPECT_EQ(mode(), safety::Mode::kStop);
 }
 
 TEST_F(SafetyTaskTest, ALostTrackDegradesUntilAScanFitsAgain) {
   arm();
   send(neighbours_.odometry, [](OdometryNews& news) { news.lost = true; });
   run(kPeriod);
-  EXPECT_EQ(mode(), Mode::kDegraded);
-  EXPECT_EQ(task_->decision().cause, Fault::kOdometryLost);
+  EXPECT_EQ(mode(), safety::Mode::kDegraded);
+  EXPECT_EQ(task_->decision().cause, safety::Fault::kOdometryLost);
   run(1s);
-  EXPECT_EQ(mode(), Mode::kDegraded) << "until there is other news";
+  EXPECT_EQ(mode(), safety::Mode::kDegraded) << "until there is other news";
   send(neighbours_.odometry, [](OdometryNews& news) { news.lost = false; });
   run(kPeriod);
-  EXPECT_EQ(mode(), Mode::kNormal);
+  EXPECT_EQ(mode(), safety::Mode::kNormal);
 }
 
 TEST_F(SafetyTaskTest, FaultsFromAllSidesAreActiveTogether) {
   arm();
-  send(neighbours_.sensors, [](SensorsSeen& news) { news.faults = {Fault::kLidarStuck}; });
+  send(neighbours_.sensors, [](SensorsSeen& news) { news.faults = {safety::Fault::kLidarStuck}; });
   send(neighbours_.odometry, [](OdometryNews& news) { news.lost = true; });
-  task_->report({Fault::kStageDemoted});
+  task_->report({safety::Fault::kStageDemoted});
   run(kPeriod);
-  EXPECT_EQ(task_->decision().active, (FaultSet{Fault::kLidarStuck, Fault::kOdometryLost, Fault::kStageDemoted}));
-  EXPECT_EQ(mode(), Mode::kHold);
+  EXPECT_EQ(task_->decision().active,
+            (safety::FaultSet{safety::Fault::kLidarStuck, safety::Fault::kOdometryLost, safety::Fault::kStageDemoted}));
+  EXPECT_EQ(mode(), safety::Mode::kHold);
   send(neighbours_.sensors, [](SensorsSeen& news) { news.faults = {}; });
   run(kPeriod);
-  EXPECT_EQ(task_->decision().active, (FaultSet{Fault::kOdometryLost, Fault::kStageDemoted}));
+  EXPECT_EQ(task_->decision().active, (safety::FaultSet{safety::Fault::kOdometryLost, safety::Fault::kStageDemoted}));
   EXPECT_EQ(allocated_, 0U);
 }
 
@@ -183,7 +184,7 @@ class ReplayedSafetyTask : public SafetyTaskTest {
     arm();
     lose(true);
     run(20ms);
-    task_->report({Fault::kStageDemoted});
+    task_->report({safety::Fault::kStageDemoted});
     run(20ms);
     line_.there = false;
     run(20ms);
@@ -220,7 +221,7 @@ class ReplayedSafetyTask : public SafetyTaskTest {
 /// The log alone, without a line, an operator or housekeeping.
 TEST_F(ReplayedSafetyTask, DecidesInEveryTickAsItDidLive) {
   live();
-  ASSERT_EQ(mode(), Mode::kNormal);
+  ASSERT_EQ(mode(), safety::Mode::kNormal);
   EStopLine recorded;
   recorded.edges = edges_;
   SafetyTask again({}, fitted_);
@@ -233,7 +234,7 @@ TEST_F(ReplayedSafetyTask, DecidesInEveryTickAsItDidLive) {
     TickRecord record = log_[i];
     Tick tick(Regime::kLogged, now_, record);
     again.tick(tick);
-    const FailsafeDecision &then = decisions_made_[i], &now = again.decision();
+    const safety::FailsafeDecision &then = decisions_made_[i], &now = again.decision();
     ASSERT_TRUE(then.mode == now.mode && then.cause == now.cause && then.active == now.active &&
                 then.epoch == now.epoch && then.arm == now.arm)
         << "tick " << i;
@@ -244,4 +245,4 @@ TEST_F(ReplayedSafetyTask, DecidesInEveryTickAsItDidLive) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

@@ -24,7 +24,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/vlp16_drive.hpp"
 
-namespace cairn {
+namespace cairn::app {
 namespace {
 
 namespace fs = std::filesystem;
@@ -46,16 +46,16 @@ void record_drive(const fs::path& folder) {
   ASSERT_TRUE(writer.close());
 }
 
-TileKey tile_at(double x, double y, double z, double resolution_m) {
+mapping::TileKey tile_at(double x, double y, double z, double resolution_m) {
   const auto voxel = [&](double v) { return static_cast<std::uint16_t>(32768 + std::floor(v / resolution_m)); };
-  return TileKey::of_voxel(voxel(x), voxel(y), voxel(z));
+  return mapping::TileKey::of_voxel(voxel(x), voxel(y), voxel(z));
 }
 
 /// A peer that knows one pillar, far from anything that the robot sees, and where the two are.
 class Peer {
  public:
-  explicit Peer(fs::path socket) : socket_(std::move(socket)), link_(peers::LocalLink::connect(socket_)) {
-    TileState pillar;
+  explicit Peer(fs::path socket) : socket_(std::move(socket)), link_(peer_link::LocalLink::connect(socket_)) {
+    mapping::TileState pillar;
     for (unsigned z = 0; z < 8; ++z) pillar.set(3, 4, z, 3.5F);
     std::vector<std::byte> bytes;
     peers::encode_tile(pillar, bytes);
@@ -68,12 +68,12 @@ class Peer {
     for (int i = 0; !over(); ++i) {
       LiveClock::wait_until(clock.now() + kTick);
       hear(clock.now());
-      if (i % 3 == 0) link_.emplace(peers::LocalLink::connect(socket_));
+      if (i % 3 == 0) link_.emplace(peer_link::LocalLink::connect(socket_));
       (void)link_->join();
       say_where_the_robot_is();
       std::vector<peers::Outgoing> out;
       exchange_.send(clock.now(), out);
-      for (const auto& datagram : out) link_->send({peers::LinkFrame::Kind::kReceived, 2, datagram.bytes});
+      for (const auto& datagram : out) link_->send({peer_link::LinkFrame::Kind::kReceived, 2, datagram.bytes});
     }
   }
   /// Of the robot's map.
@@ -87,7 +87,7 @@ class Peer {
 
   void hear(Time now) {
     if (!link_->join()) return;
-    peers::LinkFrame frame;
+    peer_link::LinkFrame frame;
     while (link_->receive(memory_, frame)) (void)exchange_.receive(frame.bytes, now);
   }
   void say_where_the_robot_is() {
@@ -100,7 +100,7 @@ class Peer {
   }
 
   fs::path socket_;
-  std::optional<peers::LocalLink> link_;
+  std::optional<peer_link::LocalLink> link_;
   peers::Exchange exchange_{2, "second", std::uint64_t{7} << 32U, {.voxel_um = 100'000}};
   std::vector<std::byte> memory_;
 };
@@ -184,7 +184,7 @@ TEST_F(TeamRun, IsRepeatedToTheBitThoughThePeerProcessDies) {
     }
   });
   ASSERT_TRUE(result) << to_string(result.error());
-  const RunReport& ran = (*result)->report;
+  const report::RunReport& ran = (*result)->report;
   EXPECT_GE(ran.scans, kLeastPlayed);
   EXPECT_EQ(ran.control_thread_allocations, 0U);
   ASSERT_TRUE(ran.team);
@@ -194,7 +194,7 @@ TEST_F(TeamRun, IsRepeatedToTheBitThoughThePeerProcessDies) {
   EXPECT_TRUE(ran.peers.at("second").accepted);
   EXPECT_EQ(ran.peers.at("second").tiles, 1U);
   EXPECT_GT(peer.known_items(), kLeastTiles) << "the peer knows the robot's map";
-  const auto map = load_map(options_.out / "team.cairn").value();
+  const auto map = mapping::load_map(options_.out / "team.cairn").value();
   const auto* pillar = map->search(map->keyToCoord(octomap::OcTreeKey(32768 + 600 + 3, 32768 + 600 + 4, 32768 + 8)));
   ASSERT_NE(pillar, nullptr);
   EXPECT_TRUE(map->isNodeOccupied(pillar)) << "and the robot the peer's pillar";
@@ -234,4 +234,4 @@ TEST_F(TeamRun, WithoutAPeerProcessTheRunIsAsGoodAsAlone) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::app

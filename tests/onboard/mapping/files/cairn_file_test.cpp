@@ -10,7 +10,7 @@
 #include "tests/onboard/mapping/random_maps.hpp"
 #include "tests/onboard/mapping/tree_compare.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 using Bytes = std::vector<std::byte>;
@@ -192,4 +192,4 @@ TEST(CairnFileRead, ClaimsAreBoundedBeforeMemoryIsTaken) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::mapping

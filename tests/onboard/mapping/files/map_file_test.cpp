@@ -10,7 +10,7 @@
 #include "tests/onboard/mapping/tree_compare.hpp"
 #include "tests/support/temporary_folder.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 namespace fs = std::filesystem;
@@ -67,4 +67,4 @@ TEST_F(MapFile, PointFilesHoldTheOccupiedVoxels) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -17,7 +17,7 @@
 #include "tests/onboard/mapping/tree_compare.hpp"
 #include "tests/support/recorded_data.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 std::vector<std::byte> to_bytes(const std::string& text) {
@@ -230,4 +230,4 @@ INSTANTIATE_TEST_SUITE_P(Maps, OctoMapFileReal, testing::Values("fr_079.bt", "ge
                          [](const auto& i) { return std::string(i.param).substr(0, 3); });
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -10,7 +10,7 @@
 
 #include "tests/onboard/mapping/random_maps.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 std::string text_of(std::span<const std::byte> bytes) {
@@ -57,4 +57,4 @@ TEST(PointFiles, CarryTheFloatsAfterAHeaderThatCountsThem) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::mapping

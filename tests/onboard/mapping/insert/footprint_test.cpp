@@ -9,7 +9,7 @@
 
 #include "onboard/mapping/tree/map_tile.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 /// Path of a voxel from the root, 16 octal digits.
@@ -114,4 +114,4 @@ TEST(Footprint, DropsAndReportsWhatIsBeyondTheLimit) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::mapping

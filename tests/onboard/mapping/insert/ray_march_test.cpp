@@ -12,7 +12,7 @@
 
 #include "onboard/mapping/insert/scan_rays.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 using Key = std::tuple<int, int, int>;
@@ -110,4 +110,4 @@ TEST(RayMarchEnds, WithTheLengthWhenTheEndIsMissed) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::mapping

@@ -13,7 +13,7 @@
 #include "tests/onboard/mapping/scan_yard.hpp"
 #include "tests/onboard/mapping/tree_compare.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 
 /// Random and adversarial scans on octomap::OcTree and Mapper in lock step: rays along exact voxel borders and through
 /// exact corners (ties in the ray march), repeated and empty rays, all sensor models, the edge of the key space, and
@@ -100,4 +100,4 @@ class ScanCase {
   Eigen::Vector3d centre_;
 };
 
-}  // namespace cairn
+}  // namespace cairn::mapping

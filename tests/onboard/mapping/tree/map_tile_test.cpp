@@ -6,7 +6,7 @@
 
 #include <random>
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 TEST(TileKey, NamesTheTileOfEachVoxel) {
@@ -26,4 +26,4 @@ TEST(TileKey, NamesTheTileOfEachVoxel) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::mapping

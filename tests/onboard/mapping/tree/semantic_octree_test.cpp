@@ -7,7 +7,7 @@
 #include "tests/onboard/mapping/random_maps.hpp"
 #include "tests/onboard/mapping/tree_compare.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 class SemanticOcTreeOracle : public testing::TestWithParam<unsigned> {
@@ -178,4 +178,4 @@ TEST(SemanticOcTree, DeletingTheLastChildLeavesALeaf) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::mapping

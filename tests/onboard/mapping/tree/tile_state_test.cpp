@@ -10,7 +10,7 @@
 #include "tests/onboard/mapping/random_maps.hpp"
 #include "tests/onboard/mapping/tree_compare.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 constexpr std::size_t kAll = 1U << 20U;
@@ -214,4 +214,4 @@ TEST(TileState, ALeafAboveTheTileIsTakenApart) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::mapping

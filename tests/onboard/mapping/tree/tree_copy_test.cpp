@@ -9,7 +9,7 @@
 #include "tests/onboard/mapping/random_maps.hpp"
 #include "tests/onboard/mapping/tree_compare.hpp"
 
-namespace cairn {
+namespace cairn::mapping {
 namespace {
 
 std::unique_ptr<SemanticOcTree> copy_of(const SemanticOcTree& tree, std::size_t nodes) {
@@ -112,4 +112,4 @@ TEST(TreeCopy, APrunedLeafFillsWhatIsLeftOfIt) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::mapping

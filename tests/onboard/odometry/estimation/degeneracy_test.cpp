@@ -9,7 +9,7 @@
 #include <random>
 #include <vector>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 constexpr double kEnough = 10;
@@ -189,4 +189,4 @@ TEST(Degeneracy, ProjectsTheEquationsOntoWhatIsKnown) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

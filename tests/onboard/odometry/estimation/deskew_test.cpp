@@ -5,7 +5,7 @@
 
 #include <random>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 const SE3 kMount = SE3::from_xyz_rpy((Vector6() << 0.2, 0, 0.6, 0.02, -0.05, 0.3).finished());
@@ -32,4 +32,4 @@ TEST(Deskew, AScanWithoutDurationOrMotionIsOnlyMoved) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

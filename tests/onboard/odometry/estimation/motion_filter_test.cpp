@@ -8,7 +8,7 @@
 #include <cmath>
 #include <random>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 constexpr double kDt = 0.1;
@@ -265,4 +265,4 @@ TEST(MotionFilter, ItsCovarianceIsThatOfItsErrors) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -4,7 +4,7 @@
 
 #include "onboard/odometry/estimation/motion_filter.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 constexpr double kStep = 0.1;
@@ -59,4 +59,4 @@ TEST(MotionGap, ANewMapKnowsOfNoGap) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

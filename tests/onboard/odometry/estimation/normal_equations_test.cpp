@@ -8,7 +8,7 @@
 #include "onboard/odometry/estimation/motion_filter.hpp"
 #include "tests/onboard/odometry/room_points.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 using Matrix3x12 = Eigen::Matrix<double, 3, 12>;
@@ -203,4 +203,4 @@ TEST_F(NormalEquationsTest, APointWeighsFullyOnItsPlaneAQuarterAtThreeSigmaAndNo
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -8,7 +8,7 @@
 #include <map>
 #include <random>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 using Oracle = std::map<std::array<int, 3>, float>;
@@ -55,4 +55,4 @@ TEST(PatchGrid, RefusesBlocksAndPointsBeyondItsLimits) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -11,7 +11,7 @@
 
 #include "tests/onboard/odometry/room_points.hpp"
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 using Points = std::vector<Eigen::Vector3d>;
@@ -252,4 +252,4 @@ TEST(PatchMap, APatchRemembersWhenItWasMade) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

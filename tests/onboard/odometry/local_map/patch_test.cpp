@@ -8,7 +8,7 @@
 
 #include <random>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 const Viewpoint kFromAbove{{0.3F, 0.2F, 3.0F}, {0, 0, 1}};
@@ -65,4 +65,4 @@ TEST(Patch, APlaneThatOnlyALaserSweptIsNotBelieved) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

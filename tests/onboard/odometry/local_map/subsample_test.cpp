@@ -9,7 +9,7 @@
 #include <random>
 #include <set>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 TEST(Subsample, KeepsTheFirstPointOfEveryCubeAsASetWould) {
@@ -34,4 +34,4 @@ TEST(Subsample, KeepsTheFirstPointOfEveryCubeAsASetWould) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

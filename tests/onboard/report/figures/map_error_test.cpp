@@ -9,7 +9,7 @@
 #include "onboard/mapping/files/point_file.hpp"
 #include "tests/onboard/report/random_map.hpp"
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 TEST(DistanceToOccupied, AgreesWithALookAtEveryVoxel) {
@@ -17,7 +17,7 @@ TEST(DistanceToOccupied, AgreesWithALookAtEveryVoxel) {
   std::uniform_real_distribution<double> place(-1.5, 1.5);
   for (unsigned seed = 0; seed < 4; ++seed) {
     const auto map = random_map(seed);
-    const auto centres = occupied_voxel_centres(*map).value();
+    const auto centres = mapping::occupied_voxel_centres(*map).value();
     for (int i = 0; i < 200; ++i) {
       const Eigen::Vector3d p(place(engine), place(engine), place(engine));
       double nearest = std::numeric_limits<double>::max();
@@ -33,11 +33,11 @@ TEST(DistanceToOccupied, AgreesWithALookAtEveryVoxel) {
 }
 
 TEST(DistanceToOccupied, OfAnEmptyMapIsNone) {
-  EXPECT_FALSE(distance_to_occupied(SemanticOcTree(0.1), {0, 0, 0}, 100).has_value());
+  EXPECT_FALSE(distance_to_occupied(mapping::SemanticOcTree(0.1), {0, 0, 0}, 100).has_value());
 }
 
-std::unique_ptr<SemanticOcTree> wall(float x) {
-  auto map = std::make_unique<SemanticOcTree>(0.1);
+std::unique_ptr<mapping::SemanticOcTree> wall(float x) {
+  auto map = std::make_unique<mapping::SemanticOcTree>(0.1);
   for (int y = 0; y < 20; ++y)
     for (int z = 0; z < 10; ++z)
       map->updateNode(octomap::point3d(x, 0.05F + 0.1F * static_cast<float>(y), 0.05F + 0.1F * static_cast<float>(z)),
@@ -75,7 +75,7 @@ TEST(MapError, MovesTheMapIntoTheTrueFrame) {
 
 TEST(MapError, TellsWhatIsContradictedFromWhatWasNeverSeen) {
   const auto truth = wall(2.05F);
-  SemanticOcTree map(0.1);
+  mapping::SemanticOcTree map(0.1);
   for (int z = 0; z < 10; ++z)
     map.updateNode(octomap::point3d(2.05F, 1.55F, 0.05F + 0.1F * static_cast<float>(z)), false);
   const auto e = map_error(map, *truth, {});
@@ -91,4 +91,4 @@ TEST(MapError, FarOutliersCountAsTheLimit) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::report

@@ -8,17 +8,17 @@
 
 #include "tests/onboard/report/random_map.hpp"
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 constexpr double kResolution = 0.1;
 constexpr int kHalf = 8;
 
 /// Asks both trees about every voxel: slow, and right by construction.
-MapComparison compare_by_search(const SemanticOcTree& a, const SemanticOcTree& b) {
+MapComparison compare_by_search(const mapping::SemanticOcTree& a, const mapping::SemanticOcTree& b) {
   MapComparison c;
   for_each_voxel(kResolution, kHalf, [&](const octomap::point3d& p) {
-    const SemanticNode *in_a = a.search(p), *in_b = b.search(p);
+    const mapping::SemanticNode *in_a = a.search(p), *in_b = b.search(p);
     const bool occupied_a = in_a != nullptr && a.isNodeOccupied(in_a);
     const bool occupied_b = in_b != nullptr && b.isNodeOccupied(in_b);
     if (in_a != nullptr) ++(occupied_a ? c.occupied_a : c.free_a);
@@ -76,7 +76,7 @@ TEST(Compare, OfAMapWithItselfFindsNoDifference) {
 }
 
 TEST(Compare, OfEmptyMaps) {
-  const SemanticOcTree empty(kResolution);
+  const mapping::SemanticOcTree empty(kResolution);
   const auto full = random_map(4);
   EXPECT_FALSE(compare(empty, empty)->iou_occupied().has_value());
   const auto c = compare(empty, *full);
@@ -86,7 +86,7 @@ TEST(Compare, OfEmptyMaps) {
 
 // A map that knows all of space is one node; expanding it would take 2⁴⁸ voxels.
 TEST(Compare, CountsHugePrunedCubesWithoutExpandingThem) {
-  SemanticOcTree everything(kResolution);
+  mapping::SemanticOcTree everything(kResolution);
   bool made = false;
   everything.root_or_new(made)->setLogOdds(-2.0F);
   const auto small = random_map(5);
@@ -98,7 +98,7 @@ TEST(Compare, CountsHugePrunedCubesWithoutExpandingThem) {
 }
 
 TEST(Compare, RefusesAnotherResolution) {
-  const SemanticOcTree a(0.1), b(0.2);
+  const mapping::SemanticOcTree a(0.1), b(0.2);
   const auto c = compare(a, b);
   ASSERT_FALSE(c.has_value());
   EXPECT_THAT(to_string(c.error()), testing::HasSubstr("resolution"));
@@ -110,7 +110,7 @@ TEST(Summarise, AgreesWithASearchOfEveryVoxel) {
   std::uint64_t occupied = 0, free = 0;
   double bits = 0, book = 0, all = 0;
   for_each_voxel(kResolution, kHalf, [&](const octomap::point3d& p) {
-    const SemanticNode* node = map->search(p);
+    const mapping::SemanticNode* node = map->search(p);
     if (node == nullptr) return;
     const bool is_occupied = map->isNodeOccupied(node);
     ++(is_occupied ? occupied : free);
@@ -131,17 +131,17 @@ TEST(Summarise, AgreesWithASearchOfEveryVoxel) {
 }
 
 TEST(Summarise, BoxesWhatIsKnown) {
-  SemanticOcTree map(0.5);
+  mapping::SemanticOcTree map(0.5);
   map.updateNode(octomap::point3d(1.1F, -2.2F, 3.3F), true);
   map.updateNode(octomap::point3d(4.1F, 0.2F, 3.3F), false);
   const MapSummary s = summarise(map);
   EXPECT_NEAR((s.min_m - Eigen::Vector3d(1, -2.5, 3)).norm(), 0, 1e-9);
   EXPECT_NEAR((s.max_m - Eigen::Vector3d(4.5, 0.5, 3.5)).norm(), 0, 1e-9);
-  EXPECT_FALSE(summarise(SemanticOcTree(0.5)).mean_entropy_occupancy.has_value());
+  EXPECT_FALSE(summarise(mapping::SemanticOcTree(0.5)).mean_entropy_occupancy.has_value());
 }
 
 TEST(Summarise, CountsLabels) {
-  SemanticOcTree map(0.5);
+  mapping::SemanticOcTree map(0.5);
   map.updateNode(octomap::point3d(1, 1, 1), true)->set_label_id(7);
   map.updateNode(octomap::point3d(3, 1, 1), true);
   EXPECT_EQ(summarise(map).labelled, 1U);
@@ -156,4 +156,4 @@ TEST(Entropy, IsOneBitAtOneHalfAndNoneWhenCertain) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::report

@@ -7,7 +7,7 @@
 
 #include "tests/onboard/report/sample_report.hpp"
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 const SE3 kWorld = SE3::from_xyz_rpy((Vector6() << 4, -1, 2, 0.1, 0.2, 2).finished());
@@ -76,4 +76,4 @@ TEST(PoseErrors, KeepEachPosesOwnClaimWhenSomeHaveNoTruth) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::report

@@ -10,7 +10,7 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 std::string sum(std::string_view text) {
@@ -44,4 +44,4 @@ TEST(Sha256OfFiles, IsTheSumOfTheirBytesOneAfterTheOther) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::report

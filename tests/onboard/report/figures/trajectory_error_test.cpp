@@ -8,7 +8,7 @@
 #include <numbers>
 #include <random>
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 using Trajectory = std::vector<StampedPose>;
@@ -194,4 +194,4 @@ TEST(Alignment, NamesRoundTrip) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::report

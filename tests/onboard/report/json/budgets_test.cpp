@@ -4,7 +4,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 using ::testing::HasSubstr;
@@ -46,4 +46,4 @@ TEST(Budgets, AllFaultsOfAFileAreNamedAtOnce) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::report

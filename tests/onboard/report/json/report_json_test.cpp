@@ -8,7 +8,7 @@
 
 #include "tests/onboard/report/sample_report.hpp"
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 nlohmann::json parsed(const RunReport& report) { return nlohmann::json::parse(to_text(to_json(report))); }
@@ -127,4 +127,4 @@ TEST(MapComparisonJson, HasTheNamesOfTheCommand) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::report

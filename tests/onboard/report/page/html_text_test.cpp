@@ -5,7 +5,7 @@
 
 #include <limits>
 
-namespace cairn::html {
+namespace cairn::report::html {
 namespace {
 
 TEST(Escape, LeavesNoMarkup) {
@@ -67,4 +67,4 @@ TEST(DurationText, ChoosesAUnit) {
 }
 
 }  // namespace
-}  // namespace cairn::html
+}  // namespace cairn::report::html

@@ -8,7 +8,7 @@
 
 #include "tests/onboard/report/sample_report.hpp"
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 using testing::HasSubstr;
@@ -156,4 +156,4 @@ TEST(ReportHtml, StaysSmallForALongRun) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::report

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace cairn::html {
+namespace cairn::report::html {
 namespace {
 
 using testing::HasSubstr;
@@ -91,4 +91,4 @@ TEST(RoundStep, CutsASpanIntoAtMostThatManySteps) {
 }
 
 }  // namespace
-}  // namespace cairn::html
+}  // namespace cairn::report::html

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 constexpr Rgba kWhite{255, 255, 255, 255}, kBlack{0, 0, 0, 255};
@@ -103,4 +103,4 @@ TEST(DrawText, WhatItDoesNotKnowIsBlankAndCapitalsAreSmall) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::report

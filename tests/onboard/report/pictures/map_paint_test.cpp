@@ -8,7 +8,7 @@
 
 #include "tests/onboard/report/png_decode.hpp"
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 /// Two by two cells of 1 m: occupied and high at the lower left, free at the lower right, nothing above.
@@ -129,4 +129,4 @@ TEST(RoundBelow, IsOneTwoOrFive) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::report

@@ -8,16 +8,16 @@
 #include "tests/onboard/report/random_map.hpp"
 #include "tests/onboard/report/sample_report.hpp"
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
-void set(SemanticOcTree& map, double x, double y, double z, bool occupied) {
+void set(mapping::SemanticOcTree& map, double x, double y, double z, bool occupied) {
   map.updateNode(octomap::point3d(static_cast<float>(x), static_cast<float>(y), static_cast<float>(z)), occupied);
 }
 
 /// 0.5 m voxels: a post of two voxels at the origin's voxel, one voxel 2 m ahead and 1 m to the left, free in between.
-std::unique_ptr<SemanticOcTree> posts() {
-  auto map = std::make_unique<SemanticOcTree>(0.5);
+std::unique_ptr<mapping::SemanticOcTree> posts() {
+  auto map = std::make_unique<mapping::SemanticOcTree>(0.5);
   set(*map, 0.25, 0.25, 0.25, true);
   set(*map, 0.25, 0.25, 0.75, true);
   set(*map, 2.25, 1.25, 0.25, true);
@@ -64,7 +64,7 @@ TEST(LookAt, FromAheadYGoesRight) {
 
 TEST(Project, AgreesWithThePictureInEveryView) {
   const auto map = random_map(3);
-  const auto centres = occupied_voxel_centres(*map).value();
+  const auto centres = mapping::occupied_voxel_centres(*map).value();
   for (const MapView view : {MapView::kTop, MapView::kSide, MapView::kFront}) {
     // The upper limit switches the search for a ceiling off.
     const auto p = look_at(*map, {view, {}, 10.0, 100});
@@ -90,7 +90,7 @@ TEST(LookAt, LeavesOutWhatIsTooLowOrTooHigh) {
   const auto none = look_at(*posts(), {MapView::kTop, 3.0, {}, 100});
   ASSERT_FALSE(none.has_value());
   EXPECT_THAT(to_string(none.error()), testing::HasSubstr("empty"));
-  EXPECT_FALSE(look_at(SemanticOcTree(0.1), {}).has_value());
+  EXPECT_FALSE(look_at(mapping::SemanticOcTree(0.1), {}).has_value());
 }
 
 TEST(LookAt, CutsARoomOpenBelowItsCeiling) {
@@ -112,7 +112,7 @@ TEST(LookAt, CutsARoomOpenBelowItsCeiling) {
 
 // A terrace is as large and as high as a ceiling, but there is no room below it.
 TEST(LookAt, DoesNotTakeATerraceForACeiling) {
-  SemanticOcTree map(0.2);
+  mapping::SemanticOcTree map(0.2);
   sample::box(map, {0, 0, 0}, {6, 6, 0.2}, true);
   sample::box(map, {0, 0, 0.2}, {6, 6, 4}, false);
   sample::box(map, {6, 0, 2.4}, {12, 6, 2.6}, true);
@@ -122,7 +122,7 @@ TEST(LookAt, DoesNotTakeATerraceForACeiling) {
 }
 
 TEST(LookAt, GivesALargeMapLargerCells) {
-  SemanticOcTree map(0.1);
+  mapping::SemanticOcTree map(0.1);
   set(map, 0.05, 0.05, 0.05, true);
   set(map, 99.95, 0.05, 0.05, true);
   const auto p = look_at(map, {MapView::kTop, {}, {}, 100});
@@ -134,7 +134,7 @@ TEST(LookAt, GivesALargeMapLargerCells) {
 
 // One free leaf that fills all of space: the picture stays small and is done at once.
 TEST(LookAt, SurvivesAHugePrunedCube) {
-  SemanticOcTree map(0.1);
+  mapping::SemanticOcTree map(0.1);
   bool made = false;
   map.root_or_new(made)->setLogOdds(-2.0F);
   const auto p = look_at(map, {MapView::kTop, {}, {}, 256});
@@ -151,4 +151,4 @@ TEST(MapView, Names) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::report

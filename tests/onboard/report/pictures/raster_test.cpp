@@ -7,7 +7,7 @@
 
 #include "tests/onboard/report/png_decode.hpp"
 
-namespace cairn {
+namespace cairn::report {
 namespace {
 
 Raster noise(int width, int height) {
@@ -53,4 +53,4 @@ TEST(Mix, GoesFromOneToTheOther) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::report

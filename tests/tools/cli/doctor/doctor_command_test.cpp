@@ -39,7 +39,7 @@ void put_can(const fs::path& root, const std::string& name, const std::string& s
 TEST(DoctorCommand, AnEmptyComputerHasNothingPluggedIn) {
   const TemporaryFolder folder;
   const Outcome o = doctor({"--root", folder / ""});
-  EXPECT_EQ(o.exit_code, kDone);
+  EXPECT_EQ(o.exit_code, app::kDone);
   EXPECT_THAT(o.out, HasSubstr("ok: cameras: none plugged in"));
   EXPECT_THAT(o.out, HasSubstr("ok: CAN: no interface"));
   EXPECT_THAT(o.out, HasSubstr("ok: GPIO: no chip"));
@@ -58,7 +58,7 @@ TEST(DoctorCommand, EveryFaultHasItsRemedy) {
   put(root / "sys/devices/system/cpu/cpu0/cpufreq/scaling_governor", "powersave");
   put(root / "proc/sys/net/core/rmem_max", "212992");
   const Outcome o = doctor({"--root", root.string()});
-  EXPECT_EQ(o.exit_code, kFailed);
+  EXPECT_EQ(o.exit_code, app::kFailed);
   EXPECT_THAT(o.out, HasSubstr("problem: can0: CAN interface, down → sudo ip link set can0 type can bitrate 500000"));
   EXPECT_THAT(o.out, HasSubstr("note: can1"));
   EXPECT_THAT(o.out, HasSubstr("sudo ip link set can1 txqueuelen 16"));
@@ -76,7 +76,7 @@ TEST(DoctorCommand, DevicesOfAProfileAreOpenedAndListenedTo) {
   put(folder / "robot.yaml",
       "lidar: {enabled: false}\ncamera: {capture: {device: /dev/nothing}}\ndrive: {interface: nocan7}");
   const Outcome o = doctor({"--config", folder / "robot.yaml", "--root", folder / "", "--seconds", "0.01", "--json"});
-  EXPECT_EQ(o.exit_code, kFailed);
+  EXPECT_EQ(o.exit_code, app::kFailed);
   const auto json = o.json();
   EXPECT_EQ(json["problems"], 2);
   EXPECT_EQ(json["findings"][0]["level"], "ok");
@@ -89,7 +89,7 @@ TEST(DoctorCommand, AFaultyProfileIsAProblemWithItsLine) {
   const TemporaryFolder folder;
   put(folder / "robot.yaml", "camera: {captuer: 1}");
   const Outcome o = doctor({"--config", folder / "robot.yaml", "--root", folder / ""});
-  EXPECT_EQ(o.exit_code, kFailed);
+  EXPECT_EQ(o.exit_code, app::kFailed);
   EXPECT_THAT(o.out, HasSubstr("robot.yaml:1: camera.captuer"));
 }
 
@@ -110,11 +110,11 @@ TEST(DoctorCommand, DamageOfARecordingIsNamed) {
   ASSERT_TRUE(writer.close());
   std::ofstream(folder / "r/gpio.csv", std::ios::app) << "nonsense\n";
   const Outcome o = doctor({"--recording", folder / "r"});
-  EXPECT_EQ(o.exit_code, kFailed);
+  EXPECT_EQ(o.exit_code, app::kFailed);
   EXPECT_THAT(o.out, HasSubstr("ok: sweeps: 1 packets, none lost"));
   EXPECT_THAT(o.out, HasSubstr("problem: drive: the recording holds nothing of it"));
   EXPECT_THAT(o.out, HasSubstr("gpio.csv"));
-  EXPECT_EQ(doctor({"--recording", folder / "nowhere"}).exit_code, kFailed);
+  EXPECT_EQ(doctor({"--recording", folder / "nowhere"}).exit_code, app::kFailed);
 }
 
 TEST(DoctorCommand, SaysWhyAPeerHasNotMergedByWhatARunLeft) {
@@ -124,13 +124,13 @@ TEST(DoctorCommand, SaysWhyAPeerHasNotMergedByWhatARunLeft) {
     "robot_3": {"accepted": false, "state": "ambiguous", "reason": "another pose may be as good (overlap 0.86, 9 m²)", "tiles": 7},
     "robot_4": 5}})json");
   const Outcome all = doctor({"--peer", "all", "--run", folder / ""});
-  EXPECT_EQ(all.exit_code, kFailed);
+  EXPECT_EQ(all.exit_code, app::kFailed);
   EXPECT_THAT(all.out, HasSubstr("ok: robot_2: merged (12 tiles)"));
   EXPECT_THAT(
       all.out,
       HasSubstr(
           "problem: robot_3 is not merged: another pose may be as good (overlap 0.86, 9 m²) (7 tiles) → ambiguous"));
-  EXPECT_EQ(doctor({"--peer", "robot_2", "--run", folder / ""}).exit_code, kDone);
+  EXPECT_EQ(doctor({"--peer", "robot_2", "--run", folder / ""}).exit_code, app::kDone);
   EXPECT_THAT(doctor({"--peer", "robot_9", "--run", folder / ""}).out, HasSubstr("robot_9: never heard of → start"));
 }
 
@@ -142,7 +142,7 @@ TEST(DoctorCommand, ADeploymentThatTheMapsContradictIsNamed) {
     "robot_3": {"accepted": false, "state": "contradicted", "deployment_contradicted": true,
                 "reason": "dropped; the maps contradict the deployments of the two"}}})json");
   const Outcome merged = doctor({"--peer", "robot_2", "--run", folder / ""});
-  EXPECT_EQ(merged.exit_code, kDone);
+  EXPECT_EQ(merged.exit_code, app::kDone);
   EXPECT_THAT(merged.out, HasSubstr("note: robot_2: merged; the deployments of the two contradict that by 3.6 m"));
   EXPECT_THAT(merged.out, HasSubstr("team.deployment"));
   EXPECT_THAT(doctor({"--peer", "robot_3", "--run", folder / ""}).out, HasSubstr("→ correct team.deployment"));
@@ -158,9 +158,9 @@ TEST(DoctorCommand, SaysWhereThereIsNothingToBeHeardOfAPeer) {
 }
 
 TEST(DoctorCommand, EveryStateOfAPeerHasARemedyButTheGoodOne) {
-  for (std::size_t i = 0; i < kPeerStates; ++i) {
-    const auto state = static_cast<PeerState>(i);
-    LiveView::Peer peer{.name = "robot_2", .merged = state == PeerState::kMerged};
+  for (std::size_t i = 0; i < team::kPeerStates; ++i) {
+    const auto state = static_cast<team::PeerState>(i);
+    app::LiveView::Peer peer{.name = "robot_2", .merged = state == team::PeerState::kMerged};
     peer.state = to_string(state);
     const auto findings = judge_peers({peer}, "robot_2");
     ASSERT_EQ(findings.size(), 1U);
@@ -173,7 +173,7 @@ TEST(DoctorCommand, EveryStateOfAPeerHasARemedyButTheGoodOne) {
 TEST(DoctorCommand, AStateOfALaterVersionHasTheGeneralRemedy) {
   const auto findings = judge_peers({{.name = "robot_2", .state = "dancing", .reason = "it dances"}}, "all");
   ASSERT_EQ(findings.size(), 1U);
-  EXPECT_EQ(findings[0].remedy, remedy_for(PeerState::kUndecided));
+  EXPECT_EQ(findings[0].remedy, remedy_for(team::PeerState::kUndecided));
 }
 
 TEST(DoctorCommand, AClockThatDiffersIsANote) {

@@ -74,7 +74,7 @@ TEST(InspectCommand, PlainTextSaysTheSame) {
   const TemporaryFolder folder;
   write_sweeps(folder / "r");
   const Outcome o = inspect({folder / "r"});
-  EXPECT_EQ(o.exit_code, kDone);
+  EXPECT_EQ(o.exit_code, app::kDone);
   EXPECT_THAT(o.out, HasSubstr("kind: recording\n"));
   EXPECT_THAT(o.out, HasSubstr("ground truth: none\n"));
   EXPECT_THAT(o.out, HasSubstr("      total: 30\n"));
@@ -86,7 +86,7 @@ TEST(InspectCommand, DamageIsToldAndTheRestIsCounted) {
   fs::resize_file(folder / "r/scans/000004.bin", 59);
   fs::remove(folder / "r/scans/000005.bin");
   const Outcome o = inspect({folder / "r", "--json"});
-  EXPECT_EQ(o.exit_code, kDone);
+  EXPECT_EQ(o.exit_code, app::kDone);
   EXPECT_EQ(o.json()["damaged"], 2);
   EXPECT_EQ(o.json()["sources"][0]["scans"]["count"], 8);
   EXPECT_THAT(o.json()["damage"].dump(), HasSubstr("000005.bin"));
@@ -95,21 +95,21 @@ TEST(InspectCommand, DamageIsToldAndTheRestIsCounted) {
 TEST(InspectCommand, OneScanAsPcd) {
   const TemporaryFolder folder;
   write_sweeps(folder / "r");
-  EXPECT_EQ(inspect({folder / "r", "--out", folder / "s.pcd", "--scan", "9"}).exit_code, kDone);
+  EXPECT_EQ(inspect({folder / "r", "--out", folder / "s.pcd", "--scan", "9"}).exit_code, app::kDone);
   const auto pcd = recording::parse_pcd(*read_file(folder / "s.pcd", 1 << 20), "s.pcd");
   ASSERT_TRUE(pcd);
   EXPECT_EQ(pcd->cloud.xyz, three_points().xyz);
   const Outcome beyond = inspect({folder / "r", "--out", folder / "t.pcd", "--scan", "10"});
-  EXPECT_EQ(beyond.exit_code, kFailed);
+  EXPECT_EQ(beyond.exit_code, app::kFailed);
   EXPECT_THAT(beyond.err, HasSubstr("no such scan"));
   EXPECT_EQ(inspect({folder / "s.pcd", "--json"}).json()["points"], 3);
 }
 
 TEST(InspectCommand, MapsAndTrajectories) {
   const TemporaryFolder folder;
-  SemanticOcTree map(0.1);
+  mapping::SemanticOcTree map(0.1);
   map.updateNode(octomap::point3d(1, 2, 3), true);
-  ASSERT_TRUE(save_cairn(map, folder / "m.cairn"));
+  ASSERT_TRUE(mapping::save_cairn(map, folder / "m.cairn"));
   EXPECT_EQ(inspect({folder / "m.cairn", "--json"}).json()["kind"], "map");
   std::ofstream(folder / "t.tum") << "0 0 0 0 0 0 0 1\n1 0 0 2 0 0 0 1\nbroken\n";
   const auto json = inspect({folder / "t.tum", "--json"}).json();
@@ -120,7 +120,7 @@ TEST(InspectCommand, MapsAndTrajectories) {
 
 TEST(InspectCommand, WhatItDoesNotKnowItSays) {
   const TemporaryFolder folder;
-  EXPECT_EQ(inspect({folder / "nothing"}).exit_code, kFailed);
+  EXPECT_EQ(inspect({folder / "nothing"}).exit_code, app::kFailed);
   EXPECT_THAT(inspect({folder.path()}).err, HasSubstr("recording.yaml"));
   std::ofstream(folder / "x.doc") << "hello";
   EXPECT_THAT(inspect({folder / "x.doc"}).err, HasSubstr("what this file holds is not known"));
@@ -133,7 +133,7 @@ TEST(InspectRealData, ACaptureWithPositionPackets) {
   const fs::path file = support::recorded_data("velodyne/vlp16_gps_single_return.pcap");
   NEEDS(file);
   const Outcome o = inspect({file.string(), "--json"});
-  ASSERT_EQ(o.exit_code, kDone) << o.err;
+  ASSERT_EQ(o.exit_code, app::kDone) << o.err;
   const auto source = o.json()["sources"][0];
   EXPECT_EQ(source["model"], "VLP-16");
   EXPECT_EQ(source["velodyne"]["data_packets"], 293);

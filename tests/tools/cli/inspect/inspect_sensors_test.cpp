@@ -104,7 +104,7 @@ TEST(InspectSensors, AnArrayThatEndsEarlyIsDamagedAndADamagedHeaderAnError) {
   EXPECT_EQ(json["sources"][0]["thermal"]["pictures"], 4);
   EXPECT_EQ(json["damaged"], 1);
   write_array(folder / "b.npy", ">u2", 1, 4, 4, 'x');
-  EXPECT_EQ(look_into({folder / "b.npy"}).exit_code, kFailed);
+  EXPECT_EQ(look_into({folder / "b.npy"}).exit_code, app::kFailed);
 }
 
 TEST(InspectSensors, ARealArrayOfTemperatures) {
@@ -153,7 +153,7 @@ TEST(InspectSensors, AnUnknownModelNamesTheKnownOnes) {
   const TemporaryFolder folder;
   write_pictures(folder / "r");
   const Outcome o = look_into({folder / "r/thermal/data.csv", "--model", "lepton9"});
-  EXPECT_EQ(o.exit_code, kWrongArguments);
+  EXPECT_EQ(o.exit_code, app::kWrongArguments);
   EXPECT_THAT(o.err, ::testing::HasSubstr("lepton9"));
 }
 
@@ -164,7 +164,7 @@ TEST(InspectSensors, WhatPeersSaidIsCountedByWhoSaidIt) {
   r.sources = {{"peers", "peers", "peers.log", "", ""}};
   auto writer = recording::RecordingWriter::create(folder / "rec", r).value();
   Packet packet;
-  peers::encode(peers::Beginning{1, 5}, packet);
+  peer_link::encode(peer_link::Beginning{1, 5}, packet);
   ASSERT_TRUE(writer.write(packet));
   packet.channel = 0;
   packet.bytes = peers::encode({3, peers::Hello{7, 0, Time{}, "third", {}}, {}, {}}).bytes;

@@ -35,7 +35,7 @@ TEST(EvaluateTrajectory, NamesItsFieldsAndGetsAScaledLineRight) {
   ASSERT_TRUE(recording::write_tum(folder / "ground_truth.tum", line(1)));
   // Folders stand for the files that a run and a recording leave in them.
   const Outcome outcome = evaluate({"trajectory", folder.path(), "--ground-truth", folder.path(), "--json"});
-  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+  ASSERT_EQ(outcome.exit_code, app::kDone) << outcome.err;
   const auto json = outcome.json();
   EXPECT_NEAR(json["length_m"], 10, 1e-6);
   EXPECT_NEAR(json["rpe_trans_percent"], 2, 1e-4);
@@ -54,16 +54,16 @@ TEST(EvaluateTrajectory, FaultsNameTheFile) {
   const TemporaryFolder folder;
   ASSERT_TRUE(recording::write_tum(folder / "a.tum", line(1)));
   const Outcome missing = evaluate({"trajectory", folder / "a.tum", "--ground-truth", folder / "b.tum"});
-  EXPECT_EQ(missing.exit_code, kFailed);
+  EXPECT_EQ(missing.exit_code, app::kFailed);
   EXPECT_THAT(missing.err, HasSubstr("b.tum"));
-  EXPECT_EQ(evaluate({"trajectory", folder / "a.tum"}).exit_code, kWrongArguments);
+  EXPECT_EQ(evaluate({"trajectory", folder / "a.tum"}).exit_code, app::kWrongArguments);
   EXPECT_EQ(evaluate({"trajectory", folder / "a.tum", "--ground-truth", folder / "a.tum", "--align", "best"}).exit_code,
-            kWrongArguments);
+            app::kWrongArguments);
 }
 
 /// A wall of 20 × 10 voxels at x = 2 m in the world, with known free space before it.
-std::unique_ptr<SemanticOcTree> wall(const SE3& T_map_world) {
-  auto tree = std::make_unique<SemanticOcTree>(0.1);
+std::unique_ptr<mapping::SemanticOcTree> wall(const SE3& T_map_world) {
+  auto tree = std::make_unique<mapping::SemanticOcTree>(0.1);
   for (int y = 0; y < 20; ++y)
     for (int z = 0; z < 10; ++z) {
       const Eigen::Vector3f p = (T_map_world * Eigen::Vector3d(2.05, 0.1 * y + 0.05, 0.1 * z + 0.05)).cast<float>();
@@ -76,8 +76,8 @@ TEST(EvaluateMap, TakesThePoseFromFlagOrTrajectories) {
   const TemporaryFolder folder;
   // The map's frame is 1 m ahead of the world's and turned by 90°.
   const SE3 T_world_map = SE3::from_xyz_rpy((Vector6() << 1, -0.5, 0, 0, 0, 1.5707963267948966).finished());
-  ASSERT_TRUE(save_cairn(*wall(T_world_map.inverse()), folder / "map.cairn"));
-  ASSERT_TRUE(save_ot(*wall({}), folder / "world.ot"));
+  ASSERT_TRUE(mapping::save_cairn(*wall(T_world_map.inverse()), folder / "map.cairn"));
+  ASSERT_TRUE(mapping::save_ot(*wall({}), folder / "world.ot"));
   ASSERT_TRUE(recording::write_tum(folder / "trajectory.tum", line(1)));
   ASSERT_TRUE(recording::write_tum(folder / "ground_truth.tum", line(1, T_world_map)));
   const std::vector<std::vector<std::string>> ways{
@@ -87,7 +87,7 @@ TEST(EvaluateMap, TakesThePoseFromFlagOrTrajectories) {
     std::vector<std::string> arguments{"map", folder.path(), "--ground-truth", folder.path(), "--json"};
     arguments.insert(arguments.end(), way.begin(), way.end());
     const Outcome outcome = evaluate(arguments);
-    ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+    ASSERT_EQ(outcome.exit_code, app::kDone) << outcome.err;
     EXPECT_EQ(outcome.json()["precision"], 1.0);
     EXPECT_EQ(outcome.json()["recall"], 1.0);
     EXPECT_EQ(outcome.json()["occupied"], 200);
@@ -100,9 +100,9 @@ TEST(EvaluateMap, TakesThePoseFromFlagOrTrajectories) {
 TEST(EvaluateMap, RefusesHalfAPose) {
   const TemporaryFolder folder;
   EXPECT_EQ(evaluate({"map", folder.path(), "--ground-truth", folder.path(), "--pose", "1,2,3"}).exit_code,
-            kWrongArguments);
+            app::kWrongArguments);
   EXPECT_EQ(evaluate({"map", folder.path(), "--ground-truth", folder.path(), "--trajectory", "a"}).exit_code,
-            kWrongArguments);
+            app::kWrongArguments);
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ void save_submap(const std::filesystem::path& path, int i, const SE3& slip) {
   const SE3 frame = SE3::from_xyz_rpy((Vector6() << 0.037, -0.021, 0.03, 0, 0, 0.7).finished());
   const auto map = support::stretch_map(support::lobby(), {0.5 * i, 0.5 * i + 0.8, 6}, slip * frame,
                                         static_cast<unsigned>(i), 0.1, 8);
-  ASSERT_TRUE(save_cairn(*map, path));
+  ASSERT_TRUE(mapping::save_cairn(*map, path));
 }
 
 TEST(MapCheckCommand, NamesTheSubmapThatSlippedAndNoOther) {
@@ -35,12 +35,12 @@ TEST(MapCheckCommand, NamesTheSubmapThatSlippedAndNoOther) {
   save_submap(moved, 2, SE3::from_xyz_rpy((Vector6() << 0.35, -0.2, 0, 0, 0, 0.02).finished()));
 
   const Outcome sound = check({a, b, c});
-  ASSERT_EQ(sound.exit_code, kDone) << sound.err;
+  ASSERT_EQ(sound.exit_code, app::kDone) << sound.err;
   EXPECT_THAT(sound.out, HasSubstr("consistent: 3 submaps"));
   EXPECT_THAT(sound.out, Not(HasSubstr("contradicts")));
 
   const Outcome slipped = check({a, b, moved});
-  ASSERT_EQ(slipped.exit_code, kDone) << slipped.err;
+  ASSERT_EQ(slipped.exit_code, app::kDone) << slipped.err;
   EXPECT_THAT(slipped.out, HasSubstr(moved + " contradicts " + b));
   EXPECT_THAT(slipped.out, Not(HasSubstr(b + " contradicts " + a)));
   EXPECT_THAT(slipped.out, HasSubstr("inconsistent: 3 submaps"));
@@ -52,7 +52,7 @@ TEST(MapCheckCommand, JsonHasEveryPairWithItsSlip) {
   save_submap(a, 0, {});
   save_submap(b, 0, SE3::from_xyz_rpy((Vector6() << 0.3, 0, 0, 0, 0, 0).finished()));
   const Outcome outcome = check({a, b, "--json"});
-  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+  ASSERT_EQ(outcome.exit_code, app::kDone) << outcome.err;
   const auto json = outcome.json();
   EXPECT_EQ(json["submaps"], 2);
   EXPECT_EQ(json["compared"], 1);
@@ -71,17 +71,17 @@ TEST(MapCheckCommand, JsonHasEveryPairWithItsSlip) {
 
 TEST(MapCheckCommand, WhatCannotBeComparedIsSaid) {
   const TemporaryFolder folder;
-  SemanticOcTree voxel(0.1), coarse(0.2);
+  mapping::SemanticOcTree voxel(0.1), coarse(0.2);
   voxel.setNodeValue(octomap::point3d(1, 2, 3), 1.0F);
   coarse.setNodeValue(octomap::point3d(1, 2, 3), 1.0F);
   const std::string a = folder / "a.cairn", b = folder / "b.cairn";
-  ASSERT_TRUE(save_cairn(voxel, a));
-  ASSERT_TRUE(save_cairn(coarse, b));
+  ASSERT_TRUE(mapping::save_cairn(voxel, a));
+  ASSERT_TRUE(mapping::save_cairn(coarse, b));
   EXPECT_THAT(check({a, a}).out, HasSubstr("nothing to compare: 2 submaps"));
-  EXPECT_EQ(check({a, b}).exit_code, kFailed);
+  EXPECT_EQ(check({a, b}).exit_code, app::kFailed);
   EXPECT_THAT(check({a, b}).err, HasSubstr("0.1 m and 0.2 m"));
   EXPECT_THAT(check({a, folder / "none.ot"}).err, HasSubstr("none.ot"));
-  EXPECT_EQ(check({a}).exit_code, kWrongArguments);
+  EXPECT_EQ(check({a}).exit_code, app::kWrongArguments);
 }
 
 }  // namespace

@@ -21,8 +21,8 @@ Outcome map(std::vector<std::string> arguments) {
 }
 
 /// Two occupied voxels, one free one, and a pruned free cube of 8.
-std::unique_ptr<SemanticOcTree> small_map() {
-  auto tree = std::make_unique<SemanticOcTree>(0.1);
+std::unique_ptr<mapping::SemanticOcTree> small_map() {
+  auto tree = std::make_unique<mapping::SemanticOcTree>(0.1);
   for (int i = 0; i < 10; ++i) {
     tree->updateNode(octomap::point3d(0.05F, 0.05F, 0.05F), true);
     tree->updateNode(octomap::point3d(1.05F, 0.05F, 0.05F), true);
@@ -37,9 +37,9 @@ std::unique_ptr<SemanticOcTree> small_map() {
 
 TEST(MapCommand, InfoCountsVoxelsNotLeaves) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(save_cairn(*small_map(), folder / "a.cairn"));
+  ASSERT_TRUE(mapping::save_cairn(*small_map(), folder / "a.cairn"));
   const Outcome outcome = map({"info", folder / "a.cairn", "--json"});
-  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+  ASSERT_EQ(outcome.exit_code, app::kDone) << outcome.err;
   const auto json = outcome.json();
   EXPECT_EQ(json["occupied"], 2);
   EXPECT_EQ(json["free"], 9);
@@ -56,8 +56,8 @@ TEST(MapCommand, InfoCountsVoxelsNotLeaves) {
 
 TEST(MapCommand, InfoKnowsAMapByItsContentNotByItsName) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(save_cairn(*small_map(), folder / "with_checksum.ot"));
-  ASSERT_TRUE(save_ot(*small_map(), folder / "without.cairn"));
+  ASSERT_TRUE(mapping::save_cairn(*small_map(), folder / "with_checksum.ot"));
+  ASSERT_TRUE(mapping::save_ot(*small_map(), folder / "without.cairn"));
   EXPECT_EQ(map({"info", folder / "with_checksum.ot", "--json"}).json()["checksum"], "ok");
   EXPECT_EQ(map({"info", folder / "without.cairn", "--json"}).json()["checksum"], "none");
 }
@@ -66,10 +66,10 @@ TEST(MapCommand, CompareNamesAllFields) {
   const TemporaryFolder folder;
   auto other = small_map();
   other->updateNode(octomap::point3d(5.05F, 0.05F, 0.05F), true);
-  ASSERT_TRUE(save_cairn(*small_map(), folder / "a.cairn"));
-  ASSERT_TRUE(save_ot(*other, folder / "b.ot"));
+  ASSERT_TRUE(mapping::save_cairn(*small_map(), folder / "a.cairn"));
+  ASSERT_TRUE(mapping::save_ot(*other, folder / "b.ot"));
   const Outcome outcome = map({"compare", folder / "a.cairn", folder / "b.ot", "--json"});
-  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+  ASSERT_EQ(outcome.exit_code, app::kDone) << outcome.err;
   const auto json = outcome.json();
   EXPECT_EQ(json["same"], 11);
   EXPECT_EQ(json["disagreeing"], 0);
@@ -82,19 +82,19 @@ TEST(MapCommand, CompareNamesAllFields) {
 
 TEST(MapCommand, CompareRefusesAnotherResolution) {
   const TemporaryFolder folder;
-  SemanticOcTree coarse(0.2);
+  mapping::SemanticOcTree coarse(0.2);
   coarse.updateNode(octomap::point3d(0.1F, 0.1F, 0.1F), true);
-  ASSERT_TRUE(save_cairn(*small_map(), folder / "a.cairn"));
-  ASSERT_TRUE(save_cairn(coarse, folder / "b.cairn"));
+  ASSERT_TRUE(mapping::save_cairn(*small_map(), folder / "a.cairn"));
+  ASSERT_TRUE(mapping::save_cairn(coarse, folder / "b.cairn"));
   const Outcome outcome = map({"compare", folder / "a.cairn", folder / "b.cairn", "--json"});
-  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_EQ(outcome.exit_code, app::kFailed);
   EXPECT_TRUE(outcome.out.empty());
   EXPECT_THAT(outcome.err, HasSubstr("0.1 m and 0.2 m"));
 }
 
 TEST(MapCommand, RenderWritesAPngOfTheSizeItTells) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(save_cairn(*small_map(), folder / "a.cairn"));
+  ASSERT_TRUE(mapping::save_cairn(*small_map(), folder / "a.cairn"));
   ASSERT_TRUE(recording::write_tum(
       folder / "t.tum",
       std::vector<recording::StampedPose>{{Time{from_seconds(0)}, SE3()}, {Time{from_seconds(1)}, SE3()}}));
@@ -102,7 +102,7 @@ TEST(MapCommand, RenderWritesAPngOfTheSizeItTells) {
     const Outcome outcome =
         map({"render", folder / "a.cairn", "--out", folder / "a.png", "--view", view, "--height-min", "-1", "--scale",
              "100", "--trajectory", folder / "t.tum", "--ground-truth", folder / "t.tum", "--json"});
-    ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+    ASSERT_EQ(outcome.exit_code, app::kDone) << outcome.err;
     png_image png{};
     png.version = PNG_IMAGE_VERSION;
     ASSERT_NE(png_image_begin_read_from_file(&png, (folder / "a.png").c_str()), 0);
@@ -114,16 +114,16 @@ TEST(MapCommand, RenderWritesAPngOfTheSizeItTells) {
 
 TEST(MapCommand, ExportReadsBackTheSame) {
   const TemporaryFolder folder;
-  ASSERT_TRUE(save_cairn(*small_map(), folder / "a.cairn"));
+  ASSERT_TRUE(mapping::save_cairn(*small_map(), folder / "a.cairn"));
   for (const std::string name : {"b.ot", "b.cairn"}) {
-    ASSERT_EQ(map({"export", folder / "a.cairn", "--out", folder / name}).exit_code, kDone);
+    ASSERT_EQ(map({"export", folder / "a.cairn", "--out", folder / name}).exit_code, app::kDone);
     const auto json = map({"compare", folder / "a.cairn", folder / name, "--json"}).json();
     EXPECT_EQ(json["same"], 11) << name;
     EXPECT_EQ(json["differing_log_odds"], 0) << name;
   }
   for (const std::string name : {"b.bt", "b.ply", "b.pcd"}) {
     const Outcome outcome = map({"export", folder / "a.cairn", "--out", folder / name, "--json"});
-    ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+    ASSERT_EQ(outcome.exit_code, app::kDone) << outcome.err;
     EXPECT_EQ(outcome.json()["bytes"], std::filesystem::file_size(folder / name));
   }
   EXPECT_EQ(map({"compare", folder / "a.cairn", folder / "b.bt", "--json"}).json()["same"], 11);
@@ -132,21 +132,21 @@ TEST(MapCommand, ExportReadsBackTheSame) {
 TEST(MapCommand, FaultsNameTheFileAndExitAsPromised) {
   const TemporaryFolder folder;
   std::ofstream(folder / "broken.cairn") << "this is no map";
-  ASSERT_TRUE(save_cairn(*small_map(), folder / "a.cairn"));
+  ASSERT_TRUE(mapping::save_cairn(*small_map(), folder / "a.cairn"));
   const auto expect = [&](std::vector<std::string> arguments, int code, const std::string& message) {
     const Outcome outcome = map(std::move(arguments));
     EXPECT_EQ(outcome.exit_code, code) << outcome.err;
     EXPECT_THAT(outcome.err, HasSubstr(message));
   };
-  expect({"info", folder / "none.cairn"}, kFailed, "none.cairn");
-  expect({"info", folder / "broken.cairn", "--json"}, kFailed, "broken.cairn");
-  expect({"info"}, kWrongArguments, "file");
-  expect({}, kWrongArguments, "subcommand");
-  expect({"export", folder / "a.cairn", "--out", folder / "a.stl"}, kWrongArguments, ".pcd");
-  expect({"render", folder / "a.cairn", "--out", folder / "a.png", "--view", "inside"}, kWrongArguments, "inside");
-  expect({"render", folder / "a.cairn", "--out", folder / "a.png", "--height-min", "50"}, kFailed, "empty");
-  expect({"render", folder / "a.cairn", "--out", folder / "a.png", "--scale", "1e9"}, kFailed, "too large");
-  expect({"render", folder / "a.cairn", "--out", folder / "nowhere/a.png"}, kFailed, "nowhere");
+  expect({"info", folder / "none.cairn"}, app::kFailed, "none.cairn");
+  expect({"info", folder / "broken.cairn", "--json"}, app::kFailed, "broken.cairn");
+  expect({"info"}, app::kWrongArguments, "file");
+  expect({}, app::kWrongArguments, "subcommand");
+  expect({"export", folder / "a.cairn", "--out", folder / "a.stl"}, app::kWrongArguments, ".pcd");
+  expect({"render", folder / "a.cairn", "--out", folder / "a.png", "--view", "inside"}, app::kWrongArguments, "inside");
+  expect({"render", folder / "a.cairn", "--out", folder / "a.png", "--height-min", "50"}, app::kFailed, "empty");
+  expect({"render", folder / "a.cairn", "--out", folder / "a.png", "--scale", "1e9"}, app::kFailed, "too large");
+  expect({"render", folder / "a.cairn", "--out", folder / "nowhere/a.png"}, app::kFailed, "nowhere");
 }
 
 }  // namespace

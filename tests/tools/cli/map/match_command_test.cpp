@@ -21,13 +21,13 @@ Outcome match(std::vector<std::string> arguments) {
 TEST(MatchCommand, GivesThePoseAndAllFields) {
   const TemporaryFolder folder;
   const auto pair = support::two_robots(support::lobby(), {0, 2.5, 12}, {1.2, 3.6, 12}, 9);
-  ASSERT_TRUE(save_cairn(*pair.a, folder / "a.cairn"));
-  ASSERT_TRUE(save_ot(*pair.b, folder / "b.ot"));
+  ASSERT_TRUE(mapping::save_cairn(*pair.a, folder / "a.cairn"));
+  ASSERT_TRUE(mapping::save_ot(*pair.b, folder / "b.ot"));
   const Vector6 truth = pair.T_a_b.xyz_rpy();
   const std::string initial = fmt::format("--initial={},{},{},{},{},{}", truth[0] + 1.5, truth[1] - 1, truth[2],
                                           truth[3], truth[4], truth[5] + 0.2);
   const Outcome outcome = match({folder / "a.cairn", folder / "b.ot", initial, "--json"});
-  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+  ASSERT_EQ(outcome.exit_code, app::kDone) << outcome.err;
   const auto json = outcome.json();
   ASSERT_EQ(json["T_a_b"].size(), 16U);
   ASSERT_EQ(json["covariance"].size(), 36U);
@@ -50,28 +50,28 @@ TEST(MatchCommand, GivesThePoseAndAllFields) {
 
 TEST(MatchCommand, ARefusedMatchIsAResult) {
   const TemporaryFolder folder;
-  SemanticOcTree voxel(0.1);
+  mapping::SemanticOcTree voxel(0.1);
   voxel.setNodeValue(octomap::point3d(1, 2, 3), 1.0F);
-  ASSERT_TRUE(save_cairn(voxel, folder / "a.cairn"));
+  ASSERT_TRUE(mapping::save_cairn(voxel, folder / "a.cairn"));
   const Outcome outcome = match({folder / "a.cairn", folder / "a.cairn", "--json"});
-  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+  ASSERT_EQ(outcome.exit_code, app::kDone) << outcome.err;
   EXPECT_FALSE(outcome.json()["accepted"]);
   EXPECT_THAT(outcome.json()["reason"].get<std::string>(), HasSubstr("too little structure"));
 }
 
 TEST(MatchCommand, FaultsExitAsPromised) {
   const TemporaryFolder folder;
-  SemanticOcTree voxel(0.1);
+  mapping::SemanticOcTree voxel(0.1);
   voxel.setNodeValue(octomap::point3d(1, 2, 3), 1.0F);
-  ASSERT_TRUE(save_cairn(voxel, folder / "a.cairn"));
+  ASSERT_TRUE(mapping::save_cairn(voxel, folder / "a.cairn"));
   const std::string a = folder / "a.cairn";
-  EXPECT_EQ(match({a, folder / "none.ot"}).exit_code, kFailed);
+  EXPECT_EQ(match({a, folder / "none.ot"}).exit_code, app::kFailed);
   EXPECT_THAT(match({a, folder / "none.ot"}).err, HasSubstr("none.ot"));
-  EXPECT_EQ(match({a}).exit_code, kWrongArguments);
-  EXPECT_EQ(match({a, a, "--method", "magic"}).exit_code, kWrongArguments);
-  EXPECT_EQ(match({a, a, "--initial", "1,2,3"}).exit_code, kWrongArguments);
-  EXPECT_EQ(match({a, a, "--initial", "nan,0,0,0,0,0"}).exit_code, kWrongArguments);
-  EXPECT_EQ(match({a, a, "--sigma", "1"}).exit_code, kWrongArguments);  // of no guess
+  EXPECT_EQ(match({a}).exit_code, app::kWrongArguments);
+  EXPECT_EQ(match({a, a, "--method", "magic"}).exit_code, app::kWrongArguments);
+  EXPECT_EQ(match({a, a, "--initial", "1,2,3"}).exit_code, app::kWrongArguments);
+  EXPECT_EQ(match({a, a, "--initial", "nan,0,0,0,0,0"}).exit_code, app::kWrongArguments);
+  EXPECT_EQ(match({a, a, "--sigma", "1"}).exit_code, app::kWrongArguments);  // of no guess
 }
 
 }  // namespace

@@ -22,8 +22,8 @@ class MergeCommand : public testing::Test {
  protected:
   void SetUp() override {
     const auto pair = support::two_robots(support::corridor(), {0, 1.5, 4}, {0.5, 2, 4}, 9);
-    ASSERT_TRUE(save_cairn(*pair.a, folder / "a.cairn"));
-    ASSERT_TRUE(save_cairn(*pair.b, folder / "b.cairn"));
+    ASSERT_TRUE(mapping::save_cairn(*pair.a, folder / "a.cairn"));
+    ASSERT_TRUE(mapping::save_cairn(*pair.b, folder / "b.cairn"));
     const Vector6 v = pair.T_a_b.xyz_rpy();
     pose = "--pose=" + std::to_string(v[0]);
     for (int k = 1; k < 6; ++k) pose += "," + std::to_string(v[k]);
@@ -34,14 +34,14 @@ class MergeCommand : public testing::Test {
 
 TEST_F(MergeCommand, KnowsWhatEitherMapKnew) {
   const Outcome outcome = merge({folder / "a.cairn", folder / "b.cairn", pose, "--out", folder / "c.cairn", "--json"});
-  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
-  const auto a = load_map(folder / "a.cairn"), c = load_map(folder / "c.cairn");
+  ASSERT_EQ(outcome.exit_code, app::kDone) << outcome.err;
+  const auto a = mapping::load_map(folder / "a.cairn"), c = mapping::load_map(folder / "c.cairn");
   ASSERT_TRUE(a && c);
-  const auto difference = compare(**a, **c);
+  const auto difference = report::compare(**a, **c);
   ASSERT_TRUE(difference);
   EXPECT_EQ(difference->only_a, 0U);
   EXPECT_GT(difference->only_b, 1000U);
-  EXPECT_EQ(outcome.json()["occupied"], summarise(**c).occupied);
+  EXPECT_EQ(outcome.json()["occupied"], report::summarise(**c).occupied);
   EXPECT_EQ(outcome.json()["policy"], "relative_entropy");
 }
 
@@ -59,20 +59,22 @@ TEST_F(MergeCommand, AMapWithItselfIsItselfForEveryPolicy) {
   for (const std::string policy : {"relative_entropy", "relative_entropy_weighted", "bayes", "average", "stitch"}) {
     const Outcome outcome = merge({folder / "a.cairn", folder / "a.cairn", "--pose=0,0,0,0,0,0", "--policy", policy,
                                    "--out", folder / "c.cairn"});
-    ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
-    EXPECT_EQ(encode_cairn(**load_map(folder / "a.cairn")), encode_cairn(**load_map(folder / "c.cairn"))) << policy;
+    ASSERT_EQ(outcome.exit_code, app::kDone) << outcome.err;
+    EXPECT_EQ(mapping::encode_cairn(**mapping::load_map(folder / "a.cairn")),
+              mapping::encode_cairn(**mapping::load_map(folder / "c.cairn")))
+        << policy;
   }
 }
 
 TEST_F(MergeCommand, FaultsExitAsPromised) {
   const std::string a = folder / "a.cairn", b = folder / "b.cairn", out = folder / "c.cairn";
-  EXPECT_EQ(merge({a, folder / "none.ot", pose, "--out", out}).exit_code, kFailed);
-  EXPECT_EQ(merge({a, b, pose, "--out", folder / "nowhere/c.ot"}).exit_code, kFailed);
-  EXPECT_EQ(merge({a, b, "--out", out}).exit_code, kWrongArguments);
-  EXPECT_EQ(merge({a, b, pose, "--out", folder / "c.stl"}).exit_code, kWrongArguments);
+  EXPECT_EQ(merge({a, folder / "none.ot", pose, "--out", out}).exit_code, app::kFailed);
+  EXPECT_EQ(merge({a, b, pose, "--out", folder / "nowhere/c.ot"}).exit_code, app::kFailed);
+  EXPECT_EQ(merge({a, b, "--out", out}).exit_code, app::kWrongArguments);
+  EXPECT_EQ(merge({a, b, pose, "--out", folder / "c.stl"}).exit_code, app::kWrongArguments);
   EXPECT_THAT(merge({a, b, pose, "--out", folder / "c.stl"}).err, HasSubstr(".pcd"));
-  EXPECT_EQ(merge({a, b, pose, "--policy", "sum", "--out", out}).exit_code, kWrongArguments);
-  EXPECT_EQ(merge({a, b, "--pose=nan,0,0,0,0,0", "--out", out}).exit_code, kWrongArguments);
+  EXPECT_EQ(merge({a, b, pose, "--policy", "sum", "--out", out}).exit_code, app::kWrongArguments);
+  EXPECT_EQ(merge({a, b, "--pose=nan,0,0,0,0,0", "--out", out}).exit_code, app::kWrongArguments);
 }
 
 }  // namespace

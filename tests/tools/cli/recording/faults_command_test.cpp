@@ -45,7 +45,7 @@ TEST(FaultsCommand, LeavesARecordingWithTheFaultsThatWereAskedFor) {
   const TemporaryFolder folder;
   write_recording(folder / "good");
   const Outcome o = faults({folder / "good", "--out", folder / "bad", "--source", "drive", "--drop", "0.5", "--json"});
-  ASSERT_EQ(o.exit_code, kDone) << o.err;
+  ASSERT_EQ(o.exit_code, app::kDone) << o.err;
   const auto json = o.json();
   EXPECT_EQ(json["packets"], 1001);
   EXPECT_NEAR(json["dropped"].get<double>(), 500, 60);
@@ -57,7 +57,7 @@ TEST(FaultsCommand, LeavesARecordingWithTheFaultsThatWereAskedFor) {
 TEST(FaultsCommand, WithoutFaultsItCopies) {
   const TemporaryFolder folder;
   write_recording(folder / "good");
-  ASSERT_EQ(faults({folder / "good", "--out", folder / "copy"}).exit_code, kDone);
+  ASSERT_EQ(faults({folder / "good", "--out", folder / "copy"}).exit_code, app::kDone);
   EXPECT_EQ(packets_in(folder / "copy"), 1001U);
 }
 
@@ -65,23 +65,25 @@ TEST(FaultsCommand, WrongSourcesAndFoldersAreNamed) {
   const TemporaryFolder folder;
   write_recording(folder / "good");
   const Outcome o = faults({folder / "good", "--out", folder / "bad", "--source", "lidar"});
-  EXPECT_EQ(o.exit_code, kWrongArguments);
+  EXPECT_EQ(o.exit_code, app::kWrongArguments);
   EXPECT_THAT(o.err, HasSubstr("it has drive, gpio"));
-  EXPECT_EQ(faults({folder / "nothing", "--out", folder / "bad"}).exit_code, kFailed);
-  ASSERT_EQ(faults({folder / "good", "--out", folder / "bad"}).exit_code, kDone);
-  EXPECT_EQ(faults({folder / "good", "--out", folder / "bad"}).exit_code, kFailed) << "an old recording is kept";
+  EXPECT_EQ(faults({folder / "nothing", "--out", folder / "bad"}).exit_code, app::kFailed);
+  ASSERT_EQ(faults({folder / "good", "--out", folder / "bad"}).exit_code, app::kDone);
+  EXPECT_EQ(faults({folder / "good", "--out", folder / "bad"}).exit_code, app::kFailed) << "an old recording is kept";
 }
 
 TEST(FaultsCommand, ListsWhatCountsAsAFault) {
   const Outcome o = faults({"list"});
-  EXPECT_EQ(o.exit_code, kDone);
+  EXPECT_EQ(o.exit_code, app::kDone);
   EXPECT_THAT(o.out, HasSubstr("lidar_silent"));
   const auto json = faults({"list", "--json"}).json();
   EXPECT_EQ(json["faults"].size(), 27U);
   EXPECT_EQ(json["faults"][16]["least"], "stop");
 }
 
-TEST(FaultsCommand, WithoutAPlaceForTheResultItSaysSo) { EXPECT_EQ(faults({"somewhere"}).exit_code, kWrongArguments); }
+TEST(FaultsCommand, WithoutAPlaceForTheResultItSaysSo) {
+  EXPECT_EQ(faults({"somewhere"}).exit_code, app::kWrongArguments);
+}
 
 }  // namespace
 }  // namespace cairn::cli

@@ -27,7 +27,7 @@ TEST(ImportCommand, SaysWhatItImported) {
   write_cloud(folder / "a.pcd");
   write_cloud(folder / "b.pcd");
   const Outcome text = import({"pcd-folder", folder.path(), "--out", folder / "r", "--robot", "uav"});
-  EXPECT_EQ(text.exit_code, kDone) << text.err;
+  EXPECT_EQ(text.exit_code, app::kDone) << text.err;
   EXPECT_THAT(text.out, HasSubstr("2 sweeps"));
   const auto recording = recording::load_recording(folder / "r");
   ASSERT_TRUE(recording);
@@ -39,7 +39,7 @@ TEST(ImportCommand, JsonIsOneObject) {
   write_cloud(folder / "a.pcd");
   std::ofstream(folder / "b.pcd") << "broken";
   const Outcome o = import({"pcd-folder", folder.path(), "--out", folder / "r", "--json", "--deskewed", "true"});
-  EXPECT_EQ(o.exit_code, kDone);
+  EXPECT_EQ(o.exit_code, app::kDone);
   EXPECT_EQ(o.json()["items"], 1);
   EXPECT_EQ(o.json()["damaged"], 1);
   EXPECT_THAT(o.json()["damage"][0].get<std::string>(), HasSubstr("b.pcd"));
@@ -50,20 +50,20 @@ TEST(ImportCommand, ASecondImportMustBeToldToOverwrite) {
   const TemporaryFolder folder;
   write_cloud(folder / "a.pcd");
   const std::vector<std::string> arguments{"pcd-folder", folder.path(), "--out", folder / "r"};
-  EXPECT_EQ(import(arguments).exit_code, kDone);
+  EXPECT_EQ(import(arguments).exit_code, app::kDone);
   const Outcome again = import(arguments);
-  EXPECT_EQ(again.exit_code, kFailed);
+  EXPECT_EQ(again.exit_code, app::kFailed);
   EXPECT_THAT(again.err, HasSubstr("there is a recording already"));
   auto told = arguments;
   told.emplace_back("--overwrite");
-  EXPECT_EQ(import(told).exit_code, kDone);
+  EXPECT_EQ(import(told).exit_code, app::kDone);
 }
 
 TEST(ImportCommand, WrongArguments) {
   const TemporaryFolder folder;
-  EXPECT_EQ(import({"tapes", folder.path(), "--out", folder / "r"}).exit_code, kWrongArguments);
-  EXPECT_EQ(import({"pcd-folder", folder / "nothing", "--out", folder / "r"}).exit_code, kWrongArguments);
-  EXPECT_EQ(import({"pcd-folder", folder.path(), "--out", folder / "r"}).exit_code, kFailed) << "no files";
+  EXPECT_EQ(import({"tapes", folder.path(), "--out", folder / "r"}).exit_code, app::kWrongArguments);
+  EXPECT_EQ(import({"pcd-folder", folder / "nothing", "--out", folder / "r"}).exit_code, app::kWrongArguments);
+  EXPECT_EQ(import({"pcd-folder", folder.path(), "--out", folder / "r"}).exit_code, app::kFailed) << "no files";
 }
 
 }  // namespace

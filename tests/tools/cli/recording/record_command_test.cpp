@@ -33,7 +33,7 @@ std::string quiet_profile(const TemporaryFolder& folder) {
 TEST(RecordCommand, SilenceIsAFailureThatNamesItsRemedy) {
   const TemporaryFolder folder;
   const Outcome o = record({"--config", quiet_profile(folder), "--out", folder / "r", "--seconds", "0.1", "--json"});
-  EXPECT_EQ(o.exit_code, kFailed);
+  EXPECT_EQ(o.exit_code, app::kFailed);
   EXPECT_THAT(o.err, HasSubstr("check cable"));
   EXPECT_EQ(o.json()["packets"], 0);
   const auto r = recording::load_recording(folder / "r");
@@ -62,7 +62,7 @@ TEST(RecordCommand, AFaultyProfileIsAWrongArgument) {
   const TemporaryFolder folder;
   std::ofstream(folder / "robot.yaml") << "lidar: {modle: VLP-16}\n";
   const Outcome o = record({"--config", folder / "robot.yaml", "--out", folder / "r", "--seconds", "0.1"});
-  EXPECT_EQ(o.exit_code, kWrongArguments);
+  EXPECT_EQ(o.exit_code, app::kWrongArguments);
   EXPECT_THAT(o.err, HasSubstr("lidar.modle"));
   EXPECT_FALSE(std::filesystem::exists(folder / "r"));
 }

@@ -18,7 +18,7 @@ using ::testing::HasSubstr;
 
 class TeamCommand : public testing::Test {
  protected:
-  void prepare(const team::SampleTeam& sample) {
+  void prepare(const team_run::SampleTeam& sample) {
     for (const int robot : {1, 2}) {
       const std::string name = "robot_" + std::to_string(robot);
       sample.write_recording(folder / "recordings" / name, robot);
@@ -49,7 +49,7 @@ class TeamCommand : public testing::Test {
 TEST_F(TeamCommand, SaysWhatTheTeamHasComeTo) {
   prepare({0.25});
   const Outcome outcome = team({"--json", "--link", "clean"});
-  ASSERT_EQ(outcome.exit_code, kDone) << outcome.err;
+  ASSERT_EQ(outcome.exit_code, app::kDone) << outcome.err;
   const auto json = outcome.json();
   EXPECT_EQ(json, nlohmann::json::parse(text_of("out/team.json")));
   ASSERT_EQ(json["robots"].size(), 2U);
@@ -57,7 +57,7 @@ TEST_F(TeamCommand, SaysWhatTheTeamHasComeTo) {
     const auto& robot = json["robots"][i];
     EXPECT_EQ(robot["name"], "robot_" + std::to_string(i + 1));
     EXPECT_EQ(robot["team_sha256"], "abc");
-    EXPECT_EQ(robot["raw_bytes"], team::SampleTeam::kPackets * team::SampleTeam::kBytes);
+    EXPECT_EQ(robot["raw_bytes"], team_run::SampleTeam::kPackets * team_run::SampleTeam::kBytes);
     EXPECT_NEAR(robot["pose_error_m"][0], 0.25, 1e-9);
     EXPECT_NEAR(robot["pose_error_deg"][0], 0, 1e-9);
     EXPECT_EQ(robot["merged_with"][0], "robot_" + std::to_string(2 - i));
@@ -72,12 +72,12 @@ TEST_F(TeamCommand, SaysWhatTheTeamHasComeTo) {
 
 TEST_F(TeamCommand, TellsEachCoreWhoItIsAndWhatToDo) {
   prepare({});
-  ASSERT_EQ(team({"--resolution", "0.4"}).exit_code, kDone);
+  ASSERT_EQ(team({"--resolution", "0.4"}).exit_code, app::kDone);
   for (const std::string robot : {"robot_1", "robot_2"}) {
     EXPECT_EQ(text_of("out/" + robot + "/arguments"), "run --config profile.yaml --recording " +
                                                           (folder / "recordings" / robot).string() +
                                                           " --peers --seconds 6.9 --out .\n");
-    const auto profile = load_profile(folder / "out" / robot / "profile.yaml");
+    const auto profile = app::load_profile(folder / "out" / robot / "profile.yaml");
     ASSERT_TRUE(profile) << to_string(profile.error());
     EXPECT_EQ(profile->name, robot);
     EXPECT_EQ(std::to_string(profile->team.id), robot.substr(6));
@@ -95,39 +95,39 @@ TEST_F(TeamCommand, ForPeopleItIsATable) {
 }
 
 TEST_F(TeamCommand, WithoutTruthItSaysWhatItDoesNotKnow) {
-  team::SampleTeam sample;
+  team_run::SampleTeam sample;
   sample.truth = false;
   prepare(sample);
   const auto json = team({"--json"}).json();
   for (const char* field : {"wrong_merges", "iou_world"}) EXPECT_TRUE(json[field].is_null()) << field;
   EXPECT_TRUE(json["robots"][0]["pose_error_m"][0].is_null());
   const Outcome table = team();
-  EXPECT_EQ(table.exit_code, kDone);
+  EXPECT_EQ(table.exit_code, app::kDone);
   EXPECT_THAT(table.out, HasSubstr("no truth"));
 }
 
 TEST_F(TeamCommand, FailsWhereMergedRobotsHaveDifferentMaps) {
-  team::SampleTeam sample;
+  team_run::SampleTeam sample;
   sample.sha_2 = "def";
   prepare(sample);
   const Outcome outcome = team();
-  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_EQ(outcome.exit_code, app::kFailed);
   EXPECT_THAT(outcome.out, HasSubstr("DIFFERENT team maps: robot_1 and robot_2"));
 }
 
 TEST_F(TeamCommand, FailsAfterAWrongMerge) {
   prepare({5});
   const Outcome outcome = team({"--json"});
-  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_EQ(outcome.exit_code, app::kFailed);
   EXPECT_EQ(outcome.json()["wrong_merges"], 1);
 }
 
 TEST_F(TeamCommand, RobotsThatDidNotMeetAreNoFailure) {
-  team::SampleTeam sample{5, "abc", "def"};
+  team_run::SampleTeam sample{5, "abc", "def"};
   sample.merged = false;
   prepare(sample);
   const Outcome outcome = team();
-  EXPECT_EQ(outcome.exit_code, kDone) << outcome.out;
+  EXPECT_EQ(outcome.exit_code, app::kDone) << outcome.out;
   EXPECT_THAT(outcome.out, HasSubstr("nobody"));
 }
 
@@ -136,7 +136,7 @@ TEST_F(TeamCommand, ACoreThatFailsIsNamedWithItsLog) {
   // The first robot's works until it is asked to end, for the second one's failure.
   script("core", "[ $(basename $PWD) = robot_1 ] && exec tail -f /dev/null; echo help; exit 3");
   const Outcome outcome = team();
-  EXPECT_EQ(outcome.exit_code, kFailed);
+  EXPECT_EQ(outcome.exit_code, app::kFailed);
   EXPECT_THAT(outcome.err, HasSubstr("a robot's core failed"));
   EXPECT_THAT(outcome.err, HasSubstr("robot_2"));
   EXPECT_THAT(outcome.err, HasSubstr("exit code 3, last words: help ("));
@@ -145,9 +145,9 @@ TEST_F(TeamCommand, ACoreThatFailsIsNamedWithItsLog) {
 
 TEST_F(TeamCommand, WhatAnEarlierRunLeftIsNotTakenForThisOnes) {
   prepare({});
-  ASSERT_EQ(team().exit_code, kDone);
+  ASSERT_EQ(team().exit_code, app::kDone);
   script("core", "exit 0");
-  EXPECT_EQ(team().exit_code, kFailed);
+  EXPECT_EQ(team().exit_code, app::kFailed);
 }
 
 TEST_F(TeamCommand, RefusesToWriteIntoRecordings) {
@@ -155,17 +155,17 @@ TEST_F(TeamCommand, RefusesToWriteIntoRecordings) {
   const Outcome outcome =
       run(add_team_command, {"team", "--recordings", folder / "recordings", "--out", folder / "recordings", "--core",
                              folder / "core", "--peers", folder / "peers"});
-  EXPECT_EQ(outcome.exit_code, kWrongArguments);
+  EXPECT_EQ(outcome.exit_code, app::kWrongArguments);
   EXPECT_TRUE(fs::exists(folder / "recordings" / "robot_1" / "lidar.pcap"));
 }
 
 TEST_F(TeamCommand, WrongArgumentsAreSaid) {
   prepare({});
-  EXPECT_EQ(team({"--link", "nowhere.yaml"}).exit_code, kFailed);
+  EXPECT_EQ(team({"--link", "nowhere.yaml"}).exit_code, app::kFailed);
   std::ofstream(folder / "link.yaml") << "loss: 2\n";
-  EXPECT_EQ(team({"--link", folder / "link.yaml"}).exit_code, kWrongArguments);
-  EXPECT_EQ(team({"--settle", "-1"}).exit_code, kWrongArguments);
-  EXPECT_EQ(team({"--core", folder / "no_such_program"}).exit_code, kWrongArguments);
+  EXPECT_EQ(team({"--link", folder / "link.yaml"}).exit_code, app::kWrongArguments);
+  EXPECT_EQ(team({"--settle", "-1"}).exit_code, app::kWrongArguments);
+  EXPECT_EQ(team({"--core", folder / "no_such_program"}).exit_code, app::kWrongArguments);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::string text(const LiveView& view, const Screen& screen = {120, 40, false}) {
+std::string text(const app::LiveView& view, const Screen& screen = {120, 40, false}) {
   std::string all;
   for (const std::string& line : render(view, screen)) all += line + "\n";
   return all;
@@ -37,7 +37,7 @@ TEST(RenderTop, ShowsTasksAgainstTheirDeadlines) {
 }
 
 TEST(RenderTop, ItsTextReachesTheTerminalAsTextAlone) {
-  LiveView view = support::sample_view();
+  app::LiveView view = support::sample_view();
   view.robot = "\x1b[2Jevil\n\x07\xc3\xa9";
   view.events.push_back({1, "\x1b]0;title\x07", "\r\n", 1});
   view.stages[0].name = "\x9b\x1b[31m";
@@ -47,7 +47,7 @@ TEST(RenderTop, ItsTextReachesTheTerminalAsTextAlone) {
 TEST(RenderTop, NeverWiderNorLongerThanTheScreen) {
   std::mt19937 random(1);
   for (int i = 0; i < 300; ++i) {
-    LiveView view = support::sample_view();
+    app::LiveView view = support::sample_view();
     for (auto& stage : view.stages) {
       stage.max_ms = i % 3 == 0 ? std::numeric_limits<double>::quiet_NaN() : 1e300;
       stage.p99_ms = -1e300;

@@ -10,8 +10,8 @@ namespace cairn::protocol {
 namespace {
 
 /// A floor of 8 × 2 m and 0.1 m voxels with free space above.
-std::shared_ptr<SemanticOcTree> floor_map() {
-  auto map = std::make_shared<SemanticOcTree>(0.1);
+std::shared_ptr<mapping::SemanticOcTree> floor_map() {
+  auto map = std::make_shared<mapping::SemanticOcTree>(0.1);
   const auto middle = [](int cell) { return 0.1F * static_cast<float>(cell) + 0.05F; };
   for (int x = 0; x < 80; ++x)
     for (int y = 0; y < 20; ++y) {

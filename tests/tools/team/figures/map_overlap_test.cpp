@@ -7,12 +7,12 @@
 
 #include "tests/onboard/report/random_map.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 /// A wall of 20 by 10 voxels at x, and known free space in front of it.
-SemanticOcTree wall(int x) {
-  SemanticOcTree map(0.1);
+mapping::SemanticOcTree wall(int x) {
+  mapping::SemanticOcTree map(0.1);
   const auto at = [](int i) { return 0.05F + 0.1F * static_cast<float>(i); };
   for (int y = 0; y < 20; ++y)
     for (int z = 0; z < 10; ++z) {
@@ -33,21 +33,21 @@ SE3 random_pose(std::mt19937& random) {
 
 TEST(IouWithWorld, OfTheWorldItselfIsOneAndOfNothingIsNone) {
   for (unsigned seed = 0; seed < 3; ++seed) {
-    const auto world = random_map(seed);
+    const auto world = report::random_map(seed);
     EXPECT_EQ(iou_with_world(*world, SE3(), *world), 1.0);
   }
-  EXPECT_FALSE(iou_with_world(SemanticOcTree(0.1), SE3(), SemanticOcTree(0.1)));
+  EXPECT_FALSE(iou_with_world(mapping::SemanticOcTree(0.1), SE3(), mapping::SemanticOcTree(0.1)));
 }
 
 TEST(IouWithWorld, AllowsForOneVoxelAndNoMore) {
-  const SemanticOcTree world = wall(10), near = wall(11), far = wall(13);
+  const mapping::SemanticOcTree world = wall(10), near = wall(11), far = wall(13);
   EXPECT_EQ(iou_with_world(near, SE3(), world), 1.0);
   EXPECT_EQ(iou_with_world(far, SE3(), world), 0.0);
   EXPECT_EQ(iou_with_world(far, moved_x(-0.3), world), 1.0);
 }
 
 TEST(IouWithWorld, WithinAnAreaTheRestDoesNotCount) {
-  SemanticOcTree map = wall(10), area = wall(10);
+  mapping::SemanticOcTree map = wall(10), area = wall(10);
   map.updateNode(octomap::point3d(5.05F, 5.05F, 5.05F), true);  // nothing of the kind is in the world
   const Area within{area, SE3()};
   EXPECT_LT(iou_with_world(map, SE3(), wall(10)).value(), 1.0);
@@ -57,8 +57,8 @@ TEST(IouWithWorld, WithinAnAreaTheRestDoesNotCount) {
 }
 
 TEST(IouWithWorld, WhatTheMapDoesNotKnowIsNotHeldAgainstIt) {
-  const SemanticOcTree map = wall(10);
-  SemanticOcTree world = wall(10);
+  const mapping::SemanticOcTree map = wall(10);
+  mapping::SemanticOcTree world = wall(10);
   world.updateNode(octomap::point3d(3.05F, 0.05F, 0.05F), true);
   EXPECT_EQ(iou_with_world(map, SE3(), world), 1.0);
   world.updateNode(octomap::point3d(0.25F, 0.05F, 0.05F), true);  // free in the map
@@ -87,4 +87,4 @@ TEST(IsWrongMerge, ByPlaceOrByHeading) {
 }
 
 }  // namespace
-}  // namespace cairn::team
+}  // namespace cairn::team_run

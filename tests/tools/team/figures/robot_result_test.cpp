@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/tools/team/sample_team.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 using ::testing::ElementsAre;
@@ -74,4 +74,4 @@ TEST_F(ReadingARobotsResult, WhatIsNotAReportIsAnErrorAndNeverMore) {
 }
 
 }  // namespace
-}  // namespace cairn::team
+}  // namespace cairn::team_run

@@ -6,7 +6,7 @@
 
 #include "tests/onboard/report/random_map.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 using ::testing::ElementsAre;
@@ -15,7 +15,7 @@ SE3 ahead(double metres) { return {Eigen::Quaterniond::Identity(), {metres, 0, 0
 
 /// `count` robots; the odom of each lies a metre ahead of the last one's, which all know, and has the world's map.
 std::vector<RobotResult> team_of(int count) {
-  const std::shared_ptr<const SemanticOcTree> map = random_map(1);
+  const std::shared_ptr<const mapping::SemanticOcTree> map = report::random_map(1);
   std::vector<RobotResult> robots;
   for (int i = 0; i < count; ++i) {
     RobotResult robot;
@@ -43,7 +43,7 @@ void split_off(std::vector<RobotResult>& robots, std::size_t which) {
 }
 
 TEST(CompareTeam, OfThoseWhoAreRightSaysSo) {
-  const auto world = random_map(1);
+  const auto world = report::random_map(1);
   const TeamFigures figures = compare_team(team_of(3), world.get());
   EXPECT_TRUE(figures.sound());
   EXPECT_EQ(figures.wrong_merges, 0U);
@@ -97,8 +97,8 @@ TEST(CompareTeam, TheWorldIsComparedWithTheLargestTeamsMap) {
   }
   EXPECT_EQ(in_largest_team(robots), 1U);
   robots[1].standing = Standing{ahead(0.5), ahead(0.5)};
-  robots[0].team_map = random_map(7);
-  const auto world = random_map(1);
+  robots[0].team_map = report::random_map(7);
+  const auto world = report::random_map(1);
   const TeamFigures figures = compare_team(robots, world.get());
   EXPECT_EQ(figures.iou_world, 1.0);
   EXPECT_LT(figures.robots[0].iou_world.value(), 1.0);
@@ -108,8 +108,8 @@ TEST(CompareTeam, AnAnchorThatHasDriftedIsWhereTheTeamPutsIt) {
   auto robots = team_of(2);
   robots[0].T_team_odom = ahead(0.3);  // odom has drifted by as much since the team's frame was fixed
   robots[0].standing = Standing{ahead(0.2), ahead(0.5)};
-  EXPECT_EQ(compare_team(robots, random_map(1).get()).iou_world, 1.0);
+  EXPECT_EQ(compare_team(robots, report::random_map(1).get()).iou_world, 1.0);
 }
 
 }  // namespace
-}  // namespace cairn::team
+}  // namespace cairn::team_run

@@ -7,7 +7,7 @@
 #include "tests/support/temporary_folder.hpp"
 #include "tests/tools/team/sample_team.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 using ::testing::HasSubstr;
@@ -37,4 +37,4 @@ TEST(SurveyRecordings, RefusesOneRobotTwoOfOneNameAndWhatIsNone) {
 }
 
 }  // namespace
-}  // namespace cairn::team
+}  // namespace cairn::team_run

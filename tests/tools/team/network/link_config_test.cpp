@@ -9,7 +9,7 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 using ::testing::HasSubstr;
@@ -56,4 +56,4 @@ TEST(LinkConfig, ItsYamlIsItself) {
 }
 
 }  // namespace
-}  // namespace cairn::team
+}  // namespace cairn::team_run

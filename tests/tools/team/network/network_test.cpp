@@ -13,7 +13,7 @@
 #include "tests/tools/team/shell.hpp"
 #include "tools/team/supervisor.hpp"
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 namespace fs = std::filesystem;
@@ -123,4 +123,4 @@ TEST(TunNetwork, NothingIsLeftBehindAfterAKill) {
 }
 
 }  // namespace
-}  // namespace cairn::team
+}  // namespace cairn::team_run

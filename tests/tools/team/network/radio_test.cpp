@@ -8,7 +8,7 @@
 #include <set>
 #include <tuple>
 
-namespace cairn::team {
+namespace cairn::team_run {
 namespace {
 
 using std::chrono::milliseconds;
@@ -163,4 +163,4 @@ TEST(Radio, SaysWhenTheNextPacketArrives) {
 }
 
 }  // namespace
-}  // namespace cairn::team
+}  // namespace cairn::team_run
