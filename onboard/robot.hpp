@@ -16,6 +16,7 @@
 
 namespace cairn {
 
+/// One robot: the pose of its LiDAR in base_link, and the settings of odometry and mapping.
 struct RobotConfig {
   SE3 T_base_lidar;  ///< how the LiDAR is mounted
   odometry::OdometryConfig odometry;

@@ -25,6 +25,7 @@ using Contributions = std::map<std::uint64_t, Contribution>;
 /// Takes in a contribution unless a newer or equally new one of that robot is there; says whether it did.
 bool offer(Contributions& contributions, std::uint64_t robot, Contribution contribution);
 
+/// How two or more maps are merged.
 struct MergeOptions {
   Policy policy = Policy::kRelativeEntropy;
   /// Cubes looked at before giving up, whatever the size of the maps; see kNodesPerNode.

@@ -15,6 +15,7 @@ namespace cairn::peers {
 /// waited in queues.
 class ClockOffset {
  public:
+  /// The offset of two clocks, and how far it may be off.
   struct Estimate {
     Duration offset{};  ///< the peer's clock minus this robot's
     Duration bound{};   ///< the largest error of the offset, but for the clocks' drift since `at`

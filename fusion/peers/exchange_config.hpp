@@ -9,6 +9,7 @@
 
 namespace cairn::peers {
 
+/// Periods, limits and the data rate of the exchange with peers.
 struct ExchangeConfig {
   std::size_t bytes_per_second = 8000;  ///< of all that is sent, overhead included; up to one second's may gather
   Duration hello_period = std::chrono::seconds(1);          ///< between two hellos to a peer

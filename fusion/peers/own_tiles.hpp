@@ -10,6 +10,7 @@
 
 namespace cairn::peers {
 
+/// When a changed tile is told to others.
 struct OwnTilesConfig {
   /// A tile is first published so long after it was first observed.
   Duration first = std::chrono::milliseconds(500);

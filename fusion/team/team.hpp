@@ -26,6 +26,7 @@
 
 namespace cairn::team {
 
+/// A robot's part in a team: who it is, and how it exchanges and compares maps.
 struct TeamConfig {
   peers::RobotId id = 0;      ///< of this robot: its own in the team, not 0
   std::string name;           ///< of this robot, for people
@@ -91,6 +92,7 @@ class Team {
   [[nodiscard]] const TeamPoses& poses() const { return poses_; }
   /// What all robots claim of where others are.
   [[nodiscard]] std::vector<PairClaim> claims() const { return published_claims(exchange_.layers()); }
+  /// Whether the peer's map is a part of the team's map at `now`, and if not, why.
   [[nodiscard]] PeerStanding standing(peers::RobotId peer, Time now) const;
   [[nodiscard]] const peers::Exchange& exchange() const { return exchange_; }
 

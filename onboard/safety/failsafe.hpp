@@ -35,6 +35,7 @@ struct Fitted {
   bool drive = false, estop = false;
 };
 
+/// All that the failsafe looks at in one step.
 struct FailsafeInputs {
   Time now{};
   std::array<Seen, kWatched> seen{};
@@ -44,6 +45,7 @@ struct FailsafeInputs {
   std::optional<std::uint32_t> rearm;  ///< the operator's request, with FailsafeDecision::epoch as he saw it
 };
 
+/// What the robot may do from now on, and why.
 struct FailsafeDecision {
   Mode mode = Mode::kStop;
   std::optional<Fault>

@@ -35,6 +35,7 @@ struct FaultPolicy {
 struct Latch {
   enum class State : std::uint8_t { kRunning, kStopped, kArming };
 
+  /// The facts for one step of the latch.
   struct Inputs {
     bool stop = false;                   ///< a fault that stops is active now
     bool guard_latched = false;          ///< drive or e-stop are in a stop of their own, which their own arming ends

@@ -25,6 +25,7 @@ class Supervisor {
  public:
   explicit Supervisor(std::vector<Pulse> pulses);
 
+  /// A task that has been silent for too long.
   struct Finding {
     std::size_t pulse = 0;  ///< index of the task
     Duration silent{};      ///< since its last beat was seen

@@ -36,6 +36,7 @@ struct Load {
   double queue_fill = 0;   ///< the fullest queue, 0…1
 };
 
+/// When work is left out, and when it is taken up again.
 struct OverloadConfig {
   double high = 0.9;         ///< utilisation or queue fill that counts as overload
   double low = 0.6;          ///< and below which both count as relief; a level must save less than 1 − low/high

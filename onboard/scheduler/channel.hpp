@@ -12,6 +12,7 @@ class InputPort;
 template <class T>
 class OutputPort;
 
+/// How much a channel holds, and when a message may be read.
 struct ChannelOptions {
   std::size_t capacity = 8;  ///< values that may wait
   /// Places beyond the capacity, for the replay of a log. On one thread, a tick that ran late in the live run comes in
@@ -28,6 +29,7 @@ class ChannelBase {
   ChannelBase& operator=(const ChannelBase&) = delete;
   virtual ~ChannelBase() = default;
 
+  /// How full the queue is, and how many values were dropped.
   struct Fill {
     std::size_t waiting = 0, capacity = 0;
     std::uint64_t dropped = 0;

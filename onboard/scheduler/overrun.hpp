@@ -15,6 +15,7 @@ class OverrunPolicy {
   /// Zero: no such budget.
   OverrunPolicy(Duration soft, Duration hard) : soft_(soft), hard_(hard) {}
 
+  /// What one tick came to, and what follows.
   struct Verdict {
     bool soft = false, hard = false;
     bool newly_demoted = false;

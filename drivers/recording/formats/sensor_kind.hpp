@@ -23,6 +23,7 @@ enum class SensorKind : std::uint8_t {
 };
 using enum SensorKind;
 
+/// One row of the table of sensor kinds.
 struct SensorKindRow {
   SensorKind kind{};
   std::string_view name;  ///< in recording.yaml

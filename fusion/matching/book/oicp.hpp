@@ -16,6 +16,7 @@ class Oicp : public VoxelMatcher {
   Oicp(const MapFeatures& a, const MapFeatures& b) : Oicp(a, b, {}) {}
 
  protected:
+  /// How long each stage runs.
   struct Stages {
     /// Of the two stages, at most (section 3.4.1).
     int plane_iterations = 15, closed_iterations = 35;
@@ -39,6 +40,7 @@ class Icp final : public Oicp {
   Icp(const MapFeatures& a, const MapFeatures& b)
       : Oicp(a, b, {.plane_iterations = 0, .closed_iterations = kIterations, .occupancy = false}) {}
 };
+/// Point-to-plane ICP, for comparison.
 class PlaneIcp final : public Oicp {
  public:
   PlaneIcp(const MapFeatures& a, const MapFeatures& b)

@@ -63,6 +63,7 @@ class PointGrid {
     return nearest(q, gate_m, [](int, float squared) { return squared; });
   }
 
+  /// A point near a query: its squared distance (m²) and its index.
   struct Neighbour {
     float squared;
     int index;

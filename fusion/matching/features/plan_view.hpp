@@ -22,6 +22,7 @@ class PlanView {
   /// Columns along an edge, at most. A bound on memory and time.
   static constexpr int kMost_columns = 512;
 
+  /// One column of the map, seen from above.
   struct Column {
     Eigen::Vector2f at;  ///< m; middle of the walls, or of the column
     float mass = 0;      ///< of walls, 0…1
@@ -29,6 +30,7 @@ class PlanView {
     Eigen::Vector2f facing = Eigen::Vector2f::Zero();
     float open = 0;  ///< observed free and no wall, 0…1
   };
+  /// A height (m) at which the map has surfaces.
   struct Height {
     float z;     ///< m
     bool level;  ///< of a floor, a ceiling or a table

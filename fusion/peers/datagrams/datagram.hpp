@@ -52,6 +52,7 @@ struct Hello {
 
 /// "This I know of each robot." A peer that knows more sends it.
 struct Digest {
+  /// The versions of one robot that the sender knows.
   struct Layer {
     RobotId robot = 0;
     Epoch epoch = 0;
@@ -78,6 +79,7 @@ struct Datagram {
   std::optional<Items> items;
 };
 
+/// The bytes of a datagram, and how much of the input it holds.
 struct EncodedDatagram {
   std::vector<std::byte> bytes;
   std::size_t updates = 0;  ///< how many of the items it holds

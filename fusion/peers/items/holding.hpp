@@ -35,6 +35,7 @@ struct Missing {
 /// may come twice, late and in any order: the result is the same.
 class Holding {
  public:
+  /// The newest version of one item and its payload.
   struct Item {
     Version version = 0;
     std::vector<std::byte> payload;

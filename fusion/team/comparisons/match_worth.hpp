@@ -8,6 +8,7 @@
 
 namespace cairn::team {
 
+/// When the comparison of two maps is worth its time.
 struct MatchWorthConfig {
   Duration period = std::chrono::seconds(5);  ///< between two comparisons of one pair, at least
   double growth = 1.15;                       ///< factor by which a map, or what both see, must grow

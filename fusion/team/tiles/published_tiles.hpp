@@ -16,6 +16,7 @@ namespace cairn::team {
 /// A copy of a robot's tiles as they were published. It is small enough to be handed to another
 /// thread, which makes a map of it.
 struct PublishedTiles {
+  /// One tile: its place, its submap, and where its bytes are.
   struct Tile {
     mapping::TileKey key;
     std::uint16_t submap = 0;

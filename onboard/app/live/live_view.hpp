@@ -14,6 +14,7 @@ namespace cairn::app {
 /// What `cairn top` shows of a running core; once per second one line of JSON on a local socket. Text is cut at
 /// kMaxText bytes, lists at kMaxItems, on both sides.
 struct LiveView {
+  /// Times and counts of one task.
   struct Stage {
     std::string name;
     double p50_ms = 0, p99_ms = 0, p999_ms = 0, max_ms = 0;  ///< of the response, since the run began
@@ -23,11 +24,13 @@ struct LiveView {
     std::uint64_t slips = 0, misses = 0;                     ///< releases passed; deadlines missed
     std::uint64_t dropped = 0, queued = 0, capacity = 0;     ///< of its input; capacity 0: it has no queue
   };
+  /// One kind of event and how often it happened.
   struct Event {
     double t_s = 0;  ///< when it happened last
     std::string stage, what;
     std::uint64_t count = 0;
   };
+  /// One peer: merged or not, and why.
   struct Peer {
     std::string name;
     bool merged = false;

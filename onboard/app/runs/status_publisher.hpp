@@ -19,6 +19,7 @@ namespace cairn::app {
 /// watch task. It reads figures that other tasks write without a lock.
 class StatusPublisher {
  public:
+  /// Where the state of the run is published.
   struct Options {
     std::string robot;
     std::filesystem::path live_socket;         ///< empty: no live view

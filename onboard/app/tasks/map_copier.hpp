@@ -14,10 +14,12 @@ namespace cairn::app {
 
 /// What odometry and mapping hand to the task that saves; neither ever waits for it.
 struct ToSave {
+  /// A copy of the map and the pose of the last scan in it.
   struct Map {
     std::unique_ptr<mapping::SemanticOcTree> tree;
     TrackPoint newest;  ///< where the last scan in it was
   };
+  /// A placed scan and its epoch.
   struct Scan {
     odometry::PlacedScan scan;
     std::uint32_t epoch = 0;

@@ -20,12 +20,14 @@ inline constexpr std::size_t kChunkBytes = std::size_t{1} << 18;        ///< the
 inline constexpr std::size_t kMaxChunkBytes = std::size_t{1} << 20;     ///< the reader refuses more
 inline constexpr double kMinResolution = 1e-4, kMaxResolution = 100.0;  ///< m; the reader refuses others
 
+/// Size and hash of one compressed chunk.
 struct Chunk {
   std::uint32_t raw_bytes = 0;
   std::uint32_t stored_bytes = 0;
   std::uint64_t hash = 0;
 };
 
+/// The header of a .cairn file.
 struct Header {
   double resolution = 0.0;
   SensorModel sensor_model{};

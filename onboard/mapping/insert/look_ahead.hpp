@@ -50,6 +50,7 @@ class LookAhead {
 
   /// The touched words of one brick.
   struct Words {
+    /// One word of a brick: its touched voxels and its number.
     struct Word {
       std::uint64_t touched;
       std::uint8_t number;

@@ -46,6 +46,7 @@ struct Measurement {
 /// acceleration. Predictions correct it slowly.
 class MotionFilter {
  public:
+  /// Covariances of pose and twist: `local` against the map, `total` against the start.
   struct Uncertainty {
     Matrix12 local = Matrix12::Zero();
     Matrix12 total = Matrix12::Zero();

@@ -31,6 +31,7 @@ struct Moments {
 /// something slim and upright (a trunk, a column, a door post), which fixes two.
 struct Patch {
   enum class Kind : std::uint8_t { kNone, kPlane, kPole };
+  /// One axis of the patch and the spread of its points along it.
   struct Axis {
     Eigen::Vector3f direction = Eigen::Vector3f::Zero();  ///< unit length
     float variance = 0;                                   ///< of the points along it [m²]

@@ -26,6 +26,7 @@ struct BlockIndex {
 /// never allocate. What is in the grid, and in which order, depends only on the sequence of calls.
 class PatchGrid {
  public:
+  /// Bounds on memory.
   struct Limits {
     std::size_t blocks;  ///< further blocks are refused
     float points;        ///< per block; further points are ignored, which keeps old patches where they are

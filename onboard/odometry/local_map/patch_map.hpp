@@ -15,6 +15,7 @@ namespace cairn::odometry {
 /// What the map knows about one point.
 struct PatchMatch {
   enum class Kind : std::uint8_t { kNone, kOff, kOn };
+  /// The distance of the point to the patch in one direction.
   struct Row {
     Eigen::Vector3f direction = Eigen::Vector3f::Zero();  ///< in odom
     float distance = 0;                                   ///< signed, along `direction` [m]
@@ -31,6 +32,7 @@ struct PatchMatch {
 /// detail. Where nothing is flat, slim upright things hold the scan.
 class PatchMap {
  public:
+  /// Sizes and bounds of the grids.
   struct Config {
     double finest_block_m;
     int max_blocks;  ///< in each finest grid; half as many in each coarser one

@@ -15,6 +15,7 @@ namespace cairn::report {
 [[nodiscard]] std::optional<double> distance_to_occupied(const mapping::SemanticOcTree& map,
                                                          const Eigen::Vector3d& point, double max_distance_m);
 
+/// How a map is compared with the true map.
 struct MapErrorOptions {
   SE3 T_truth_map;            ///< the map's frame in the true map's frame
   double tolerance_m = 0;     ///< how far a voxel may be off and still be right; 0: the diagonal of a voxel of the map

@@ -26,6 +26,7 @@ struct PoseEstimate {
   UncertainPose T_odom_base;
 };
 
+/// Ticks of the safety task.
 struct TickStats {
   std::uint64_t count = 0, missed = 0;
   Duration max_lateness{};
@@ -37,6 +38,7 @@ struct TaskFigures {
   scheduler::TaskStats stats;
 };
 
+/// Totals of odometry over a run.
 struct OdometryStats {
   std::uint64_t degenerate_scans = 0;  ///< some direction was not observable
   std::uint64_t lost_scans = 0;        ///< registration refused; the motion was predicted

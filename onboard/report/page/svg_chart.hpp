@@ -19,6 +19,7 @@ struct Band {
   std::vector<double> x, half;
 };
 
+/// A chart of curves over time.
 struct LineChart {
   std::string title, unit;  ///< what stands above the chart
   std::vector<Curve> curves;

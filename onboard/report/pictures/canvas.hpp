@@ -13,6 +13,7 @@ namespace cairn::report {
 /// outside of the image is cut off.
 using Pixel = Eigen::Vector2d;
 
+/// How a line is drawn.
 struct Stroke {
   Rgba colour;
   double width = 1.0;  ///< pixels

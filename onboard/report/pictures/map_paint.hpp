@@ -28,6 +28,7 @@ struct MapPath {
   std::string name{};  ///< written at its end
 };
 
+/// Scale and paths of a picture of a map.
 struct MapDrawing {
   double pixels_per_m = 0;  ///< 0: chosen so that the longer side has about 1400 pixels
   std::vector<MapPath> paths;

@@ -25,6 +25,7 @@ enum class MapView {
 /// How near the point is to the viewer, in metres along the viewing direction.
 [[nodiscard]] double nearness(MapView view, const Eigen::Vector3d& point);
 
+/// Which part of a map is drawn, and from where.
 struct MapPictureOptions {
   MapView view = MapView::kTop;
   /// Only voxels with a centre between these heights are drawn. A view from above with no upper limit cuts a building

@@ -10,6 +10,7 @@
 
 namespace cairn::scheduler {
 
+/// When a live run begins, and when it ends.
 struct LiveOptions {
   Time start{};                  ///< release 0 of a task without phase
   std::function<bool()> stop{};  ///< asked about every 20 ms, on the calling thread

@@ -8,6 +8,7 @@
 
 namespace cairn::scheduler {
 
+/// What a replay follows, at which pace, and for how long.
 struct ReplayOptions {
   Time start{};                       ///< of virtual time: the first packet's arrival
   const ScheduleLog* log = nullptr;   ///< must outlive the run; null: virtual time decides
