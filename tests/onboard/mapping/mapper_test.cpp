@@ -86,7 +86,7 @@ TEST_P(MapperKitti, GivesOctoMapsTreeOverRealScans) {
 
 INSTANTIATE_TEST_SUITE_P(Settings, MapperKitti, testing::Values(Setting{"two_scans", 0.2, 30, 2, 0, 2}),
                          [](const auto& i) { return std::string(i.param.name); });
-INSTANTIATE_TEST_SUITE_P(SlowSettings, MapperKitti,
+INSTANTIATE_TEST_SUITE_P(FullSettings, MapperKitti,
                          testing::Values(Setting{"coarse", 0.2, 30, 2, 0, 5}, Setting{"fine", 0.1, 20, 1, 0, 2}),
                          [](const auto& i) { return std::string(i.param.name); });
 
@@ -95,7 +95,7 @@ void expect_octomaps_ties(unsigned seeds) {
 }
 
 TEST(MapperLattice, TiesAndEdgesAreDecidedAsOctoMapDecidesThem) { expect_octomaps_ties(6); }
-TEST(SlowMapperLattice, TiesAndEdgesAreDecidedAsOctoMapDecidesThem) { expect_octomaps_ties(20); }
+TEST(FullMapperLattice, TiesAndEdgesAreDecidedAsOctoMapDecidesThem) { expect_octomaps_ties(20); }
 
 TEST(MapperLattice, HugeBoxesAreFoundByHashing) {
   MappingConfig config = config_of(0.1, -1);
