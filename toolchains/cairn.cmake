@@ -112,7 +112,7 @@ function(cairn_library name)
 endfunction()
 
 # cairn_test(NAME SOURCES … [LINK lib …]): one GoogleTest program test_NAME; ctest lists its cases. Suites whose names
-# begin with Slow get the label slow: what takes too long for every change.
+# begin with Full get the label slow: what takes too long for every change.
 function(cairn_test name)
   cmake_parse_arguments(A "" "" "SOURCES;LINK" ${ARGN})
   cairn_compile_allocators_alone(${A_SOURCES})
@@ -125,8 +125,8 @@ function(cairn_test name)
   cairn_unite(test_${name})
   # The time limits are for what hangs: no test may fail because a machine is slow.
   set(how TEST_PREFIX "${name}/" NO_PRETTY_VALUES DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 300)
-  gtest_discover_tests(test_${name} ${how} TEST_FILTER -Slow* PROPERTIES TIMEOUT 900)
-  gtest_discover_tests(test_${name} ${how} TEST_FILTER Slow* TEST_LIST test_${name}_SLOW PROPERTIES TIMEOUT 3600 LABELS slow)
+  gtest_discover_tests(test_${name} ${how} TEST_FILTER -Full* PROPERTIES TIMEOUT 900)
+  gtest_discover_tests(test_${name} ${how} TEST_FILTER Full* TEST_LIST test_${name}_SLOW PROPERTIES TIMEOUT 3600 LABELS slow)
 endfunction()
 
 # cairn_fuzz(NAME SOURCE [LINK lib …]): a libFuzzer target fuzz_NAME. Without CAIRN_FUZZ the same entry point runs over

@@ -127,10 +127,19 @@ struct Mission {
 
 const SE3 kSomewhere = at(30, -10, 1);
 
-TEST(TeamDeployment, ARightOneTakesNoMoreAgreements) {
-  const SE3 T_a_b = growing_lobby()[0].T_a_b;
+Mission rightly_deployed() {
   const SE3 off = at(0.3, -0.2, 0.05);
-  const Mission known(known_to(kSomewhere, 0.3, 0.04), known_to(kSomewhere * T_a_b * off, 0.3, 0.04));
+  return {known_to(kSomewhere, 0.3, 0.04), known_to(kSomewhere * growing_lobby()[0].T_a_b * off, 0.3, 0.04)};
+}
+
+TEST(TeamDeployment, ARightOneIsMerged) {
+  const Mission known = rightly_deployed();
+  EXPECT_GT(known.merged_after, 0);
+  EXPECT_EQ(known.a_says, "merged");
+}
+
+TEST(FullTeamDeployment, ARightOneTakesNoMoreAgreements) {
+  const Mission known = rightly_deployed();
   const Mission unknown(known_to(kSomewhere, 100, 3), known_to(kSomewhere, 100, 3));
   ASSERT_GT(known.merged_after, 0) << known.a_says;
   ASSERT_GT(unknown.merged_after, 0) << unknown.a_says;
