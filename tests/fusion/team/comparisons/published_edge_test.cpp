@@ -29,8 +29,8 @@ TEST(PublishedEdge, IsPublishedOnceUntilItMoves) {
 TEST(PublishedEdge, SmallStepsAddUp) {
   PublishedEdge edge(0);
   int published = 0;
-  for (int i = 0; i <= 100; ++i) published += edge.update(edge_at(0.005 * i)) ? 1 : 0;
-  EXPECT_NEAR(published, 1 + 0.5 / 0.025, 1);
+  for (int i = 0; i <= 100; ++i) published += edge.update(edge_at(0.006 * i)) ? 1 : 0;
+  EXPECT_EQ(published, 1 + 100 / 4) << "four steps are more than 2 cm";
 }
 
 TEST(PublishedEdge, IsPublishedAgainAboutOtherSubmaps) {

@@ -54,7 +54,7 @@ class Fleet {
   void observe(RobotId id, int tiles) {
     if (!up(id)) return;
     path_m_[id] += 1;
-    robots_.at(id)->be_at({SE3(Eigen::Quaterniond::Identity(), {path_m_[id], 0, 0}), {}});
+    robots_.at(id)->be_at({SE3(Eigen::Quaterniond::Identity(), {path_m_[id], 0, 0}), Matrix6::Zero()});
     for (int i = 0; i < tiles; ++i) {
       const auto at = [&](unsigned most) { return static_cast<std::uint16_t>(32768 + 8 * (random_() % most)); };
       const auto z = at(4), y = at(6), x = at(5);  // of arguments, each compiler draws another first
