@@ -10,14 +10,15 @@
 
 namespace cairn::app {
 
-/// What a run leaves behind, beside its files.
+/// The result of a run, besides its files.
 struct RunResult {
   Monitor monitor;  ///< report.monitor points to it
   report::RunReport report;
 };
 
-/// One robot, from its first packet to the last: live until a stop signal, or to the end of a recording. Writes
-/// trajectory.tum, map.cairn, map.ot, report.json, report.html and config.yaml into `out`; live also schedule.log.
+/// Runs one robot, live until a stop signal, or to the end of a recording. Writes trajectory.tum, map.cairn, map.ot,
+/// report.json, report.html and config.yaml into `out`; a live run also schedule.log. Errors: the profile, the
+/// schedule, the devices or the recording cannot be used, or a file cannot be written.
 Result<std::unique_ptr<RunResult>> run(const RunOptions& options);
 
 }  // namespace cairn::app

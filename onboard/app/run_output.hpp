@@ -14,7 +14,7 @@ class RobotTasks;
 struct Door;
 struct RunOptions;
 
-/// All that is known when a run has ended.
+/// What the output of a run is made of.
 struct RunFacts {
   const RunOptions& options;
   const RobotProfile& profile;
@@ -23,9 +23,9 @@ struct RunFacts {
   const Monitor& monitor;
 };
 
-/// Makes the folder, so that a run does not end with nowhere to go.
+/// Makes the folder and a file in it, before the run: a run must not end with "permission denied". Error kIo.
 Result<void> prepare_output(const std::filesystem::path& out);
-/// Writes trajectory, maps, reports and configuration into options.out. Returns what the report says.
+/// Writes trajectory, maps, reports and configuration into options.out and returns the report. Error kIo.
 Result<report::RunReport> write_output(const RunFacts& facts);
 
 }  // namespace cairn::app

@@ -12,24 +12,24 @@
 
 namespace cairn::safety {
 
-/// What the failsafe watches for silence.
+/// The sensors that the failsafe watches for silence.
 enum class Watched : std::uint8_t { kLidar, kCamera, kThermal, kDepth, kFeedback };
 inline constexpr std::size_t kWatched = 5;
 
-/// The last good piece of a source: a scan of half a turn at least, a picture, a set of wheel readings.
+/// When a sensor last gave good data: a scan of at least half a turn, a picture, or a set of wheel readings.
 struct Seen {
   Time last{};
   std::uint64_t count = 0;  ///< of good pieces so far
 };
 
-/// The e-stop as drivers/gpio's EStop shows it.
+/// The state of the e-stop, from EStop of drivers/gpio.
 struct EStopView {
   bool released = false;  ///< EStop::released(): the contact is closed now
   bool lost = false;      ///< its level cannot be read, or is too old
   bool latched = true;    ///< EStop::stopped()
 };
 
-/// What the robot carries; what it does not cannot fail.
+/// What the robot carries. What it does not carry cannot fail.
 struct Fitted {
   std::array<bool, kWatched> watched{};
   bool drive = false, estop = false;
@@ -39,10 +39,10 @@ struct Fitted {
 struct FailsafeInputs {
   Time now{};
   std::array<Seen, kWatched> seen{};
-  FaultSet faults;    ///< found elsewhere and active now: any but those that follow from what is below and above
-  DriveStatus drive;  ///< where one is fitted
-  EStopView estop;    ///< likewise
-  std::optional<std::uint32_t> rearm;  ///< the operator's request, with FailsafeDecision::epoch as he saw it
+  FaultSet faults;                     ///< active now and found elsewhere: all that do not follow from the other inputs
+  DriveStatus drive;                   ///< where one is fitted
+  EStopView estop;                     ///< likewise
+  std::optional<std::uint32_t> rearm;  ///< the operator's request, with FailsafeDecision::epoch as the operator saw it
 };
 
 /// What the robot may do from now on, and why.
@@ -50,18 +50,18 @@ struct FailsafeDecision {
   Mode mode = Mode::kStop;
   std::optional<Fault>
       cause;                 ///< of the mode; of a stop: the one that began it; none: normal, never armed, or asked for
-  FaultSet active;           ///< everything that is wrong now
+  FaultSet active;           ///< all faults that are active now
   FaultSet raised, ended;    ///< since the step before: one event each
   double max_speed_m_s = 0;  ///< infinite in normal mode
   std::uint32_t epoch = 0;   ///< to be given with the next re-arm request
-  /// For one step: the request is granted; arm e-stop and drive now. Motion is allowed from the first step on in which
-  /// neither is latched; when one refuses, the robot stays stopped.
+  /// True for one step: the request is granted, arm e-stop and drive now. Motion is allowed from the first step in
+  /// which neither is latched. When one of them refuses, the robot stays stopped.
   bool arm = false;
 };
 
-/// Decides what the robot may do: one pure state machine for the whole robot, stepped by the safety task. No clock, no
-/// memory, no device; a step takes bounded time. It is never the only path: drive::Guard, gpio::EStop and the motor
-/// controllers' watchdogs stop by themselves.
+/// Decides what the robot may do: one pure state machine for the whole robot, stepped by the safety task. It has no
+/// clock and no device, allocates nothing, and a step takes bounded time. It is never the only path: drive::Guard,
+/// gpio::EStop and the watchdogs of the motor controllers stop the robot by themselves.
 class Failsafe {
  public:
   /// A robot with a drive starts stopped, as if never armed.
@@ -100,8 +100,7 @@ class Failsafe {
   FailsafeDecision decision_;
 };
 
-/// What a drive's own status says, in the codes of the fault table; none for kNone, and for stops that are nobody's
-/// fault (never armed, requested).
+/// The fault of a drive's own status. None for kNone, and for stops that are no fault (never armed, requested).
 [[nodiscard]] std::optional<Fault> fault_of(DriveCause cause);
 
 /// The command as the mode allows it: slower on the same curve, or zero.

@@ -9,8 +9,8 @@
 
 namespace cairn::safety {
 
-/// Section `failsafe` of a robot profile: after how long a source counts as missing, and what each fault leads to.
-/// Both may be made stricter than the defaults say is safe, never milder: the bounds are part of the declaration.
+/// Section `failsafe` of a robot profile: after how long a sensor counts as missing, and the mode of each fault. A
+/// profile may make both stricter than the defaults, never milder: the bounds are part of the declaration.
 struct FailsafeConfig {
   FailsafeConfig();
 
@@ -26,12 +26,12 @@ struct FailsafeConfig {
 
   std::array<std::string, kFaults> action;  ///< by Fault: normal, degraded, hold or stop
 
-  /// What the fault leads to. An action that is no mode, or milder than is safe, counts as the safe one.
+  /// The mode of a fault. An action that is no mode, or milder than the safe one, counts as the safe one.
   [[nodiscard]] Mode mode(Fault fault) const;
 };
 
 void declare(config::Section& section, FailsafeConfig& config);
-/// Faults between keys, all in one Error.
+/// Checks keys against each other. Error kInvalidConfig, with all faults.
 [[nodiscard]] Result<void> check(const FailsafeConfig& config);
 
 }  // namespace cairn::safety

@@ -9,7 +9,7 @@
 
 namespace cairn::safety {
 
-/// The table of a profile, as masks: which faults lead to which mode.
+/// Which faults lead to which mode, as masks: the table of a profile.
 struct FaultPolicy {
   FaultSet degrade, hold, stop;
 

@@ -9,17 +9,17 @@
 
 namespace cairn::safety {
 
-/// What the robot may do. The worst of what is wrong decides.
+/// What the robot may do. The worst active fault decides.
 enum class Mode : std::uint8_t {
-  kNormal,    ///< commands are carried out
-  kDegraded,  ///< they are, below a speed cap
+  kNormal,    ///< commands are executed
+  kDegraded,  ///< commands are executed, below a speed cap
   kHold,      ///< zero is commanded, the drive stays enabled; ends with its cause
-  kStop,      ///< zero is commanded and the drive is disabled; ends by re-arming alone
+  kStop,      ///< zero is commanded and the drive is disabled; only re-arming ends it
 };
 [[nodiscard]] std::string_view to_string(Mode mode);
 
-/// Everything that can be wrong with one robot, each with a code that logs, reports and scripts may rely on: numbers
-/// and names never change their meaning.
+/// Everything that can be wrong with one robot. Logs, reports and scripts rely on the codes: numbers and names never
+/// change their meaning.
 enum class Fault : std::uint8_t {
   kLidarLate = 0,
   kLidarSilent = 1,
@@ -51,12 +51,12 @@ enum class Fault : std::uint8_t {
 };
 inline constexpr std::size_t kFaults = 27;
 
-/// What is known of a fault, whatever the robot: one row of the fault table.
+/// One row of the fault table: what holds for a fault on every robot.
 struct FaultRow {
   Fault fault{};
   std::string_view code;  ///< stable; also its key in the profile's section `failsafe`
-  Mode least{};           ///< the mildest mode that is safe: a profile may ask for a worse one, never for a milder one
-  Mode usual{};           ///< without a word of the profile
+  Mode least{};           ///< the mildest safe mode; a profile may ask for a stricter one
+  Mode usual{};           ///< when the profile says nothing
   std::string_view doc;
 };
 /// In the order of their numbers.

@@ -11,16 +11,16 @@
 
 namespace cairn::safety {
 
-/// A task under supervision. Its thread counts `beats` up, as TaskStats::ticks does: no lock, no call.
+/// A task under supervision. Its thread counts `beats`, such as TaskStats::ticks: no lock, no call.
 struct Pulse {
   std::string task;
-  Duration limit{};  ///< without a beat, until the task counts as hung; a few periods, and more than its hard budget
+  Duration limit{};  ///< without a beat for so long, the task hangs; a few periods, and more than its hard budget
   const RelaxedCounter* beats = nullptr;  ///< must outlive the supervisor
 };
 
-/// Sees which tasks go on. Pure but for the counters; stepped by a thread that is none of them. Allocates only when it
-/// is made. A step that comes late itself accuses nobody: a machine that stood still (SIGSTOP, suspend) gives every
-/// task its limit anew.
+/// Finds tasks that hang. Pure but for the counters; stepped by another thread than theirs. Allocates only when it is
+/// constructed. A step that comes late itself finds nothing: after a machine that stood still (SIGSTOP, suspend), every
+/// task has its whole limit again.
 class Supervisor {
  public:
   explicit Supervisor(std::vector<Pulse> pulses);
@@ -30,7 +30,7 @@ class Supervisor {
     std::size_t pulse = 0;  ///< index of the task
     Duration silent{};      ///< since its last beat was seen
   };
-  /// The task that has been silent beyond its limit for the longest; none: all are well.
+  /// The task that is longest beyond its limit; none: all tasks run.
   std::optional<Finding> step(Time now);
 
   [[nodiscard]] const std::vector<Pulse>& pulses() const { return pulses_; }

@@ -9,7 +9,8 @@
 
 namespace cairn::safety {
 
-/// What is left undone under overload: each level includes those before it. Never drive, safety or odometry.
+/// The work that is left out under overload. Each level includes those before it. Drive, safety and odometry are never
+/// left out.
 enum class Shed : std::uint8_t {
   kNothing,
   kPeerTiles,       ///< leaves nothing out: reserved for peers' tiles, which another task folds
@@ -23,14 +24,14 @@ inline constexpr int kShedLevels = 5;
 /// The level as a report may name it: kNothing for one that leaves nothing out.
 [[nodiscard]] Shed in_force(Shed level);
 
-/// A level as mapping uses it.
+/// What a level means for mapping.
 struct ShedPlan {
   int point_stride = 1;  ///< every n-th point of a scan goes into the map, counted from its first
   int scan_stride = 1;   ///< every n-th scan does; odometry sees them all
 };
 [[nodiscard]] ShedPlan plan_of(Shed level);
 
-/// What one tick of the pipeline cost, and what waits.
+/// The load of the pipeline in one tick.
 struct Load {
   double utilisation = 0;  ///< the worst stage's response / its budget
   double queue_fill = 0;   ///< the fullest queue, 0…1
@@ -45,8 +46,8 @@ struct OverloadConfig {
 };
 void declare(config::Section& section, OverloadConfig& config);
 
-/// Load → what to leave undone. Pure. Between `low` and `high` nothing changes, so that a level which brings the load
-/// there is kept. With ticks of 100 ms or less, all work is back within a second of the load's end.
+/// Decides from the load which work to leave out. Pure. Between `low` and `high` nothing changes, so a level that
+/// brings the load there is kept. With ticks of 100 ms or less, all work is back one second after the load has ended.
 class OverloadController {
  public:
   explicit OverloadController(const OverloadConfig& config) : config_(config) {}

@@ -6,7 +6,7 @@
 namespace cairn::scheduler {
 namespace {
 
-// A source that only complains is asked again in the next tick.
+// Errors in a row. After them, the source is asked again in the next tick.
 constexpr int kMaxComplaints = 1000;
 
 }  // namespace

@@ -8,7 +8,7 @@
 
 namespace cairn::scheduler {
 
-/// The packets of one source, handed to one task. What a tick gets is
+/// Hands the packets of one source to one task. What a tick gets is
 /// - live: what has arrived, and how many is logged;
 /// - logged: as many as then;
 /// - virtual: what arrived up to the tick's release.
@@ -16,28 +16,28 @@ class Feed {
  public:
   /// Sees every packet before it is used; for recording.
   using Tap = std::function<void(const Packet&)>;
-  /// Hears what the source has to complain of; on the task's thread.
+  /// Gets the errors of the source; on the task's thread.
   using Complain = std::function<void(Time, const Error&)>;
-  /// A flood cannot hold a live task for longer.
+  /// A live tick takes no more packets, so a flood cannot hold the task.
   static constexpr int kMaxPackets = 2000;
-  /// Bytes of a packet up to which none is ever allocated for: an edge, a CAN frame.
+  /// Bytes. Smaller packets, such as an edge or a CAN frame, never allocate.
   static constexpr std::size_t kSmall = 128;
 
-  /// `source` must outlive the feed. Packets get `id`. `slot` is a place in the records of the task.
+  /// `source` must outlive the feed. Packets get `id`. `slot` is one of the task's, in the schedule log.
   Feed(Source& source, SourceId id, std::size_t slot, Complain complain, Tap tap = {})
       : source_(source), id_(id), slot_(slot), complain_(std::move(complain)), tap_(std::move(tap)) {
     packet_.bytes.reserve(kSmall);
     next_.bytes.reserve(kSmall);
   }
 
-  /// The next packet of this tick, or null; it stays valid until the next call.
+  /// The next packet of this tick, or null. It stays valid until the next call.
   const Packet* take(Tick& tick);
 
-  /// Nothing will ever follow.
+  /// No packet will follow.
   [[nodiscard]] bool ended() const { return ended_ && !ahead_; }
-  /// Of the next packet, read ahead: when a recording begins. Time::max() when there is none.
+  /// The arrival of the next packet, which is read ahead. Time::max(): there is none.
   [[nodiscard]] Time first_arrival();
-  /// A logged tick found fewer packets than it had then: the recording is not that of the log.
+  /// Packets that logged ticks had and that are not there: the recording is not that of the log.
   [[nodiscard]] std::uint64_t missing() const { return missing_; }
 
  private:

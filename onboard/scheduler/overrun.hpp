@@ -7,12 +7,15 @@
 
 namespace cairn::scheduler {
 
-/// What follows from a tick's execution time. A soft overrun is only noted. After a hard one the next release is
-/// skipped; after three in a row the task is demoted to every second release, until ten busy ticks in a row kept their
-/// hard budget. Pure.
+/// What follows from the execution time of a tick. Pure.
+/// - A soft overrun is only counted.
+/// - After a hard overrun, the next release is skipped.
+/// - After three hard overruns in a row, the task is demoted to every second release, until ten busy ticks in a row
+/// kept
+///   their hard budget.
 class OverrunPolicy {
  public:
-  /// Zero: no such budget.
+  /// Budgets of one tick. Zero: no such budget.
   OverrunPolicy(Duration soft, Duration hard) : soft_(soft), hard_(hard) {}
 
   /// What one tick came to, and what follows.
@@ -21,7 +24,7 @@ class OverrunPolicy {
     bool newly_demoted = false;
     std::uint64_t skip = 0;  ///< releases to leave out
   };
-  /// `busy`: the tick had work; idle ticks prove nothing.
+  /// After every tick. `busy`: it had work. Idle ticks do not count for a recovery.
   Verdict tick(Duration execution, bool busy) {
     Verdict v;
     v.soft = soft_ > Duration{} && execution > soft_;

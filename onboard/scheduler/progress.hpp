@@ -7,14 +7,14 @@
 
 namespace cairn::scheduler {
 
-/// How far a task has come: every tick released up to then is done, and its outputs are handed over.
+/// How far a task has come. Every tick that was released up to then is done, and its outputs are handed over.
 class Progress {
  public:
   void reach(Time release) { done_.store(release.time_since_epoch().count(), std::memory_order_release); }
   [[nodiscard]] bool reached(Time t) const {
     return done_.load(std::memory_order_acquire) >= t.time_since_epoch().count();
   }
-  /// Nothing will ever follow.
+  /// No tick will follow.
   void finish() { reach(Time::max()); }
 
  private:

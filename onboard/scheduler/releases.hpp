@@ -7,7 +7,7 @@
 
 namespace cairn::scheduler {
 
-/// The instants at which one task is released. Pure arithmetic: no drift, whatever happens between them.
+/// The instants at which one task is released. Pure arithmetic, so they do not drift.
 struct Releases {
   Time first{};
   Duration period{1};
@@ -18,8 +18,8 @@ struct Releases {
     if (t <= first) return 0;
     return static_cast<std::uint64_t>((t - first + period - Duration{1}) / period);
   }
-  /// After tick k ended at `end`: the next release that is still to come. What was passed is skipped, so that two ticks
-  /// never run back to back and the phase is kept.
+  /// The next release after tick k, which ended at `end`. Releases that have passed are skipped: two ticks never run
+  /// back to back, and the phase is kept.
   [[nodiscard]] std::uint64_t after(std::uint64_t k, Time end) const {
     const std::uint64_t next = not_before(end);
     return next > k ? next : k + 1;

@@ -26,7 +26,7 @@ struct TaskLog {
   }
 };
 
-/// schedule.log, a text file: with it, a recording repeats the run that made it to the bit.
+/// schedule.log, a text file. With it, the replay of a recording gives the same bits as the live run that made it.
 ///
 ///     cairn-schedule 1
 ///     task 0 safety 81236000000 1000000        name, first release [ns], period [ns]
@@ -43,15 +43,15 @@ struct ScheduleLog {
   [[nodiscard]] const TaskLog* find(std::string_view name) const;
 };
 
-/// Bounds for hostile files: an hour at 2 kHz with every tick busy has fewer lines.
+/// Bounds for hostile files. An hour at 2 kHz with every tick busy has fewer lines.
 inline constexpr std::size_t kMaxLogTasks = 64, kMaxLogTicks = 20'000'000, kMaxLogBytes = std::size_t{1} << 30U;
 
-/// Reads the text. Errors: kMalformed with the line, kTruncated when the end lines are missing (the run was killed),
+/// Reads the text. Errors: kMalformed (with the line), kTruncated (the end lines are missing: the run was killed),
 /// kLimit.
 [[nodiscard]] Result<ScheduleLog> parse_schedule_log(std::string_view text);
 [[nodiscard]] Result<ScheduleLog> load_schedule_log(const std::filesystem::path& file);
 
-/// Writes the file as the run goes on. Errors of the disk are kept and told by close().
+/// Writes the file during the run. close() returns the errors of the disk.
 class ScheduleLogWriter {
  public:
   explicit ScheduleLogWriter(const std::filesystem::path& file) : file_(file), out_(file, std::ios::binary) {}

@@ -6,21 +6,21 @@
 
 namespace cairn::scheduler {
 
-/// What the ticks of one task cost (docs/real-time.md). Its thread writes, anyone reads.
+/// What the ticks of one task cost (docs/real-time.md). The task's thread writes, any thread reads.
 struct TaskStats {
   RelaxedCounter ticks;
   RelaxedCounter slips;          ///< releases passed because an earlier tick was still running
   RelaxedCounter misses;         ///< response above the deadline
   RelaxedCounter soft_overruns;  ///< execution above soft_ms
   RelaxedCounter hard_overruns;  ///< execution above hard_ms: the next release was skipped
-  RelaxedCounter demotions;      ///< three hard overruns in a row: every second release only, until it keeps its budget
-  RelaxedCounter demoted;        ///< 1 while it is
+  RelaxedCounter demotions;      ///< to every second release, after three hard overruns in a row
+  RelaxedCounter demoted;        ///< 1 while the task is demoted
   RelaxedCounter allocations;    ///< by operator new, after the warm-up
   RelaxedCounter major_faults, minor_faults, involuntary_switches;  ///< of the thread, after the warm-up
   Histogram wake;                                                   ///< start − release
-  Histogram response;   ///< end − release: never end − start, which would hide that it began late
-  Histogram execution;  ///< end − start
-  Histogram cpu;        ///< CPU time of the thread
+  Histogram response;                                               ///< end − release, so that a late start is in it
+  Histogram execution;                                              ///< end − start
+  Histogram cpu;                                                    ///< CPU time of the thread
 };
 
 }  // namespace cairn::scheduler

@@ -14,12 +14,12 @@
 
 namespace cairn::scheduler {
 
-/// Who answers what may differ from run to run: how many packets there are, how many steps there was time for.
+/// What answers the questions whose answers differ from run to run, such as: how many packets are there?
 enum class Regime : std::uint8_t {
   kLive,     ///< the machine; the answers are logged
   kVirtual,  ///< virtual time, in which every tick happens at its release and takes none
   kLogged,   ///< the log of a live run
-  kDrain,    ///< after the last tick: whatever is left is used, without bounds of time
+  kDrain,    ///< after the last tick: what is left is used, without bounds of time
 };
 
 /// What one tick was given and decided, in numbered slots whose meaning is the task's own. An idle tick leaves zero in
@@ -34,14 +34,14 @@ struct TickRecord {
   friend bool operator==(const TickRecord&, const TickRecord&) = default;
 };
 
-/// Lets the threads of a replay wait for one another. Live threads and single-threaded runs have none and never wait.
+/// Lets the threads of a replay wait for each other. Live runs and replays on one thread have no gate and never wait.
 class Gate {
  public:
   void open() {
     turn_.fetch_add(1, std::memory_order_release);
     turn_.notify_all();
   }
-  /// Returns when `met()`, which is asked again after every open().
+  /// Returns when `met()` is true. It is asked at once, and again after every open().
   template <class Condition>
   void wait_until(Condition met) {
     for (;;) {
@@ -55,8 +55,8 @@ class Gate {
   std::atomic<std::uint32_t> turn_{0};
 };
 
-/// One release of one task, and the only thing it may ask about the world: all answers come from the machine, from
-/// virtual time or from a log, and the task cannot tell which.
+/// One release of one task. A task asks its tick, and nothing else, about the world. The answers come from the machine,
+/// from virtual time or from a log, and the task cannot tell which.
 class Tick {
  public:
   Tick(Regime regime, Time release, TickRecord& record, Gate* gate = nullptr, const Clock* clock = nullptr)
@@ -64,35 +64,35 @@ class Tick {
 
   [[nodiscard]] Regime regime() const { return regime_; }
   [[nodiscard]] std::uint64_t index() const { return record_.index; }
-  /// What the time is for everything the task decides.
+  /// The time, for everything that the task decides.
   [[nodiscard]] Time release() const { return release_; }
-  /// Whether this tick happens in real time; otherwise latencies would be fiction.
+  /// Whether this tick happens in real time. Only then latencies mean something.
   [[nodiscard]] bool takes_time() const { return clock_ != nullptr && regime_ != Regime::kDrain; }
-  /// For figures alone; release() where the tick takes no time.
+  /// The time, for figures only. release() when the tick takes no time.
   [[nodiscard]] Time figure_now() const { return clock_ != nullptr ? clock_->now() : release_; }
 
-  /// A number that live is `live()`, logged what it was then, and otherwise `otherwise`.
+  /// A number: live `live()`, logged the number of then, otherwise `otherwise`.
   template <class Live>
   std::int32_t decide(std::size_t slot, Live live, std::int32_t otherwise) {
     if (regime_ == Regime::kLogged) return record_.slots[slot];
     return record_.slots[slot] = regime_ == Regime::kLive ? live() : otherwise;
   }
-  /// The steps of an anytime stage: live until `deadline`, logged as many as then, otherwise `limit`. To be settle()d.
+  /// The steps of an anytime stage: live until `deadline`, logged as many as then, otherwise `limit`. settle() follows.
   [[nodiscard]] Budget budget(std::size_t slot, Time deadline, int limit) const {
     if (regime_ == Regime::kLogged) return Budget::steps(record_.slots[slot]);
     return regime_ == Regime::kLive && clock_ != nullptr ? Budget::until(deadline, *clock_, limit)
                                                          : Budget::steps(limit);
   }
-  /// Notes the steps that were taken. At least one stage of a tick's budget() uses a slot.
+  /// Notes the steps that were taken of budget(). A slot serves one stage of the tick.
   void settle(std::size_t slot, const Budget& budget) {
     if (regime_ != Regime::kLogged) record_.slots[slot] = budget.spent();
   }
 
-  /// For inputs and outputs: the slot as this regime writes or reads it.
+  /// For ports and feeds: the slot as this regime writes or reads it.
   [[nodiscard]] std::int32_t& slot(std::size_t i) { return record_.slots[i]; }
   [[nodiscard]] Gate* gate() const { return gate_; }
 
-  /// An input says that nothing will ever follow; the run ends soon after the last one has.
+  /// An input task says that nothing will follow. The run ends soon after the last input task has said so.
   void end_of_input() { ended_ = true; }
   [[nodiscard]] bool ended() const { return ended_; }
 

@@ -15,25 +15,25 @@
 
 namespace cairn::app {
 
-/// What a device lost or what is doubtful about it, by name: "kernel_drops", 3.
+/// How many packets a device lost, or gave with doubtful data, by reason: "kernel_drops", 3.
 using Losses = std::vector<std::pair<std::string, std::uint64_t>>;
 
-/// A device of the robot, listening.
+/// An open device of the robot.
 struct Device {
   std::string id;
   std::unique_ptr<Source> source;
   std::function<Losses()> losses;
 };
 
-/// One entry for each device that the profile has, in a fixed order: lidar, camera, thermal, depth, drive, gpio. What a
-/// recording of this robot holds, and what its packets' SourceId counts.
+/// One entry for each device of the profile, in a fixed order: lidar, camera, thermal, depth, drive, gpio. These are
+/// the sources of a recording of this robot; the SourceId of a packet is the index in this list.
 [[nodiscard]] std::vector<recording::SourceEntry> devices_of(const RobotProfile& profile);
 
-/// Opens the device that `entry` (of devices_of()) stands for. `clock` must outlive it. A drive is only listened to: no
-/// frame is sent. Errors: those of the driver, each with its remedy.
+/// Opens the device of `entry`, which is one of devices_of(). `clock` must outlive it. No frame is sent to a drive.
+/// Errors: those of the driver, each with its remedy; kInvalidConfig: no device is of this kind.
 [[nodiscard]] Result<Device> open_device(const RobotProfile& profile, const recording::SourceEntry& entry, SourceId id,
                                          const Clock& clock);
-/// All of devices_of().
+/// Opens all of devices_of(), or none. The error names the device.
 [[nodiscard]] Result<std::vector<Device>> open_devices_of(const RobotProfile& profile, const Clock& clock);
 
 }  // namespace cairn::app

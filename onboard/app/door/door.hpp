@@ -20,34 +20,35 @@
 
 namespace cairn::app {
 
-/// One way in: a device or its recording, and what its bytes mean.
+/// One input: a device or its recording, and the decoder of its bytes.
 struct Input {
   recording::SourceEntry entry;
   std::unique_ptr<Source> source;
-  std::unique_ptr<ScanDecoder> scans;    ///< null where it holds no scans
-  drive::CanLink* can = nullptr;         ///< the same source, live: it can be spoken to, too
-  gpio::GpioLines* lines = nullptr;      ///< likewise
-  std::function<Losses()> losses;        ///< live: what the device lost; may be empty
-  peer_link::PeerPort* peers = nullptr;  ///< the same source, live: it can be spoken to, too
+  std::unique_ptr<ScanDecoder> scans;    ///< null: it holds no scans
+  drive::CanLink* can = nullptr;         ///< live: the same source, to send through
+  gpio::GpioLines* lines = nullptr;      ///< live: the same source, to read levels from
+  std::function<Losses()> losses;        ///< live: packets that the device lost; may be empty
+  peer_link::PeerPort* peers = nullptr;  ///< live: the same source, to send through
 };
 
-/// The one door through which everything from outside enters. The index of an input is its SourceId.
+/// Everything from outside enters through the door. The index of an input is its SourceId.
 struct Door {
   std::vector<Input> inputs;
-  recording::Recording recording;                  ///< what it is, or will be, as a recording
+  recording::Recording recording;                  ///< the index of the recording that is played or made
   std::optional<scheduler::ScheduleLog> schedule;  ///< of the live run that made the recording
 };
 
-/// Which devices a live run opens: those it uses, or all of the profile's, because it records them.
+/// Which devices a live run opens: those that it uses, or all of the profile, because it records them.
 enum class Devices : bool { kUsed, kAll };
 
-/// The profile's devices, listening. Decoders report events to `monitor`, which must outlive the door, as must `clock`.
+/// Opens the devices of the profile; they listen from now on. Decoders report events to `monitor`. `monitor` and
+/// `clock` must outlive the door. Errors: kInvalidConfig (the robot has no LiDAR), those of a driver.
 Result<Door> open_devices(const RobotProfile& profile, Devices which, const Clock& clock, Monitor& monitor);
-/// A recording. What it says of its robot and sensors (name, model, ports, mount) replaces what the profile says. A
-/// source whose file cannot be opened says so as its first and only packet.
+/// Opens a recording. Its name, models, ports and mounts replace those of `profile`. A source whose file cannot be
+/// opened returns that error once, and then ends. `monitor` must outlive the door. Errors: those of the index.
 Result<Door> open_recording(const std::filesystem::path& folder, RobotProfile& profile, Monitor& monitor);
-/// A recording whose sources behave like devices: their packets arrive again, from half a second from now on, for a run
-/// that is live. `clock` must outlive the door.
+/// Opens a recording whose sources behave like devices, for a live run: its packets arrive again, the first one in half
+/// a second. `clock` and `monitor` must outlive the door. Errors: those of the index.
 Result<Door> play_recording(const std::filesystem::path& folder, RobotProfile& profile, const Clock& clock,
                             Monitor& monitor);
 

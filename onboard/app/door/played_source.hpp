@@ -9,14 +9,14 @@
 
 namespace cairn::app {
 
-/// A recorded source that behaves like a device: each packet arrives again, as much later than it once did as shift()
-/// says, and not before the clock says so. Never waits.
+/// A recorded source that behaves like a device. Each packet arrives again, later by the shift, when the clock has come
+/// to that time. Never waits.
 class PlayedSource final : public Source {
  public:
   /// `clock` must outlive the source.
   PlayedSource(std::unique_ptr<Source> recorded, const Clock& clock) : recorded_(std::move(recorded)), clock_(clock) {}
 
-  /// Of the first packet, once; Time::max() where none can be read at once.
+  /// The recorded arrival of the first packet. Call it once, before next(). Time::max(): no packet can be read.
   [[nodiscard]] Time first_arrival() {
     const auto poll = recorded_->next(ahead_, Duration{0});
     has_ahead_ = poll && *poll == Poll::kPacket;

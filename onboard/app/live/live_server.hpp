@@ -10,14 +10,14 @@
 
 namespace cairn::app {
 
-/// A local socket that tells whoever listens how the run goes. Served by the watch task, never by a real-time thread;
-/// no call blocks. A client that cannot take a whole line at once is dropped, and so is one beyond kMaxClients.
+/// A local socket that sends the live view to its clients. The watch task serves it, never a real-time thread. No call
+/// blocks. A client that cannot take a whole line at once is dropped, and so is a client beyond kMaxClients.
 class LiveServer {
  public:
   static constexpr std::size_t kMaxClients = 8;
 
-  /// Replaces a socket that nobody serves any more. Errors: kInvalidConfig (too long a path), kIo (somebody serves it,
-  /// or the system refused).
+  /// Replaces a socket that no process serves any more. Errors: kInvalidConfig (the path is too long), kIo (another
+  /// process serves it, or the system refused).
   [[nodiscard]] static Result<LiveServer> open(const std::filesystem::path& path);
   LiveServer(LiveServer&& other) noexcept;
   LiveServer& operator=(LiveServer&&) = delete;
@@ -25,7 +25,7 @@ class LiveServer {
   LiveServer& operator=(const LiveServer&) = delete;
   ~LiveServer();
 
-  /// Takes new clients in and sends them all the line.
+  /// Accepts new clients and sends the line to all clients.
   void publish(std::string_view line);
   [[nodiscard]] std::size_t clients() const { return clients_.size(); }
   [[nodiscard]] std::uint64_t dropped_clients() const { return dropped_; }

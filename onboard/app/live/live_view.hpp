@@ -11,13 +11,13 @@
 
 namespace cairn::app {
 
-/// What `cairn top` shows of a running core; once per second one line of JSON on a local socket. Text is cut at
-/// kMaxText bytes, lists at kMaxItems, on both sides.
+/// What `cairn top` shows of a running core: one line of JSON a second, on a local socket. Both sides cut text at
+/// kMaxText bytes and lists at kMaxItems.
 struct LiveView {
   /// Times and counts of one task.
   struct Stage {
     std::string name;
-    double p50_ms = 0, p99_ms = 0, p999_ms = 0, max_ms = 0;  ///< of the response, since the run began
+    double p50_ms = 0, p99_ms = 0, p999_ms = 0, max_ms = 0;  ///< of the response, since the start of the run
     double deadline_ms = 0;                                  ///< of the response
     double budget_ms = 0;                                    ///< of the execution; 0: none declared
     std::uint64_t count = 0, overruns = 0;                   ///< ticks; those whose execution was above the budget
@@ -36,9 +36,9 @@ struct LiveView {
     bool merged = false;
     std::string state;        ///< why it is merged or not: PeerState as a word
     std::string reason;       ///< the same for people, with figures
-    double heard_s_ago = -1;  ///< negative: never
+    double heard_s_ago = -1;  ///< seconds since it was heard last; negative: never
     std::uint64_t tiles = 0, tx_bytes = 0, rx_bytes = 0;
-    double clock_offset_s = 0;             ///< its clock less this robot's, as far as known
+    double clock_offset_s = 0;             ///< its clock minus this robot's; 0: not known
     bool deployment_contradicted = false;  ///< the deployments of the two do not fit to their maps
   };
   std::string robot;
@@ -56,9 +56,9 @@ struct LiveView {
   static constexpr std::size_t kMaxLine = 64 * 1024;
 };
 
-/// One line, its end included; kMaxLine at most: events that do not fit are left out, oldest first.
+/// One line with its end, of at most kMaxLine bytes. Events that do not fit are left out, oldest first.
 [[nodiscard]] std::string to_line(const LiveView& view);
-/// The inverse, for bytes of any origin: fields of another type or value count as missing. Errors: kLimit (longer than
+/// The inverse, for bytes of any origin. Fields of another type or value count as missing. Errors: kLimit (longer than
 /// kMaxLine), kMalformed (no JSON object).
 [[nodiscard]] Result<LiveView> parse_line(std::string_view line);
 

@@ -39,7 +39,7 @@ void Watchdog::accuse(Time now, const safety::Supervisor::Finding& finding) {
   hung_ = "task " + pulse.task + " hangs: no tick for " +
           std::to_string(finding.silent / std::chrono::milliseconds(1)) + " ms, its limit is " +
           std::to_string(pulse.limit / std::chrono::milliseconds(1)) + " ms";
-  // Now, and on three ways: the process may be ended before anyone asks for the events.
+  // At once, as event, on stderr and as status: the process may end before a client asks for the events.
   monitor_.event(now, "watchdog", "task " + pulse.task + " hangs");
   std::fprintf(stderr, "cairn: %s\n", hung_.c_str());
   tell(now, "STATUS=" + one_line(hung_));

@@ -11,20 +11,20 @@
 
 namespace cairn::app {
 
-/// The chain from the tasks to the service manager: it hears a sign of life only while every task is within its limit,
-/// and otherwise the name of the one that is not, before it ends the process. Stepped by the watch task, every 100 ms
-/// or so; it says something four times within `timeout`.
+/// Tells the service manager whether the tasks run. While every task is within its limit, the manager gets a sign of
+/// life, four times within `timeout`. Otherwise it gets the name of the task that hangs, and then ends the process.
+/// Stepped by the watch task, about every 100 ms.
 class Watchdog {
  public:
-  /// `timeout`: as of watchdog_timeout(); none: only events and status. `monitor` must outlive the watchdog.
+  /// `timeout`: see watchdog_timeout(); none: only events and status. `monitor` must outlive the watchdog.
   Watchdog(std::vector<safety::Pulse> pulses, SdNotify notify, std::optional<Duration> timeout, Monitor& monitor)
       : supervisor_(std::move(pulses)), notify_(std::move(notify)), timeout_(timeout), monitor_(monitor) {}
 
-  /// Once, when all tasks run: "READY=1".
+  /// Sends "READY=1". To be called once, when all tasks run.
   void ready(Time now);
-  /// `status` is one line for `systemctl status`. False while a task hangs: Fault::kTaskHung.
+  /// `status`: one line for `systemctl status`. False while a task hangs: Fault::kTaskHung.
   bool step(Time now, std::string_view status);
-  /// The task that hangs, and for how long, as the event says; empty: none.
+  /// Which task hangs and for how long, in words; empty: none.
   [[nodiscard]] const std::string& hung() const { return hung_; }
 
  private:

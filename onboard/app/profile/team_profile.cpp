@@ -9,16 +9,18 @@
 namespace cairn::app {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180, kMostLeanDeg = 1.7, kLeastSigmaM = 0.001;
+constexpr double kRadPerDeg = std::numbers::pi / 180;
+constexpr double kMaxLean_deg = 1.7;   // of a floor on which a robot is put down
+constexpr double kMinSigma_m = 0.001;  // no measured place is better
 
 }  // namespace
 
 std::optional<UncertainPose> DeploymentProfile::T_site_odom() const {
   if (sigma_m == 0) return std::nullopt;
   Vector6 at, sigma;
-  at << x_m, y_m, z_m, 0, 0, yaw_deg * kDegree;
-  const double lean_deg = std::min(sigma_deg, kMostLeanDeg);
-  sigma << sigma_m, sigma_m, sigma_m, lean_deg * kDegree, lean_deg * kDegree, sigma_deg * kDegree;
+  at << x_m, y_m, z_m, 0, 0, yaw_deg * kRadPerDeg;
+  const double lean_deg = std::min(sigma_deg, kMaxLean_deg);
+  sigma << sigma_m, sigma_m, sigma_m, lean_deg * kRadPerDeg, lean_deg * kRadPerDeg, sigma_deg * kRadPerDeg;
   return UncertainPose{SE3::from_xyz_rpy(at), sigma.cwiseAbs2().asDiagonal()};
 }
 
@@ -34,17 +36,19 @@ void declare(config::Section& s, DeploymentProfile& p) {
 }
 
 void declare(config::Section& s, TeamProfile& p) {
-  s.integer("id", p.id, {0, 65535}, "", "the robot's number in its team, its own there; 0: it is in none");
-  s.text("socket", p.socket, "local socket that it shares with its peer process (cairn-peers --socket)");
+  s.integer("id", p.id, {0, 65535}, "", "the robot's number, unique in its team; 0: it is in no team");
+  s.text("socket", p.socket, "local socket, shared with the peer process (cairn-peers --socket)");
   s.integer("bytes_per_second", p.bytes_per_second, {1000, 10'000'000}, "B/s",
-            "what it tells others, all overhead included; cairn-peers has a cap of its own below");
-  s.number("match_s", p.match_s, {0.1, 60}, "s", "one comparison of two maps may take so long; it holds up nothing");
+            "sent to all peers together, with all overhead; cairn-peers has a cap of its own below");
+  s.number("match_s", p.match_s, {0.1, 60}, "s",
+           "time limit of one comparison of two maps; no other task waits for it");
   s.group("deployment", p.deployment,
-          "where the robot is put down, in a metric frame that its team shares: a guess for finding the others, which "
-          "their maps must confirm; with less than a voxel and half a degree it merges maps before they overlap");
-  s.number("submap_m", p.submap_m, {5, 1'000'000}, "m", "path after which its map may bend: a new submap begins");
-  s.number("drift_percent", p.drift_percent, {0.01, 20}, "%", "of the path that odometry may be off, per axis");
-  s.number("drift_deg_per_m", p.drift_deg_per_m, {0.0001, 2}, "°/m", "of the path that odometry may be turned");
+          "where the robot is put down, in a metric frame that its team shares: a guess that the maps must confirm; if "
+          "it is good to a voxel and half a degree, maps are merged before they overlap");
+  s.number("submap_m", p.submap_m, {5, 1'000'000}, "m",
+           "length of the path through one submap; the map may bend between submaps");
+  s.number("drift_percent", p.drift_percent, {0.01, 20}, "%", "drift of odometry per axis, of the path");
+  s.number("drift_deg_per_m", p.drift_deg_per_m, {0.0001, 2}, "°/m", "drift of the heading, per metre of the path");
 }
 
 Result<void> check(const TeamProfile& profile) {
@@ -52,9 +56,12 @@ Result<void> check(const TeamProfile& profile) {
   const DeploymentProfile none;
   std::string faults;
   const bool said = d.x_m != 0 || d.y_m != 0 || d.z_m != 0 || d.yaw_deg != 0 || d.sigma_deg != none.sigma_deg;
-  if (d.sigma_m == 0 && said) faults = "deployment.sigma_m is missing: how far may the place be off? A tape: 0.05";
-  if (d.sigma_m != 0 && d.sigma_m < kLeastSigmaM) faults = "deployment.sigma_m: nobody knows it to a millimetre";
-  if (d.sigma_m != 0 && profile.id == 0) faults += std::string(faults.empty() ? "" : "\n") + "deployment without id";
+  if (d.sigma_m == 0 && said)
+    faults = "deployment.sigma_m is missing: the standard deviation of the place; with a tape measure: 0.05";
+  if (d.sigma_m != 0 && d.sigma_m < kMinSigma_m)
+    faults = "deployment.sigma_m is below 0.001: no place is known to a millimetre";
+  if (d.sigma_m != 0 && profile.id == 0)
+    faults += std::string(faults.empty() ? "" : "\n") + "deployment is set, but id is not";
   if (faults.empty()) return {};
   return Error{Errc::kInvalidConfig, "faults in the section team", {}, {}, faults};
 }

@@ -20,41 +20,43 @@
 
 namespace cairn::app {
 
-/// A map, where the robot was in it, and what it saw there last.
+/// A saved map, the pose of the robot in it, and the robot's last scans.
 struct Generation {
   SavedState state;
   std::unique_ptr<mapping::SemanticOcTree> map;
-  Time map_stamp{};                ///< what was seen later is not in the map
-  std::uint32_t newest_epoch = 0;  ///< that was begun; larger than the map's if that one's map was not saved yet
+  Time map_stamp{};                ///< of the last scan in the map
+  std::uint32_t newest_epoch = 0;  ///< that was begun; above the map's epoch when its own map was not saved yet
   std::vector<odometry::PlacedScan> scans;  ///< empty: none were saved, or they are damaged
 };
 
-/// The map on disk, in a folder of its own: two generations, map.a.cairn and map.b.cairn, of which the older one is
-/// replaced, and two files that are saved more often: state.txt, the newest pose, and scans.bin, the newest scans. Each
-/// file is checksummed as a whole and replaced atomically: whenever the program dies or the disk fails, there is a
-/// whole generation once there was one.
+/// The map on disk, in a folder of its own.
+/// - map.a.cairn and map.b.cairn are two generations. Saving replaces the older one.
+/// - state.txt is the newest pose and scans.bin the newest scans. They are saved more often.
 ///
-/// Pose and scans are not synced: they outlive the program, and after a reboot they would be worth nothing.
+/// Each file has a checksum of the whole and is replaced atomically. Once there was a whole generation, there always is
+/// one, whenever the program dies or the disk fails. Pose and scans are not synced: they outlive the program, and after
+/// a reboot they are of no use.
 ///
-/// For a task that may wait: calls block on the disk. encode() alone needs the map; store() may run on another thread.
+/// Calls block on the disk: they are for a task that may wait. Only encode() needs the map; store() may run on another
+/// thread.
 class Generations {
  public:
-  /// `folder` is made if it is not there. `calls` and `monitor` must outlive the generations.
+  /// Makes `folder` if it is not there. `calls` and `monitor` must outlive the generations.
   Generations(std::filesystem::path folder, Monitor& monitor, FileCalls& calls = FileCalls::machine());
 
-  /// The newest generation that is whole, with the newest pose and scans of its epoch; none when there is none. One
-  /// event for each file that is not what it should be. To be called once, before the first save.
+  /// The newest whole generation, with the newest pose and scans of its epoch; none: there is none. Each damaged file
+  /// is one event. To be called once, before the first save.
   [[nodiscard]] std::optional<Generation> load(Time now, const mapping::MapLimits& limits = {});
   /// After load(): a map file was there that could not be read.
   [[nodiscard]] bool damaged() const { return damaged_; }
 
-  /// The bytes of the next generation. `state.sequence` is set here.
+  /// The bytes of the next generation. Sets `state.sequence`.
   [[nodiscard]] std::vector<std::byte> encode(const mapping::SemanticOcTree& map, SavedState state) const;
-  /// On an error the generation before is as it was, and the next call tries the same place again.
+  /// Error kIo: the previous generation is as it was, and the next call tries the same place again.
   Result<void> store(std::span<const std::byte> generation);
-  /// Both. Error kLimit also where there is no memory for the bytes.
+  /// encode() and store(). Error kLimit also when there is no memory for the bytes.
   Result<void> save(const mapping::SemanticOcTree& map, const SavedState& state);
-  /// Errors as of store(); what is in the generations stays as it is.
+  /// Errors as of store(). The generations stay as they are.
   Result<void> save_state(SavedState state);
   Result<void> save_scans(const SavedScans& scans);
 

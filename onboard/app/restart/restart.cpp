@@ -25,10 +25,12 @@ std::string_view objection(const Generation& saved, const RestartProfile& profil
 }  // namespace
 
 void declare(config::Section& s, RestartProfile& p) {
-  s.number("save_map_every_s", p.save_map_every_s, {1, 3600}, "s", "with --state: between two saved generations");
-  s.number("within_s", p.within_s, {0, 3600}, "s",
-           "with --state: a core that starts again so long after its last pose goes on in the saved map; it must not "
-           "have been carried away meanwhile. 0: never");
+  s.number("save_map_every_s", p.save_map_every_s, {1, 3600}, "s",
+           "with --state: from one save of the map to the next");
+  s.number(
+      "within_s", p.within_s, {0, 3600}, "s",
+      "with --state: a run that starts at most so long after the last pose goes on in the saved map; the robot must "
+      "not be carried away meanwhile. 0: never");
 }
 
 std::string boot_id() {

@@ -12,7 +12,7 @@
 
 namespace cairn::app {
 
-/// When a core that starts again goes on in the map that is there, and how often that map is saved.
+/// How often the map is saved, and when a run goes on in the saved map of the previous run.
 struct RestartProfile {
   double save_map_every_s = 10;
   double within_s = 15;
@@ -28,7 +28,7 @@ struct PreviousRun {
   bool state_lost = false;            ///< maps were saved, and none of them can be read
 };
 
-/// The machine's boot id: stamps of two boots cannot be compared. Empty where the kernel does not tell.
+/// The boot id of the machine: stamps of two boots cannot be compared. Empty: the kernel does not tell it.
 [[nodiscard]] std::string boot_id();
 
 /// The previous run, from its map on disk. This run goes on in that map if it is of this boot and this resolution, not
@@ -39,12 +39,12 @@ struct PreviousRun {
 /// `saved` must outlive the result.
 [[nodiscard]] Resume resume(const Generation& saved);
 
-/// A recording of a run that went on from another one holds what it went on from, in this folder.
+/// The recording of a run that went on from another one keeps the saved state of that one in this folder.
 inline constexpr const char* kResumeFolder = "resume";
-/// Error kIo.
+/// Writes the saved state into the recording. Error kIo.
 Result<void> keep_with_recording(const std::filesystem::path& recording, const Generation& generation,
                                  Monitor& monitor);
-/// None: the run began anew.
+/// The saved state in a recording; none: the run began anew, or the folder is damaged, which is an event.
 [[nodiscard]] std::optional<Generation> resumed_in_recording(const std::filesystem::path& recording, Monitor& monitor);
 
 }  // namespace cairn::app

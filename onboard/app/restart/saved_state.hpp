@@ -11,7 +11,7 @@
 
 namespace cairn::app {
 
-/// What a core that starts again needs besides its map. As text it is 1 KB at most, a line each:
+/// What a run needs of the previous one besides its map. As text it has at most 1 KB, one line each:
 ///
 ///     cairn-state 1
 ///     sequence 12              counts saved generations
@@ -30,7 +30,7 @@ struct SavedState {
   Vector6 twist = Vector6::Zero();
 };
 
-/// Numbers in the fewest digits that read back to the same bits.
+/// Numbers have the fewest digits that read back to the same bits.
 [[nodiscard]] std::string to_text(const SavedState& state);
 /// Errors: kMalformed with the line's name; every number is finite and the quaternion of unit length.
 [[nodiscard]] Result<SavedState> parse_state(std::string_view text);

@@ -12,12 +12,12 @@
 
 namespace cairn::app {
 
-/// What odometry and mapping hand to the task that saves; neither ever waits for it.
+/// What odometry and mapping hand to the saving task. They never wait for it.
 struct ToSave {
   /// A copy of the map and the pose of the last scan in it.
   struct Map {
     std::unique_ptr<mapping::SemanticOcTree> tree;
-    TrackPoint newest;  ///< where the last scan in it was
+    TrackPoint newest;  ///< of the last scan in the map
   };
   /// A placed scan and its epoch.
   struct Scan {
@@ -26,20 +26,22 @@ struct ToSave {
   };
   LatestValue<TrackPoint> pose;  ///< from odometry
   SpscQueue<Scan> scans{16};     ///< from mapping
-  SpscQueue<Map> maps{1};        ///< likewise
+  SpscQueue<Map> maps{1};        ///< from mapping
 };
 
-/// The part of the saving that is mapping's, live: scans that a restart needs, and from time to time a copy of the map.
+/// Hands the scans that a restart needs, and now and then a copy of the map, to the saving task. Part of the mapping
+/// task.
 class MapCopier {
  public:
-  /// `out` must outlive the copier. `selection`: of the scans in epoch 0, which is that of a run that goes on.
+  /// `out` must outlive the copier. `every`: from the begin of one copy to the next. `selection`: of the scans in epoch
+  /// 0.
   MapCopier(const odometry::OdometryConfig& odometry, Duration every, const odometry::ScanSelection& selection,
             ToSave& out)
       : every_(every), out_(out), thin_(odometry), selection_(selection) {}
 
   /// After every scan that is in the map.
   void mapped(const LocatedScan& scan);
-  /// When there is no scan to be mapped: a millisecond of copying, if a copy is due and the one before was taken.
+  /// While no scan waits: copies for a millisecond, if a copy is due and the last one was taken.
   void idle(Time now, const mapping::SemanticOcTree& map);
 
  private:

@@ -11,23 +11,24 @@
 
 namespace cairn::app {
 
-/// Writes what a live run receives, without making anyone wait: tasks put copies of their packets into queues, and
-/// housekeeping empties them onto the disk. What finds its queue full is lost to the recording, counted and said.
+/// Writes what a live run receives. No task waits for it: tasks put copies of their packets into queues, and the
+/// housekeeping task writes these to the disk. A packet that finds its queue full is lost to the recording and counted.
 class Recorder {
  public:
   /// `monitor` must outlive the recorder.
   Recorder(recording::RecordingWriter writer, Monitor& monitor) : writer_(std::move(writer)), monitor_(monitor) {}
 
-  /// For one task: its packets go into a queue of their own. Those of up to `bytes` are kept without an allocation. The
-  /// recorder must outlive the tap.
+  /// A queue of its own for one task, for `packets` packets. Packets of up to `bytes` are kept without an allocation.
+  /// The recorder must outlive the tap.
   [[nodiscard]] scheduler::Feed::Tap tap(std::size_t packets, std::size_t bytes);
 
   /// On the housekeeping thread. An error of the disk ends the recording and nothing else.
   void write_waiting(Time now);
-  /// After the last tick.
+  /// After the last tick of all tasks: writes what waits and ends the files.
   void close(Time now);
+  /// Packets that found their queue full.
   [[nodiscard]] std::uint64_t lost() const;
-  /// Any thread: an error has ended it.
+  /// Any thread: an error of the disk has ended the recording.
   [[nodiscard]] bool failed() const { return failures_ > 0; }
 
  private:

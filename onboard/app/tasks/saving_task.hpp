@@ -12,26 +12,26 @@
 
 namespace cairn::app {
 
-/// Keeps on disk what a core that starts again needs: the pose with every tick, the scans when there are new ones, the
-/// map when a copy of it is there. Live only; a slow or full disk holds up nobody but this task.
+/// Keeps on disk what the next run needs after a crash: the pose with every tick, the scans when there are new ones,
+/// the map when a copy of it is there. Live only. A slow or full disk delays this task alone.
 class SavingTask final : public scheduler::Task {
  public:
-  /// All but `boot` must outlive the task. `first_epoch`: what a robot's epoch 0 is on disk.
+  /// The references must outlive the task. `first_epoch`: the number on disk of this run's epoch 0.
   SavingTask(Generations& generations, ToSave& in, std::uint32_t first_epoch, std::string boot, Monitor& monitor)
       : generations_(generations), in_(in), first_epoch_(first_epoch), boot_(std::move(boot)), monitor_(monitor) {}
 
-  /// The scans that the run goes on with: they are of its epoch 0.
+  /// The scans that the run goes on with. They are of its epoch 0.
   void go_on_with(std::span<const odometry::PlacedScan> scans) {
     for (const odometry::PlacedScan& scan : scans) scans_.add(scan);
   }
 
   void tick(scheduler::Tick& tick) override { save(tick.release()); }
-  /// What waits, to the disk.
+  /// Writes what waits to the disk.
   void save(Time now);
-  /// After the last tick of all tasks: what is still waiting, and the whole map.
+  /// After the last tick of all tasks: writes what waits, and the whole map.
   void close(Time now, const Robot& robot);
 
-  /// Any thread: what was to be written last could not be.
+  /// Any thread: the last write failed.
   [[nodiscard]] bool failing() const { return failing_.load(std::memory_order_relaxed); }
   [[nodiscard]] std::uint64_t maps_saved() const { return maps_saved_; }
 

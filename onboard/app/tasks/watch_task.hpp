@@ -12,11 +12,11 @@
 
 namespace cairn::app {
 
-/// Looks after the others and tells of them: what may lock and allocate, but waits for no disk. Live only, on a thread
-/// of its own: a disk that takes its time must not look like a core that hangs.
+/// Watches the other tasks and runs the chores that were add()ed. Chores may lock and allocate, but wait for no disk.
+/// Live only, on a thread of its own: a slow disk must not look like a core that hangs.
 class WatchTask final : public scheduler::Task {
  public:
-  /// A task that writes a little at a time and does not come back for so long waits for the disk.
+  /// A task that writes a little at a time, and does not come back for so long, waits for the disk.
   static constexpr Duration kDiskLimit = std::chrono::milliseconds(500);
   using Chore = std::function<void(Time now)>;
 
@@ -32,7 +32,7 @@ class WatchTask final : public scheduler::Task {
                 disk_.step(tick.release()).has_value() || (recorder_ != nullptr && recorder_->failed()));
     for (const Chore& chore : chores_) chore(tick.release());
   }
-  /// Of the task's thread: what it has seen itself.
+  /// Of the task's thread: the faults that this task found itself.
   [[nodiscard]] safety::FaultSet faults() const { return faults_; }
 
  private:

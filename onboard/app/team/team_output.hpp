@@ -10,12 +10,14 @@
 
 namespace cairn::app {
 
-/// Of everyone that was heard, as this robot saw it at the end of the run.
+/// Adds the team and every peer that was heard to the report, as this robot knew them at the end of the run.
 void add_team(const TeamTask& task, report::RunReport& report);
 
-/// Writes team.cairn, team.ot and team.tum into `out`: the team's map in the odom frame that its anchor began with,
-/// and one line for each robot whose stamp is its id and whose pose is T_team_odom, where its odom lies by now. Returns
-/// the files that are the same on every robot.
+/// Writes into `out`:
+/// - team.cairn and team.ot: the map of the team, in the first odom frame of its anchor
+/// - team.tum: one line for each robot, with its id as the stamp and its newest T_team_odom as the pose
+///
+/// Returns the files that are the same on every robot.
 Result<std::vector<std::filesystem::path>> write_team(const team::Team& team, const std::filesystem::path& out);
 
 }  // namespace cairn::app

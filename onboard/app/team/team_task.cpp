@@ -60,7 +60,7 @@ void TeamTask::take(const Packet& packet, Time now) {
 
 void TeamTask::begin(const Packet& packet, Time now) {
   const auto beginning = peer_link::decode_beginning(packet.payload());
-  if (!beginning || team_) return monitor_.event(now, "team", "a beginning that cannot be was passed over");
+  if (!beginning || team_) return monitor_.event(now, "team", "an invalid beginning was ignored");
   team_.emplace(team_config(profile_, beginning->robot, name_, resolution_m_), beginning->epoch);
 }
 
@@ -156,7 +156,7 @@ void TeamTask::publish_peers(Time now) {
                      .deployment_contradicted = standing.deployment_contradicted});
     bool& merged = merged_[robot];
     if (standing.merged() != std::exchange(merged, standing.merged()))
-      monitor_.event(now, "team", (merged ? "merged with " : "not merged any more with ") + name);
+      monitor_.event(now, "team", (merged ? "merged with " : "no longer merged with ") + name);
   }
   view_.publish();
 }
