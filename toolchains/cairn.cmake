@@ -158,3 +158,13 @@ function(cairn_bench name)
   target_link_libraries(bench_${name} PRIVATE cairn_flags cairn_places ${A_LINK} benchmark::benchmark)
   add_dependencies(benchmarks bench_${name})
 endfunction()
+
+# cairn_quality(NAME SOURCES … [LINK lib …]): a program that measures quality rather than time; the target quality is all of
+# them.
+add_custom_target(quality)
+function(cairn_quality name)
+  cmake_parse_arguments(A "" "" "SOURCES;LINK" ${ARGN})
+  add_executable(${name} ${A_SOURCES})
+  target_link_libraries(${name} PRIVATE cairn_flags cairn_places ${A_LINK})
+  add_dependencies(quality ${name})
+endfunction()
