@@ -154,7 +154,7 @@ Result<TeamOutcome> compare(const TeamOptions& options, const Plan& plan, const 
   const auto world = mapping::load_map(plan.recordings.front().folder / "world.ot");
   const TeamFigures figures = compare_team(*robots, world ? world->get() : nullptr);
   const TeamReport report{plan.recordings, network, end, figures};
-  TeamOutcome outcome{to_text(to_json(report)), to_table(report), figures.sound()};
+  TeamOutcome outcome{report::to_text(to_json(report)), to_table(report), figures.sound()};
   if (const auto written = write_file_atomic(options.out / "team.json", outcome.json); !written) return written.error();
   if (const auto saved = save_picture(*robots, options.out / "team.png"); !saved) options.say(to_string(saved.error()));
   return outcome;

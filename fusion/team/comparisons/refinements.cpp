@@ -31,7 +31,8 @@ struct Submap {
   Ball ball;
 };
 
-std::vector<Submap> submaps_of(peers::RobotId robot, const RobotTiles& tiles, const TeamPoses& poses, double tile_m) {
+std::vector<Submap> placed_submaps(peers::RobotId robot, const RobotTiles& tiles, const TeamPoses& poses,
+                                   double tile_m) {
   std::vector<Submap> submaps;
   for (const auto& [index, walls] : tiles.walls_by_submap()) {
     const auto pose = poses.submaps.find({robot, index});
@@ -72,7 +73,8 @@ bool best_of_one(const Overlap& overlap, const std::vector<Overlap>& all) {
 
 std::optional<SubmapPair> Refinements::next(peers::RobotId self, peers::RobotId peer, const RobotTiles& own,
                                             const RobotTiles& other, const TeamPoses& poses, double tile_m) {
-  const auto own_submaps = submaps_of(self, own, poses, tile_m), other_submaps = submaps_of(peer, other, poses, tile_m);
+  const auto own_submaps = placed_submaps(self, own, poses, tile_m),
+             other_submaps = placed_submaps(peer, other, poses, tile_m);
   if (own_submaps.size() < 2 && other_submaps.size() < 2) return std::nullopt;  // the whole maps are compared anyway
   const auto all = overlaps(own_submaps, other_submaps, tile_m);
   const Overlap* best = nullptr;

@@ -25,11 +25,11 @@ Recording every_sensor() {
   Recording r;
   r.robot = "husky";
   r.start_utc_ns = r.realtime_offset_ns = kUtcOffset;
-  r.sources = {{"camera", "camera", "camera/data.csv", "camera", ""},
-               {"thermal", "thermal", "thermal/data.csv", "thermal", "lepton3"},
-               {"depth", "depth", "depth/data.csv", "depth", ""},
-               {"drive", "drive", "drive.log", "base_link", "cia402"},
-               {"gpio", "gpio", "gpio.csv", "base_link", ""}};
+  r.sources = {{"camera", kCamera, "camera/data.csv", "camera", ""},
+               {"thermal", kThermal, "thermal/data.csv", "thermal", "lepton3"},
+               {"depth", kDepth, "depth/data.csv", "depth", ""},
+               {"drive", kDrive, "drive.log", "base_link", "cia402"},
+               {"gpio", kGpio, "gpio.csv", "base_link", ""}};
   return r;
 }
 

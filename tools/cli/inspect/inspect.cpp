@@ -215,13 +215,13 @@ Result<report::Json> inspect_array(const InspectOptions& options) {
   if (!source) return source.error();
   const camera::NpyHeader& header = (*source)->header();
   const bool grey = header.pixel_bytes == 1;
-  const std::string kind(grey ? recording::kCamera : depth ? recording::kDepth : recording::kThermal);
+  const recording::SensorKind kind = grey ? recording::kCamera : depth ? recording::kDepth : recording::kThermal;
   SourceEntry entry{"source", kind, options.path.filename().string(), "", options.model};
   if (entry.model.empty() && kind == recording::kThermal) entry.model = thermal_model(header);
   Recording recording;
   recording.sources.push_back(std::move(entry));
   return inspect_stream(options, recording, **source,
-                        {{"kind", kind}, {"path", options.path.string()}, {"assumed_rate_hz", as.rate_hz}});
+                        {{"kind", to_string(kind)}, {"path", options.path.string()}, {"assumed_rate_hz", as.rate_hz}});
 }
 
 /// "points_per_scan": 3 → "points per scan: 3", nested values indented below.

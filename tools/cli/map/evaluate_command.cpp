@@ -38,7 +38,7 @@ fs::path file_in(const fs::path& path, const char* name) {
   return fs::is_directory(path, ignored) ? path / name : path;
 }
 
-Result<std::vector<StampedPose>> read_poses(const fs::path& path, const char* name) {
+Result<std::vector<recording::StampedPose>> read_poses(const fs::path& path, const char* name) {
   const fs::path file = file_in(path, name);
   auto poses = recording::read_tum(file);
   if (!poses) return at(file.string(), poses.error());

@@ -121,16 +121,16 @@ int compare_maps(const Options& options) {
   return app::kDone;
 }
 
-report::MapPath projected(report::MapView view, const std::vector<StampedPose>& poses, bool dashed) {
+report::MapPath projected(report::MapView view, const std::vector<recording::StampedPose>& poses, bool dashed) {
   report::MapPath path{{}, dashed};
-  for (const StampedPose& p : poses) path.points.push_back(report::project(view, p.pose.translation()));
+  for (const recording::StampedPose& p : poses) path.points.push_back(report::project(view, p.pose.translation()));
   return path;
 }
 
 /// The trajectory and, under it, the ground truth in the trajectory's frame. Empty names are left out.
 Result<std::vector<report::MapPath>> read_paths(const Options& options, report::MapView view) {
   std::vector<report::MapPath> paths;
-  std::vector<StampedPose> trajectory, truth;
+  std::vector<recording::StampedPose> trajectory, truth;
   if (!options.trajectory.empty()) {
     auto read = recording::read_tum(options.trajectory);
     if (!read) return at(options.trajectory.string(), read.error());

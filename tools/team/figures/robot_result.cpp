@@ -76,7 +76,7 @@ void take_peers(const Json& report, RobotResult& result) {
   }
 }
 
-std::optional<Standing> standing_of(const std::vector<StampedPose>& trajectory, const fs::path& truth_file) {
+std::optional<Standing> standing_of(const std::vector<recording::StampedPose>& trajectory, const fs::path& truth_file) {
   const auto truth = recording::read_tum(truth_file);
   if (!truth) return std::nullopt;
   const auto matched = report::match_by_time(trajectory, *truth, report::TrajectoryErrorOptions{}.max_gap);

@@ -97,9 +97,9 @@ TEST(DoctorCommand, DamageOfARecordingIsNamed) {
   const TemporaryFolder folder;
   recording::Recording r;
   r.robot = "robot_1";
-  r.sources = {{"sweeps", "scans", "data.csv", "base_link", ""},
-               {"gpio", "gpio", "gpio.csv", "base_link", ""},
-               {"drive", "drive", "drive.log", "base_link", "cia402"}};
+  r.sources = {{"sweeps", recording::kScans, "data.csv", "base_link", ""},
+               {"gpio", recording::kGpio, "gpio.csv", "base_link", ""},
+               {"drive", recording::kDrive, "drive.log", "base_link", "cia402"}};
   auto writer = recording::RecordingWriter::create(folder / "r", r).value();
   Packet p;
   PointCloud cloud;

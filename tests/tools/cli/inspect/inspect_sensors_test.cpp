@@ -38,8 +38,8 @@ Packet frame_of(std::size_t source, camera::FrameFormat format, int n, std::uint
 void write_pictures(const std::string& dir) {
   recording::Recording r;
   r.robot = "robot_1";
-  r.sources = {{"thermal", "thermal", "thermal/data.csv", "thermal", "lepton3"},
-               {"depth", "depth", "depth/data.csv", "depth", ""}};
+  r.sources = {{"thermal", recording::kThermal, "thermal/data.csv", "thermal", "lepton3"},
+               {"depth", recording::kDepth, "depth/data.csv", "depth", ""}};
   auto writer = recording::RecordingWriter::create(dir, r).value();
   for (int n = 0; n < 10; ++n) {
     ASSERT_TRUE(writer.write(frame_of(0, camera::FrameFormat::kY16, n, 30'000)));
@@ -161,7 +161,7 @@ TEST(InspectSensors, WhatPeersSaidIsCountedByWhoSaidIt) {
   const TemporaryFolder folder;
   recording::Recording r;
   r.robot = "robot_1";
-  r.sources = {{"peers", "peers", "peers.log", "", ""}};
+  r.sources = {{"peers", recording::kPeers, "peers.log", "", ""}};
   auto writer = recording::RecordingWriter::create(folder / "rec", r).value();
   Packet packet;
   peer_link::encode(peer_link::Beginning{1, 5}, packet);
