@@ -10,6 +10,7 @@
 #include "onboard/safety/health.hpp"
 #include "onboard/safety/overload.hpp"
 #include "onboard/scheduler/overrun.hpp"
+#include "onboard/scheduler/task_graph.hpp"
 #include "tests/faults/campaign.hpp"
 #include "tests/support/failing_disk.hpp"
 #include "tests/support/temporary_folder.hpp"

@@ -122,7 +122,7 @@ check_names() {  # check_names PAGE: words that look like a file of this reposit
 declare -A helps=()
 help_of() {  # help_of PROGRAM [COMMAND…]: what --help says; in $help
   local key=$*
-  [[ -n ${helps[$key]:-} ]] || helps[$key]=$'\n'$("$programs/$1" "${@:2}" --help 2>/dev/null || true)
+  [[ -n ${helps[$key]:-} ]] || helps[$key]=$'\n'$(timeout 60 "$programs/$1" "${@:2}" --help 2>/dev/null </dev/null || true)
   help=${helps[$key]}
 }
 
@@ -131,7 +131,7 @@ check_command() {  # check_command PAGE WORD…: a call of one of the programs
   local -a commands=()
   shift 2
   help_of "$program"
-  while (($# > 0)) && [[ $help == *$'\n'"  $1 "* ]]; do
+  while (($# > 0)) && [[ $1 != -* && $help == *$'\n'"  $1 "* ]]; do
     commands+=("$1")
     help_of "$program" "${commands[@]}"
     shift

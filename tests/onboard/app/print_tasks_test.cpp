@@ -5,6 +5,7 @@
 
 #include <fstream>
 
+#include "drivers/recording/formats/recording.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace cairn::app {

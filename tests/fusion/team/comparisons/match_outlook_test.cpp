@@ -17,7 +17,7 @@ TEST(MatchOutlook, CountsWhatBothHavePublished) {
   team.publish_walls(1, 0, 0, 20);
   team.publish_walls(2, 0, 5, 30);
   team.publish_walls(2, 0, 5, 1);  // again
-  const MatchOutlook outlook = outlook_of(team.view(), 2, {});
+  const MatchOutlook outlook = outlook_of(team.view(), 2, matching::PendingHypotheses{});
   EXPECT_EQ(outlook.own_tiles, 20U);
   EXPECT_EQ(outlook.peer_tiles, 30U);
   EXPECT_EQ(outlook.own_version, 20U);
@@ -31,7 +31,7 @@ TEST(MatchOutlook, OfATeamsMemberItKnowsWhatIsCommon) {
   team.publish_walls(1, 0, 0, 20);
   team.publish_walls(2, 0, 0, 20);
   team.poses.T_team_odom = {{1, KnownTeam::at(3, 4)}, {2, KnownTeam::at(3 + 5 * 1.6, 4)}};
-  const MatchOutlook outlook = outlook_of(team.view(), 2, {});
+  const MatchOutlook outlook = outlook_of(team.view(), 2, matching::PendingHypotheses{});
   EXPECT_TRUE(outlook.merged);
   ASSERT_TRUE(outlook.common_tiles);
   EXPECT_NEAR(static_cast<double>(*outlook.common_tiles), 15, 1);
@@ -57,7 +57,7 @@ TEST(MatchOutlook, AVagueDeploymentIsNoPose) {
   KnownTeam team;
   team.deploy(1, KnownTeam::at(0, 0), 1.5, 0.01);
   team.deploy(2, KnownTeam::at(3, 0), 1.5, 0.01);
-  EXPECT_FALSE(likely_pose(team.view(), 2, {})) << "a tile is 1.6 m";
+  EXPECT_FALSE(likely_pose(team.view(), 2, matching::PendingHypotheses{})) << "a tile is 1.6 m";
 }
 
 TEST(MatchOutlook, CommonTilesAreThoseThatLieOnEachOther) {

@@ -160,7 +160,9 @@ TEST(DoctorCommand, SaysWhereThereIsNothingToBeHeardOfAPeer) {
 TEST(DoctorCommand, EveryStateOfAPeerHasARemedyButTheGoodOne) {
   for (std::size_t i = 0; i < team::kPeerStates; ++i) {
     const auto state = static_cast<team::PeerState>(i);
-    app::LiveView::Peer peer{.name = "robot_2", .merged = state == team::PeerState::kMerged};
+    app::LiveView::Peer peer;
+    peer.name = "robot_2";
+    peer.merged = state == team::PeerState::kMerged;
     peer.state = to_string(state);
     const auto findings = judge_peers({peer}, "robot_2");
     ASSERT_EQ(findings.size(), 1U);
