@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include "tests/support/places.hpp"
+
 namespace cairn::app {
 namespace {
 
@@ -33,7 +35,8 @@ struct ConnectInputsTest : ::testing::Test {
   }
   void connect() {
     tasks.emplace(door.recording.sources, profile, options, previous, monitor);
-    ASSERT_TRUE(connect_inputs(*tasks, {door, profile, options, previous, monitor}, nullptr));
+    const auto connected = connect_inputs(*tasks, {door, profile, options, previous, monitor}, nullptr);
+    ASSERT_TRUE(connected) << to_string(connected.error());
   }
 
   Door door;
@@ -45,7 +48,7 @@ struct ConnectInputsTest : ::testing::Test {
 };
 
 TEST_F(ConnectInputsTest, EveryInputGoesToTheTaskThatReadsIt) {
-  profile.gpio.driver.estop_line = "estop";
+  profile = load_profile(places::source() / "config/husky.yaml").value();
   add(recording::kScans, Time{4s});
   add(recording::kGpio, Time{3s});
   add(recording::kDrive, Time{2s});

@@ -44,9 +44,8 @@ TEST_F(SafetyEventsTest, AFaultItsEndAndEveryModeAreEvents) {
   EXPECT_EQ(safety_events.decision().mode, safety::Mode::kDegraded) << "as of the last read";
   safety_events.read();
   EXPECT_EQ(safety_events.decision().mode, safety::Mode::kNormal);
-  EXPECT_THAT(events(), ElementsAre("safety: mode: normal", "safety: fault: stage_demoted", "safety: mode: degraded",
-                                    "safety: ended: stage_demoted"))
-      << "events of one text are counted, not repeated";
+  EXPECT_THAT(events(), ElementsAre("safety: fault: stage_demoted", "safety: mode: degraded",
+                                    "safety: ended: stage_demoted", "safety: mode: normal"));
   safety_events.read();
   EXPECT_EQ(events().size(), 4U);
 }
