@@ -28,7 +28,7 @@ TEST(LinkTable, APeerIsHeardForItsLease) {
 
 TEST(LinkTable, NewsOfARobotIsOwedToAll) {
   LinkTable links(2, seconds(3));
-  for (const RobotId peer : {2, 3}) links.open(peer)->in_flight = {{{7, 1}, Time{}}, {{8, 1}, Time{}}};
+  for (const RobotId peer : {2U, 3U}) links.open(peer)->in_flight = {{{7, 1}, Time{}}, {{8, 1}, Time{}}};
   links.owe(7);
   links.forget_in_flight(7);
   for (const auto& [peer, link] : links.all()) {

@@ -86,14 +86,14 @@ TEST(Sender, ALostItemIsSentAgainAndCounted) {
 
 TEST(Sender, TrafficStaysBelowTheCapAndPeersShareIt) {
   Robot robot;
-  for (const RobotId peer : {2, 3, 4}) robot.open(peer);
+  for (const RobotId peer : {2U, 3U, 4U}) robot.open(peer);
   robot.publish(4000);
   const auto bytes = robot.send_for(seconds(60));
   std::size_t all = 0;
   for (const auto& [peer, sent] : bytes) all += (peer == 0 ? 3 : 1) * sent;  // for everyone is for each
   EXPECT_LE(all, 61U * 4000);
   EXPECT_GE(all, 57U * 4000);
-  for (const RobotId peer : {2, 3, 4}) EXPECT_NEAR(static_cast<double>(bytes.at(peer)), 20 * 4000, 0.2 * 20 * 4000);
+  for (const RobotId peer : {2U, 3U, 4U}) EXPECT_NEAR(static_cast<double>(bytes.at(peer)), 20 * 4000, 0.2 * 20 * 4000);
 }
 
 TEST(Sender, StatusesAreSentAlsoWithoutBytes) {

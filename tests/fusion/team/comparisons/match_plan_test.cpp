@@ -98,7 +98,7 @@ TEST_F(MatchPlanTest, AJobKnowsTheDeploymentsAndTheDrift) {
 }
 
 TEST_F(MatchPlanTest, WithoutWholeMapsToCompareItComparesSubmapsOfTheTeam) {
-  for (const peers::RobotId robot : {1, 2}) {
+  for (const peers::RobotId robot : {1U, 2U}) {
     team_.publish_walls(robot, 0, 0, 40);
     team_.publish_walls(robot, 1, 40, 40);
     team_.chains[robot] = {KnownTeam::pose(KnownTeam::at(64, 0), 0.2, 0.01)};

@@ -14,7 +14,7 @@ namespace {
 class MatchResultsTest : public testing::Test {
  protected:
   MatchResultsTest() {
-    for (const peers::RobotId robot : {1, 2}) {
+    for (const peers::RobotId robot : {1U, 2U}) {
       team_.publish_walls(robot, 0, 0, 40);
       team_.publish_walls(robot, 1, 40, 40);
     }
