@@ -56,10 +56,14 @@ recording::Recording describe(const SimulationConfig& config, const Stage& stage
   return index;
 }
 
-double least_clearance(const FloorPlan& plan, const Trajectory& trajectory) {
+/// Of the robot's outline, or of a person who carries it and may turn it any way.
+double least_clearance(const FloorPlan& plan, const Trajectory& trajectory, bool carried) {
+  constexpr double kPerson_m = 0.25;  // radius
   double least = std::numeric_limits<double>::infinity();
   for (const Vector6& pose : trajectory.knots()) {
-    least = std::min(least, plan.body_clearance(pose[0], pose[1], pose[5]));
+    const double here =
+        carried ? plan.clearance(pose.head<2>()) - kPerson_m : plan.body_clearance(pose[0], pose[1], pose[5]);
+    least = std::min(least, here);
   }
   return least;
 }
@@ -80,7 +84,7 @@ class RobotRecorder {
         progress_(progress) {
     summary_.name = dir_.filename().string();
     summary_.distance_m = run_.trajectory.length();
-    summary_.min_clearance_m = least_clearance(stage.plan, run_.trajectory);
+    summary_.min_clearance_m = least_clearance(stage.plan, run_.trajectory, config.motion.gait.carried_m > 0);
   }
 
   Result<RobotSummary> record() {

@@ -27,6 +27,8 @@ Result<void> check(const SimulationConfig& config) {
   if (!(config.seconds > 0 && config.seconds <= kMaxSeconds)) error.detail += "seconds must be above 0, at most 3600; ";
   if (config.profile != "husky" && config.profile != "uav") error.detail += "the profiles are husky and uav; ";
   if (config.flies() && !config.sensors.camera_alone()) error.detail += "a uav carries the camera alone; ";
+  if (config.motion.gait.carried_m > 0 && config.sensors.drive)
+    error.detail += "what a person carries has no wheels: leave out the sensor drive; ";
   if (config.out.empty()) error.detail += "no output folder given; ";
   if (!error.detail.empty()) return error;
   return {};
@@ -59,6 +61,11 @@ std::string true_map(const World& world, const std::vector<Path>& paths) {
   return std::move(text).str();
 }
 
+Trajectory move(const World& world, const FloorPlan& plan, const Path& path, Duration duration,
+                const MotionStyle& style, std::uint64_t seed) {
+  return shaken(drive(world, plan, path, kStart, duration, style.limits, seed, style.stops), style, seed);
+}
+
 std::vector<Trajectory> drive_all(const SimulationConfig& config, const World& world, const FloorPlan& plan,
                                   const std::vector<Path>& paths) {
   std::vector<Trajectory> all;
@@ -66,7 +73,7 @@ std::vector<Trajectory> drive_all(const SimulationConfig& config, const World& w
     const std::uint64_t seed = mix(mix(config.seed ^ kDriveStream) + robot);
     const Duration duration = from_seconds(config.seconds);
     all.push_back(config.flies() ? fly(world, plan, paths[robot], kStart, duration, config.flight, seed)
-                                 : drive(world, plan, paths[robot], kStart, duration, config.drive, seed));
+                                 : move(world, plan, paths[robot], duration, config.motion, seed));
   }
   return all;
 }
@@ -81,7 +88,7 @@ Result<Stage> set_up(const SimulationConfig& config) {
   auto tracer = Tracer::build(world->mesh);
   if (!tracer) return tracer.error();
   FloorPlan plan = config.flies() ? flight_plan(*world) : FloorPlan(*world);
-  const double speed = config.flies() ? config.flight.level.speed : config.drive.speed;
+  const double speed = config.flies() ? config.flight.level.speed : config.motion.limits.speed;
   auto paths = RoutePlanner(*world, plan, config.seed).plan(config.robots, speed * config.seconds + 2.0);
   if (!paths) return paths.error();
   std::string world_ot = true_map(*world, *paths);

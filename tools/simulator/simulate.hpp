@@ -37,7 +37,7 @@ struct SimulationConfig {
   std::string profile = "husky";  ///< or uav: it flies, and carries the camera alone
   Sensors sensors;
   unsigned threads = 1;  ///< changes nothing but the time it takes
-  DriveLimits drive;
+  MotionStyle motion;    ///< of a husky
   FlightLimits flight;
   LidarConfig lidar;
   StereoConfig stereo;

@@ -23,7 +23,8 @@ TEST(SimulateCommand, WrongScenesAreRefusedWithTheListOfScenes) {
 
 TEST(SimulateCommand, WrongNumbersAndMissingOptionsAreRefused) {
   EXPECT_EQ(simulate({"--scene", "office"}).exit_code, app::kWrongArguments);
-  for (const char* option : {"--robots=0", "--robots=17", "--seconds=0", "--seconds=x", "--threads=0", "--people=-3"})
+  for (const char* option :
+       {"--robots=0", "--robots=17", "--seconds=0", "--seconds=x", "--threads=0", "--people=-3", "--motion=wild"})
     EXPECT_EQ(simulate({"--scene=office", "--out=/nowhere", option}).exit_code, app::kWrongArguments) << option;
 }
 

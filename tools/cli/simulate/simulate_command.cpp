@@ -21,6 +21,7 @@ namespace {
 struct Options {
   simulator::SimulationConfig simulation;
   std::vector<std::string> sensors;  // by name
+  std::string motion = "gentle";
   bool json = false;
 };
 
@@ -97,6 +98,7 @@ simulator::Sensors sensors(const std::vector<std::string>& names) {
 
 int run(Options options) {
   if (options.simulation.flies()) make_uav(options.simulation);
+  options.simulation.motion = simulator::style_of(simulator::motion_of(options.motion));
   if (!options.sensors.empty()) options.simulation.sensors = sensors(options.sensors);
   const auto robots = simulator::simulate(options.simulation, progress_line());
   if (!robots) return app::fail(robots.error());
@@ -130,6 +132,11 @@ void add_simulate_command(app::Commands& commands) {
   sub->add_flag("--night", s.night, "the sun is down and all lamps are off");
   sub->add_option("--profile", s.profile, "husky drives; uav flies and carries a camera only")
       ->check(CLI::IsMember({"husky", "uav"}))
+      ->capture_default_str();
+  sub->add_option("--motion", options->motion,
+                  "how a husky moves: gentle to 1.5 m/s and 60 deg/s, brisk to 2 m/s and 90 deg/s, aggressive to 3 m/s "
+                  "and 120 deg/s with bumps and sudden stops, handheld: a walking person carries it")
+      ->check(CLI::IsMember(std::vector<std::string>(simulator::kMotions.begin(), simulator::kMotions.end())))
       ->capture_default_str();
   sub->add_option("--sensors", options->sensors, "sensors to record, with commas; default: lidar, for a uav camera")
       ->delimiter(',')

@@ -13,7 +13,8 @@ namespace {
 using Eigen::Vector2d;
 
 constexpr double kPi = std::numbers::pi;
-constexpr double kRest = 1.0;    // s, before the robot moves
+constexpr double kRest = 1.0;  // s, before the robot moves
+constexpr std::uint64_t kStopStream = 93;
 constexpr double kMargin = 0.9;  // share of a limit that is planned with, so that control stays inside it
 
 double wrapped(double angle) { return std::remainder(angle, 2.0 * kPi); }
@@ -57,8 +58,20 @@ class Follower {
 
   void step(double dt) {
     follow();
-    const double change =
-        std::clamp(wanted_speed_ - v_, -limits_.acceleration * kMargin * dt, limits_.acceleration * kMargin * dt);
+    move(dt, limits_.acceleration);
+  }
+  /// Brakes at once, whatever the path says.
+  void stop(double dt, double braking) {
+    wanted_speed_ = wanted_yaw_rate_ = 0;
+    move(dt, braking);
+  }
+
+  [[nodiscard]] const Vector2d& position() const { return at_; }
+  [[nodiscard]] double yaw() const { return yaw_; }
+
+ private:
+  void move(double dt, double acceleration) {
+    const double change = std::clamp(wanted_speed_ - v_, -acceleration * kMargin * dt, acceleration * kMargin * dt);
     const double turn = std::clamp(wanted_yaw_rate_ - w_, -limits_.yaw_acceleration * kMargin * dt,
                                    limits_.yaw_acceleration * kMargin * dt);
     // The mean of old and new rates over the step, on the chord's heading: exact for an arc to third order.
@@ -69,10 +82,6 @@ class Follower {
     w_ += turn;
   }
 
-  [[nodiscard]] const Vector2d& position() const { return at_; }
-  [[nodiscard]] double yaw() const { return yaw_; }
-
- private:
   void follow() {
     advance();
     const double reach = 0.3 + 0.35 * v_;
@@ -123,6 +132,26 @@ class Follower {
   bool turning_ = false;
 };
 
+/// When an emergency stop holds the robot.
+class StopTimes {
+ public:
+  StopTimes(const SuddenStops& stops, std::uint64_t seed) : stops_(stops), random_(seed, kStopStream) { draw(kRest); }
+
+  [[nodiscard]] bool holds(double t) {
+    if (stops_.every_s <= 0 || t < next_) return false;
+    if (t < next_ + stops_.rest_s) return true;
+    draw(t);
+    return false;
+  }
+
+ private:
+  void draw(double after) { next_ = after - stops_.every_s * std::log(1.0 - random_.uniform()); }
+
+  SuddenStops stops_;
+  Random random_;
+  double next_ = 0;
+};
+
 }  // namespace
 
 Vector6 on_ground(const World& world, double x, double y, double yaw) {
@@ -144,19 +173,22 @@ Vector6 on_ground(const World& world, double x, double y, double yaw) {
 }
 
 Trajectory drive(const World& world, const FloorPlan& plan, const Path& path, Time start, Duration duration,
-                 const DriveLimits& limits, std::uint64_t seed) {
+                 const DriveLimits& limits, std::uint64_t seed, const SuddenStops& stops) {
   constexpr int kSubsteps = 10;
   const double dt = to_seconds(Trajectory::kKnotPeriod) / kSubsteps;
   const double cruise = limits.speed * Random(seed).uniform(0.75, 1.0);
   Follower follower(plan, path, limits, cruise);
+  StopTimes stop_times(stops, seed);
   const auto knots = static_cast<std::size_t>(duration / Trajectory::kKnotPeriod) + 2;
   std::vector<Vector6> poses;
   poses.reserve(knots);
   for (std::size_t i = 0; i < knots; ++i) {
     const Vector2d p = follower.position();
     poses.push_back(on_ground(world, p.x(), p.y(), follower.yaw()));
-    if (to_seconds(Trajectory::kKnotPeriod) * static_cast<double>(i) < kRest) continue;
-    for (int k = 0; k < kSubsteps; ++k) follower.step(dt);
+    const double t = to_seconds(Trajectory::kKnotPeriod) * static_cast<double>(i);
+    if (t < kRest) continue;
+    const bool stopped = stop_times.holds(t);
+    for (int k = 0; k < kSubsteps; ++k) stopped ? follower.stop(dt, stops.braking) : follower.step(dt);
   }
   return {start, std::move(poses)};
 }

@@ -13,12 +13,12 @@ namespace {
 
 constexpr DriveLimits kLimits;
 
-struct Motion {
+struct Rates {
   double speed = 0, sideways = 0, yaw_rate = 0;
 };
 
 /// Between knots i and i+1.
-Motion motion(const Trajectory& trajectory, std::size_t i) {
+Rates rates(const Trajectory& trajectory, std::size_t i) {
   const double dt = to_seconds(Trajectory::kKnotPeriod);
   const Vector6 &a = trajectory.knots()[i], &b = trajectory.knots()[i + 1];
   const Eigen::Vector2d step = (b - a).head<2>() / dt;
@@ -29,9 +29,9 @@ Motion motion(const Trajectory& trajectory, std::size_t i) {
 
 void expect_within_limits(const Trajectory& trajectory) {
   const double dt = to_seconds(Trajectory::kKnotPeriod);
-  Motion before;
+  Rates before;
   for (std::size_t i = 0; i + 1 < trajectory.knots().size(); ++i) {
-    const Motion now = motion(trajectory, i);
+    const Rates now = rates(trajectory, i);
     ASSERT_LE(std::abs(now.speed), kLimits.speed + 1e-9) << i;
     ASSERT_LE(std::abs(now.yaw_rate), kLimits.yaw_rate + 1e-9) << i;
     ASSERT_LE(std::abs(now.sideways), 1e-3) << i;
