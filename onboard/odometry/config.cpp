@@ -68,6 +68,8 @@ void declare(config::Section& s, OdometryConfig& c) {
   declare_motion(s, c);
   declare_tracking(s, c);
   s.group("start_search", c.start_search, "where registration begins when the prediction says little");
+  s.group("agility", c.agility, "how much acceleration is expected of a robot that jerks");
+  s.group("second_look", c.second_look, "when a fit is doubted and a better one is looked for");
   s.group("restart", c.restart, "where a restarted robot may be");
 }
 
@@ -76,9 +78,33 @@ void declare(config::Section& s, StartSearchConfig& c) {
            "standard deviation of the predicted speed above which a new map's first scans try speeds one by one");
   s.number("speed_gate_m", c.speed_gate_m, {0.01, 10.0}, "m", "a point fits a speed if it is that near to its patch");
   s.number("unknown_heading_rad", c.unknown_heading_rad, {0.01, 10.0}, "rad",
-           "standard deviation of the predicted heading above which headings and positions are searched");
+           "standard deviation of the predicted heading above which a restarted robot is searched for");
   s.number("gap_gate_m", c.gap_gate_m, {0.01, 10.0}, "m",
            "a point fits a heading or a position if it is that near to its patch");
+}
+
+void declare(config::Section& s, AgilityConfig& c) {
+  s.number("gain", c.gain, {0.0, 10.0}, "",
+           "share of an acceleration just seen that the next scans are expected to have");
+  s.number("decay", c.decay, {0.0, 1.0}, "", "share of that expectation that is left after each scan");
+  s.number("most_m_s2", c.most_m_s2, {0.01, 100.0}, "m/s2", "more acceleration is not expected");
+  s.number("most_rad_s2", c.most_rad_s2, {0.01, 1000.0}, "rad/s2", "more angular acceleration is not expected");
+  s.number("any_way_m", c.any_way_m, {0.0, 10.0}, "m",
+           "standard deviation of the way from a steady motion, where anything may have happened");
+  s.number("any_speed_m_s", c.any_speed_m_s, {0.0, 50.0}, "m/s", "is added to any_way_m for each second");
+  s.number("any_tilt_rad", c.any_tilt_rad, {0.001, 3.0}, "rad", "the same for roll and pitch, after any time");
+  s.number("any_heading_rad", c.any_heading_rad, {0.001, 3.0}, "rad", "the same for the heading");
+  s.number("any_turn_rad_s", c.any_turn_rad_s, {0.0, 50.0}, "rad/s", "is added to any_heading_rad for each second");
+}
+
+void declare(config::Section& s, SecondLookConfig& c) {
+  s.number("doubtful_share", c.doubtful_share, {0.0, 1.0}, "",
+           "a fit is doubted if fewer points fit than this share of what is usual");
+  s.number("blurred_share", c.blurred_share, {0.0, 1.0}, "",
+           "a scan is not added to the map if fewer points fit than this share of what is usual");
+  s.number("long_step_s", c.long_step_s, {0.0, 60.0}, "s", "after a longer time between scans every fit is doubted");
+  s.number("better", c.better, {1.0, 10.0}, "", "times as many points must fit before another place is believed");
+  s.integer("keypoints", c.keypoints, {50, 20000}, "", "points to search with");
 }
 
 void declare(config::Section& s, RestartConfig& c) {

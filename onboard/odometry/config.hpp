@@ -15,14 +15,46 @@ struct StartSearchConfig {
   /// m. A keypoint fits a speed if it lies this near to its patch. Half of the speeds' step, times
   /// a scan of 0.1 s, is 0.05 m; the rest is for the turn, which is unknown as well.
   double speed_gate_m = 0.5;
-  /// rad, standard deviation of the predicted heading. Above it, the neighbourhood is searched. At
-  /// 10 Hz that is after a gap of 0.46 s or seven lost scans; while a map settles, after 0.26 s or
-  /// three. Found with test ATurnThatEndsWhileNoScanComesIsFollowed: a silence of 0.3 s in a turn
-  /// had cost 7 m.
+  /// rad, standard deviation of the predicted heading. Above it, the neighbourhood of a restarted
+  /// robot is searched. A robot that stood still when its program ended is below.
   double unknown_heading_rad = 0.12;
   /// m. A keypoint fits a hypothesis of that search if it lies this near to its patch. As
   /// `narrowest_gate_m`.
   double gap_gate_m = 0.2;
+};
+
+/// How much acceleration is expected of a robot that jerks. Found with `cairn simulate --motion
+/// aggressive` and `handheld`, seeds 1 and 2 (`odometry_drives`): 3 m/s and 120°/s that begin and
+/// end within 0.1 s, and a sensor that nods with every step.
+struct AgilityConfig {
+  /// Share of an acceleration just seen that the next steps are expected to have, as a standard
+  /// deviation.
+  double gain = 0.7;
+  double decay = 0.9;       ///< per scan, of what was seen
+  double most_m_s2 = 10;    ///< m/s². More is not expected: a car's tyres hold that.
+  double most_rad_s2 = 25;  ///< rad/s². 120°/s within 0.1 s, and a little.
+  // What may have happened since the last scan that was followed: standard deviations of the
+  // difference to a steady motion. At 10 Hz they reach 31° and 0.45 m, after half a second 113° and
+  // 1.6 m.
+  double any_way_m = 0.05;        ///< m, plus any_speed_m_s for each second
+  double any_speed_m_s = 1.0;     ///< m/s
+  double any_tilt_rad = 0.2;      ///< rad, of roll and pitch, after any time: robots stay upright
+  double any_heading_rad = 0.06;  ///< rad, plus any_turn_rad_s for each second
+  double any_turn_rad_s = 1.2;    ///< rad/s
+};
+
+/// When a fit is doubted, and how a better one is looked for. Found as AgilityConfig.
+struct SecondLookConfig {
+  /// Of the usual share of keypoints that fit, floors and ceilings not counted. Smooth drives stay
+  /// above 0.95 of it. A turn of 120°/s that begins within a scan brings it to 0.85.
+  double doubtful_share = 0.93;
+  /// Of the same usual share. A scan that fits worse is followed but not added to the map: it was
+  /// deskewed badly. Without this, four walks of 40 s had 49 lost scans, and with 0.85 also many;
+  /// with it none.
+  double blurred_share = 0.7;
+  double long_step_s = 0.25;  ///< s. After a longer time the prediction says little: key frames, gaps.
+  double better = 1.02;       ///< times as many keypoints must fit before another place is believed
+  int keypoints = 300;        ///< to search with. The time of a search is in proportion.
 };
 
 /// Where a robot may be that was restarted. The standard deviations are those of a robot that
@@ -102,12 +134,16 @@ struct OdometryConfig {
   int reinitialise_after = 10;      ///< lost scans in a row until a new map begins: one second at 10 Hz
 
   StartSearchConfig start_search;
+  AgilityConfig agility;
+  SecondLookConfig second_look;
   RestartConfig restart;
 };
 
 /// Names, units and bounds of every key (config section `odometry`).
 void declare(config::Section& section, OdometryConfig& c);
 void declare(config::Section& section, StartSearchConfig& c);
+void declare(config::Section& section, AgilityConfig& c);
+void declare(config::Section& section, SecondLookConfig& c);
 void declare(config::Section& section, RestartConfig& c);
 
 }  // namespace cairn::odometry

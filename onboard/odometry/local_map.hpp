@@ -9,7 +9,7 @@
 #include "hal/se3.hpp"
 #include "hal/workers.hpp"
 #include "onboard/odometry/config.hpp"
-#include "onboard/odometry/drift_history.hpp"
+#include "onboard/odometry/estimation/drift_history.hpp"
 #include "onboard/odometry/local_map/patch_map.hpp"
 #include "onboard/odometry/recent_scans.hpp"
 

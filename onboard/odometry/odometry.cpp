@@ -2,6 +2,8 @@
 #include "onboard/odometry/odometry.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <utility>
 
 namespace cairn::odometry {
 namespace {
@@ -16,7 +18,23 @@ MotionFilter::Uncertainty at_the_start(const OdometryConfig& c) {
   return uncertainty;
 }
 
+// s. A twist that no scan has confirmed is believed for so long, on average: a robot that was lost
+// while it turned has often ended the turn.
+constexpr double kTwistBelieved_s = 0.2;
+
+// The motion that the first scan was deskewed with is off by a third of what it was before, each
+// time.
+constexpr int kStraightenings = 3;
+constexpr double kStraightGate_m = 0.5;
+
+/// Of a steady motion over `dt_s` seconds, the share that is left when belief in the twist fades.
+double believed_share(double dt_s) { return kTwistBelieved_s / dt_s * (1 - std::exp(-dt_s / kTwistBelieved_s)); }
+
 }  // namespace
+
+int most_steps(const OdometryConfig& config) {
+  return (2 + kStraightenings) * config.max_iterations + SecondLook::kTrialSteps;
+}
 
 LidarOdometry::LidarOdometry(const OdometryConfig& config, const SE3& T_base_lidar, Workers& workers)
     : config_(config),
@@ -24,9 +42,11 @@ LidarOdometry::LidarOdometry(const OdometryConfig& config, const SE3& T_base_lid
       preparation_(config),
       selector_(config),
       deskewer_(T_base_lidar, workers),
+      prior_(config),
       map_(config, T_base_lidar, workers),
       start_search_(config),
       registration_(config, T_base_lidar, workers),
+      second_look_(config, T_base_lidar),
       tracking_(config),
       relocaliser_(config) {}
 
@@ -36,24 +56,95 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget) {
   const Selection selected = selector_.select(prepared);
   if (!tracking_.began()) return begin(prepared, selected);
 
-  const double dt_s = relocaliser_.moving_time_s(tracking_.seconds_since_last(prepared.stamp));
-  if (tracking_.is_fragment_after_gap(dt_s, prepared.duration_s))
+  if (tracking_.is_fragment_after_gap(tracking_.seconds_since_last(prepared.stamp), prepared.duration_s))
     return Error{Errc::kTruncated, "the first scan after a gap is less than a revolution"};
+  const double dt_s = relocaliser_.moving_time_s(tracking_.seconds_since_followed(prepared.stamp));
   tracking_.advance(prepared.stamp, prepared.duration_s);
 
-  filter_.predict(dt_s, process_noise());
-  const MotionState start = start_hypothesis(selected, dt_s);
-  const Fit fit = registration_.align(selected, map_.patches(), filter_, start, budget);
+  T_odom_previous_ = filter_.state().T_odom_base;
+  Fit fit = align(selected, dt_s, budget);
+  if (first_) fit = straighten_first(selected, fit, dt_s, budget);
   const Relocalisation place = relocaliser_.judge(fit, selected.keypoints.size());
   if (place == Relocalisation::kElsewhere) return begin(prepared, selected);
 
   const SE3 motion = filter_.motion_to(fit.state.T_odom_base);
   const Track track = tracking_.judge(fit, motion, dt_s, map_.patches());
-  if (track == Track::kFollowed) correct(fit);
-  if (track == Track::kReinitialised) begin_map();
+  const bool clear = track == Track::kFollowed ? follow(fit, motion, dt_s) : lose(track, dt_s);
   deskewer_.deskew(prepared, filter_.state().twist);
-  if (track != Track::kLost) insert(selected);
+  if (clear) insert(selected);
+  if (track == Track::kReinitialised) keep_first(prepared, selected);
   return report(prepared.stamp, fit, track);
+}
+
+/// The fit corrects the prediction. True if the scan shall be added to the map.
+bool LidarOdometry::follow(const Fit& fit, const SE3& motion, double dt_s) {
+  const Vector6 twist_before = followed_.state().twist;
+  const bool blurred = second_look_.blurred(fit);
+  correct(fit, dt_s);
+  const bool wrong = twist_check_.contradicts(motion, dt_s, twist_before, filter_.state().twist);
+  if (!wrong || map_.settled()) return !blurred;
+  // While the map is young, it was made with the wrong twist. The poses show the right one.
+  filter_.believe({.T_odom_base = filter_.state().T_odom_base, .twist = motion.log() / dt_s});
+  reinitialise();
+  return true;
+}
+
+/// The prediction stands. True if the scan shall begin a new map.
+bool LidarOdometry::lose(Track track, double dt_s) {
+  filter_ = anything_since_followed(dt_s);
+  if (track == Track::kReinitialised) reinitialise();
+  return track == Track::kReinitialised;
+}
+
+/// Predicts, and registers the scan; once more, and farther around, if that leaves doubts.
+Fit LidarOdometry::align(const Selection& selected, double dt_s, Budget& budget) {
+  filter_ = followed_;
+  filter_.predict(dt_s, prior_.usual(map_.settled()));
+  const MotionState start = start_hypothesis(selected, dt_s);
+  const Fit first = registration_.align(selected, map_.patches(), filter_, start, budget);
+  if (relocaliser_.pending() || !second_look_.needed(first, dt_s)) return first;
+  MotionFilter wide = anything_since_followed(dt_s);
+  const auto better = second_look_.find(selected, map_.patches(), wide, first, dt_s, registration_, budget);
+  if (!better) return first;
+  filter_ = wide;
+  return *better;
+}
+
+/// The first scan of a map was taken in an unknown motion, so its points are skewed. The second one
+/// is skewed alike and fits, with a twist of zero. But the way between the two shows the motion. The
+/// map is made again from the first scan's points, deskewed with it.
+Fit LidarOdometry::straighten_first(const Selection& selected, Fit fit, double dt_s, Budget& budget) {
+  const FirstScan first = *std::exchange(first_, std::nullopt);
+  for (int round = 0; round < kStraightenings; ++round) {
+    const Vector6 twist = (followed_.state().T_odom_base.inverse() * fit.state.T_odom_base).log() / dt_s;
+    map_.begin(followed_.state().T_odom_base, followed_.odom_covariance());
+    deskewer_.deskew(first.scan, twist);
+    map_.insert(deskewer_.points_base(), first.for_map, followed_.state().T_odom_base, followed_.odom_covariance());
+    filter_ = followed_;
+    filter_.predict(dt_s, prior_.usual(map_.settled()));
+    filter_.believe({.T_odom_base = fit.state.T_odom_base, .twist = twist});
+    const Fit again =
+        registration_.align(selected, map_.patches(), filter_, filter_.state(), budget, {kStraightGate_m});
+    if (again.iterations == 0) break;  // no time left
+    fit = again;
+  }
+  return fit;
+}
+
+void LidarOdometry::keep_first(const PreparedScan& scan, const Selection& selected) {
+  first_.reset();
+  if (scan.duration_s > 0) first_ = {.scan = scan, .for_map = {selected.for_map.begin(), selected.for_map.end()}};
+}
+
+/// A prediction that expects anything. A robot that tilts does not go on tilting. One that was lost
+/// may not go on moving, either.
+MotionFilter LidarOdometry::anything_since_followed(double dt_s) const {
+  MotionFilter wide = followed_;
+  Vector6 kept = Vector6::Constant(tracking_.lost() ? believed_share(dt_s) : 1.0);
+  kept.segment<2>(3).setZero();
+  wide.doubt_twist(kept);
+  wide.predict(dt_s, prior_.anything(dt_s));
+  return wide;
 }
 
 Result<void> LidarOdometry::check(const Scan& scan) const {
@@ -66,9 +157,11 @@ Result<void> LidarOdometry::check(const Scan& scan) const {
 OdometryUpdate LidarOdometry::begin(const PreparedScan& scan, const Selection& selected) {
   tracking_.begin(scan.stamp);
   filter_.reset({}, at_the_start(config_));
-  begin_map();
+  reinitialise();
+  T_odom_previous_ = {};
   deskewer_.deskew(scan, filter_.state().twist);
   insert(selected);
+  keep_first(scan, selected);
   OdometryUpdate update = report(scan.stamp);
   update.began = true;
   update.converged = true;
@@ -77,25 +170,33 @@ OdometryUpdate LidarOdometry::begin(const PreparedScan& scan, const Selection& s
 
 void LidarOdometry::begin_map() {
   start_search_.begin_map();
+  second_look_.reset();
+  twist_check_.reset();
+  prior_.reset();
   filter_.forget_gap();
   map_.begin(filter_.state().T_odom_base, filter_.odom_covariance());
 }
 
-MotionNoise LidarOdometry::process_noise() const {
-  const double factor = map_.settled() ? 1.0 : config_.settling_noise_factor;
-  return {.linear = factor * config_.linear_acceleration, .angular = factor * config_.angular_acceleration};
-}
-
 MotionState LidarOdometry::start_hypothesis(const Selection& selected, double dt_s) {
-  return start_search_.find(filter_, dt_s, [&](const MotionState& hypothesis, double gate_m) {
+  const StartSearch::Score score = [&](const MotionState& hypothesis, double gate_m) {
     return registration_.inliers(selected, map_.patches(), hypothesis, gate_m);
-  });
+  };
+  return relocaliser_.pending() ? start_search_.find_restarted(filter_, dt_s, score)
+                                : start_search_.find(filter_, dt_s, score);
 }
 
-void LidarOdometry::correct(const Fit& fit) {
+void LidarOdometry::correct(const Fit& fit, double dt_s) {
   const double overconfidence = std::max(1.0, fit.misfit()) * config_.correlation_factor;
   filter_.update(fit.state, {fit.equations, fit.degeneracy, overconfidence}, map_.drift(registration_.uses()));
   if (!map_.settled()) filter_.forget_gap();
+  prior_.learn(fit.state.twist - followed_.state().twist, dt_s);
+  second_look_.learn(fit);
+  followed_ = filter_;
+}
+
+void LidarOdometry::reinitialise() {
+  begin_map();
+  followed_ = filter_;
 }
 
 void LidarOdometry::insert(const Selection& selected) {
@@ -106,7 +207,7 @@ OdometryUpdate LidarOdometry::report(Time stamp) const {
   OdometryUpdate update;
   update.stamp = stamp;
   update.T_odom_base = filter_.pose();
-  update.T_previous_base = {.mean = filter_.motion_to(filter_.state().T_odom_base),
+  update.T_previous_base = {.mean = T_odom_previous_.inverse() * filter_.state().T_odom_base,
                             .covariance = filter_.step_covariance()};
   update.twist = filter_.state().twist;
   update.points_base = deskewer_.points_base();
@@ -132,8 +233,8 @@ void LidarOdometry::resume(const UncertainPose& T_odom_base, const Vector6& twis
   tracking_.begin(stamp);
   const MotionState at_rest{.T_odom_base = T_odom_base.mean, .twist = Vector6::Zero()};
   filter_.reset(at_rest, relocaliser_.expect(T_odom_base, twist));
-  begin_map();
-  start_search_.never_guess_speed();  // the search after a gap finds more than a speed
+  T_odom_previous_ = T_odom_base.mean;
+  reinitialise();
   for (const PlacedScan& scan : scans) {
     if (&scan == &scans.back()) relocaliser_.compare_with(known_share(scan));
     map_.restore(scan, filter_.odom_covariance());

@@ -2,7 +2,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <optional>
 #include <span>
+#include <vector>
 
 #include "hal/budget.hpp"
 #include "hal/point_cloud.hpp"
@@ -11,13 +14,16 @@
 #include "hal/workers.hpp"
 #include "onboard/odometry/config.hpp"
 #include "onboard/odometry/estimation/motion_filter.hpp"
+#include "onboard/odometry/estimation/twist_check.hpp"
 #include "onboard/odometry/keypoint_selector.hpp"
 #include "onboard/odometry/local_map.hpp"
+#include "onboard/odometry/motion_prior.hpp"
 #include "onboard/odometry/recent_scans.hpp"
 #include "onboard/odometry/registration.hpp"
 #include "onboard/odometry/relocaliser.hpp"
 #include "onboard/odometry/scan_deskewer.hpp"
 #include "onboard/odometry/scan_preparation.hpp"
+#include "onboard/odometry/second_look.hpp"
 #include "onboard/odometry/start_search.hpp"
 #include "onboard/odometry/tracking_state.hpp"
 
@@ -48,6 +54,9 @@ struct OdometryUpdate {
   bool lost = false;           ///< the scan did not fit: the pose is predicted, the map was left alone
   bool reinitialised = false;  ///< lost for too long: this scan began a new map at the predicted pose
 };
+
+/// Steps that one scan can take at most: a limit for its budget that cuts nothing short.
+[[nodiscard]] int most_steps(const OdometryConfig& config);
 
 /// LiDAR odometry: predict, deskew and register every scan against planes of the recent past.
 ///
@@ -85,9 +94,15 @@ class LidarOdometry {
   [[nodiscard]] Result<void> check(const Scan& scan) const;
   OdometryUpdate begin(const PreparedScan& scan, const Selection& selected);
   void begin_map();
-  [[nodiscard]] MotionNoise process_noise() const;
   [[nodiscard]] MotionState start_hypothesis(const Selection& selected, double dt_s);
-  void correct(const Fit& fit);
+  [[nodiscard]] Fit align(const Selection& selected, double dt_s, Budget& budget);
+  [[nodiscard]] MotionFilter anything_since_followed(double dt_s) const;
+  [[nodiscard]] bool follow(const Fit& fit, const SE3& motion, double dt_s);
+  [[nodiscard]] bool lose(Track track, double dt_s);
+  void correct(const Fit& fit, double dt_s);
+  void reinitialise();
+  void keep_first(const PreparedScan& scan, const Selection& selected);
+  [[nodiscard]] Fit straighten_first(const Selection& selected, Fit fit, double dt_s, Budget& budget);
   void insert(const Selection& selected);
   [[nodiscard]] OdometryUpdate report(Time stamp) const;
   [[nodiscard]] OdometryUpdate report(Time stamp, const Fit& fit, Track track) const;
@@ -98,12 +113,23 @@ class LidarOdometry {
   ScanPreparation preparation_;
   KeypointSelector selector_;
   ScanDeskewer deskewer_;
-  MotionFilter filter_;
+  MotionFilter filter_;    // at the last scan: corrected by it, or predicted if it was lost
+  MotionFilter followed_;  // at the last scan that was followed
+  SE3 T_odom_previous_;    // of the scan before the last
+  MotionPrior prior_;
   LocalMap map_;
   StartSearch start_search_;
   Registration registration_;
+  SecondLook second_look_;
   TrackingState tracking_;
+  TwistCheck twist_check_;
   Relocaliser relocaliser_;
+  /// The scan that began the map, until the next one shows how the base moved.
+  struct FirstScan {
+    PreparedScan scan;
+    std::vector<std::uint32_t> for_map;
+  };
+  std::optional<FirstScan> first_;
 };
 
 }  // namespace cairn::odometry

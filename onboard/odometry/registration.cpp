@@ -9,6 +9,9 @@ namespace {
 
 // The gate begins at 3 standard deviations of the predicted position, and halves with every step.
 constexpr double kGateSigmas = 3.0, kGateShrink = 0.5;
+// m. An error in rotation moves a point at this range by as much as the first gate allows for it.
+// Found with walks through simulated buildings, whose tilt changes by 6° in a scan.
+constexpr double kLever_m = 5;
 // Converged: the step is below a fiftieth of noise_floor_m (0.01 m); its rotation moves a point at
 // 10 m as far.
 constexpr double kConverged_m = 2e-4, kConverged_rad = 2e-5;
@@ -17,6 +20,10 @@ constexpr double kConverged_m = 2e-4, kConverged_rad = 2e-5;
 
 double Fit::inlier_ratio() const {
   return equations.matched > 0 ? static_cast<double>(equations.inliers) / equations.matched : 0.0;
+}
+
+double Fit::telling_share() const {
+  return equations.telling > 0 ? static_cast<double>(equations.telling_inliers) / equations.telling : 0.0;
 }
 
 double Fit::rms_m() const {
@@ -37,19 +44,28 @@ Registration::Registration(const OdometryConfig& config, const SE3& T_base_lidar
 
 Fit Registration::align(const Selection& scan, const PatchMap& map, const MotionFilter& filter,
                         const MotionState& start, Budget& budget) {
+  const Matrix12& P = filter.uncertainty().local;
+  const double squared_m2 = P.topLeftCorner<3, 3>().trace() + kLever_m * kLever_m * P.block<3, 3>(3, 3).trace();
+  return align(scan, map, filter, start, budget, {kGateSigmas * std::sqrt(squared_m2)});
+}
+
+Fit Registration::align(const Selection& scan, const PatchMap& map, const MotionFilter& filter,
+                        const MotionState& start, Budget& budget, const Effort& effort) {
   Fit fit;
   fit.state = start;
-  const double deviation_m = std::sqrt(filter.uncertainty().local.topLeftCorner<3, 3>().trace());
-  double gate_m = std::clamp(kGateSigmas * deviation_m, narrowest_gate_m_, widest_gate_m_);
-  while (!fit.converged && fit.iterations < max_iterations_ && budget.one_more()) {
-    iterate(fit, linearise(scan, map, fit.state, gate_m), filter, gate_m <= narrowest_gate_m_);
+  const int max_steps = std::min(max_iterations_, effort.max_steps);
+  double gate_m = std::clamp(effort.gate_m, narrowest_gate_m_, widest_gate_m_);
+  while (!fit.converged && fit.iterations < max_steps && budget.one_more()) {
+    iterate(fit, linearise(scan, map, fit.state, gate_m), filter, gate_m <= narrowest_gate_m_,
+            effort.share * min_facing_points_);
     gate_m = std::max(narrowest_gate_m_, kGateShrink * gate_m);
   }
   return fit;
 }
 
-void Registration::iterate(Fit& fit, const NormalEquations& all, const MotionFilter& filter, bool narrowest) const {
-  fit.degeneracy = find_degeneracy(all, linearise_.rows(), min_facing_points_);
+void Registration::iterate(Fit& fit, const NormalEquations& all, const MotionFilter& filter, bool narrowest,
+                           double min_facing_points) const {
+  fit.degeneracy = find_degeneracy(all, linearise_.rows(), min_facing_points);
   fit.equations = without_degenerate(all, fit.degeneracy);
   const Vector12 step = filter.step(fit.state, {fit.equations, fit.degeneracy, correlation_factor_});
   fit.state = fit.state + step;
@@ -57,8 +73,12 @@ void Registration::iterate(Fit& fit, const NormalEquations& all, const MotionFil
   fit.converged = narrowest && step.head<3>().norm() < kConverged_m && step.segment<3>(3).norm() < kConverged_rad;
 }
 
-double Registration::inliers(const Selection& scan, const PatchMap& map, const MotionState& at, double gate_m) {
+int Registration::inliers(const Selection& scan, const PatchMap& map, const MotionState& at, double gate_m) {
   return linearise(scan, map, at, gate_m).inliers;
+}
+
+int Registration::telling_inliers(const Selection& scan, const PatchMap& map, const MotionState& at, double gate_m) {
+  return linearise(scan, map, at, gate_m).telling_inliers;
 }
 
 NormalEquations Registration::linearise(const Selection& scan, const PatchMap& map, const MotionState& at,

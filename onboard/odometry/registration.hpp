@@ -25,6 +25,8 @@ struct Fit {
 
   /// Of the keypoints near patches, the share within 3 σ of one; 0 where there are none.
   [[nodiscard]] double inlier_ratio() const;
+  /// The same without points on floors and ceilings, which fit wherever the robot is.
+  [[nodiscard]] double telling_share() const;
   /// Root mean square distance to the patches in metres, robustly weighted.
   [[nodiscard]] double rms_m() const;
   /// Squared distance to the patches over its predicted variance, robustly weighted; 1 where
@@ -45,14 +47,26 @@ class Registration {
   /// made.
   [[nodiscard]] Fit align(const Selection& scan, const PatchMap& map, const MotionFilter& filter,
                           const MotionState& start, Budget& budget);
+  /// The first gate and the number of steps of an alignment whose start is known better or worse
+  /// than the prediction.
+  struct Effort {
+    double gate_m;
+    int max_steps = 1000;  ///< never more than the config's
+    double share = 1;      ///< of all keypoints: a direction is degenerate if so much fewer face it
+  };
+  [[nodiscard]] Fit align(const Selection& scan, const PatchMap& map, const MotionFilter& filter,
+                          const MotionState& start, Budget& budget, const Effort& effort);
   /// How many keypoints would lie within 3 σ and `gate_m` of their patches, if the robot moved like
   /// this.
-  [[nodiscard]] double inliers(const Selection& scan, const PatchMap& map, const MotionState& at, double gate_m);
+  [[nodiscard]] int inliers(const Selection& scan, const PatchMap& map, const MotionState& at, double gate_m);
+  /// The same for keypoints that are not on floors or ceilings.
+  [[nodiscard]] int telling_inliers(const Selection& scan, const PatchMap& map, const MotionState& at, double gate_m);
   /// Which epochs of the map the last call has used, one entry per keypoint.
   [[nodiscard]] std::span<const KeypointUse> uses() const { return linearise_.uses(); }
 
  private:
-  void iterate(Fit& fit, const NormalEquations& all, const MotionFilter& filter, bool narrowest) const;
+  void iterate(Fit& fit, const NormalEquations& all, const MotionFilter& filter, bool narrowest,
+               double min_facing_points) const;
   [[nodiscard]] NormalEquations linearise(const Selection& scan, const PatchMap& map, const MotionState& at,
                                           double gate_m);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/odometry/start_search.hpp"
 
-#include "onboard/odometry/gap_search.hpp"
+#include "onboard/odometry/estimation/gap_search.hpp"
 
 namespace cairn::odometry {
 namespace {
@@ -21,6 +21,10 @@ constexpr double kBetterThanRest = 1.1;
 // Indices of the error state (δ, ν).
 constexpr int kDeltaX = 0, kDeltaYaw = 5, kNuX = 6;
 
+bool unknown(const MotionFilter& filter, int index, double sigma) {
+  return filter.uncertainty().local(index, index) > sigma * sigma;
+}
+
 MotionState faster(const MotionState& predicted, double speed_m_s, double dt_s) {
   Vector12 change = Vector12::Zero();
   change[kDeltaX] = dt_s * speed_m_s;
@@ -36,14 +40,14 @@ StartSearch::StartSearch(const OdometryConfig& config)
 void StartSearch::begin_map() { speed_guesses_left_ = kSpeedGuesses; }
 
 MotionState StartSearch::find(const MotionFilter& filter, double dt_s, const Score& score) {
-  const Matrix12& covariance = filter.uncertainty().local;
-  const auto unknown = [&](int index, double sigma) { return covariance(index, index) > sigma * sigma; };
-  if (speed_guesses_left_ > 0 && unknown(kNuX, config_.unknown_speed_m_s)) {
-    --speed_guesses_left_;
-    return guess_speed(filter.state(), dt_s, score);
-  }
-  if (!unknown(kDeltaYaw, config_.unknown_heading_rad)) return filter.state();
-  return search_after_gap(filter.state(), covariance, dt_s,
+  if (speed_guesses_left_ == 0 || !unknown(filter, kNuX, config_.unknown_speed_m_s)) return filter.state();
+  --speed_guesses_left_;
+  return guess_speed(filter.state(), dt_s, score);
+}
+
+MotionState StartSearch::find_restarted(const MotionFilter& filter, double dt_s, const Score& score) const {
+  if (!unknown(filter, kDeltaYaw, config_.unknown_heading_rad)) return filter.state();
+  return search_after_gap(filter.state(), filter.uncertainty().local, dt_s,
                           [&](const MotionState& hypothesis) { return score(hypothesis, config_.gap_gate_m); });
 }
 

@@ -11,7 +11,7 @@ namespace cairn::odometry {
 /// Finds the start hypothesis of a registration. As a rule that is the prediction. Where the
 /// prediction says little, hypotheses around it are compared by how many keypoints fit:
 ///   - forward speeds, for the first scans of a map whose speed is unknown;
-///   - headings and positions, after a gap (see search_after_gap()).
+///   - headings and positions, for a robot that was restarted (see search_after_gap()).
 class StartSearch {
  public:
   /// How many keypoints fit a hypothesis, within a gate in metres. Larger is better.
@@ -21,11 +21,11 @@ class StartSearch {
 
   /// A new map begins: its next scans may guess the speed.
   void begin_map();
-  /// No scan guesses the speed until the next begin_map().
-  void never_guess_speed() { speed_guesses_left_ = 0; }
 
   /// `filter` holds the prediction over the last `dt_s` seconds (> 0).
   [[nodiscard]] MotionState find(const MotionFilter& filter, double dt_s, const Score& score);
+  /// The same for the first scan after a restart.
+  [[nodiscard]] MotionState find_restarted(const MotionFilter& filter, double dt_s, const Score& score) const;
 
  private:
   [[nodiscard]] MotionState guess_speed(const MotionState& predicted, double dt_s, const Score& score) const;

@@ -38,7 +38,7 @@ TrackingState::TrackingState(const OdometryConfig& config)
       reinitialise_after_(config.reinitialise_after) {}
 
 void TrackingState::begin(Time stamp) {
-  last_stamp_ = stamp;
+  last_stamp_ = followed_stamp_ = stamp;
   lost_in_a_row_ = 0;
 }
 
@@ -52,14 +52,11 @@ void TrackingState::advance(Time stamp, double duration_s) {
 }
 
 Track TrackingState::judge(const Fit& fit, const SE3& motion, double dt_s, const PatchMap& map) {
-  if (plausible(fit, motion, dt_s)) {
-    lost_in_a_row_ = 0;
-    return Track::kFollowed;
-  }
-  ++lost_in_a_row_;
-  if (lost_in_a_row_ < reinitialise_after_ && map.patches() > 0) return Track::kLost;
+  const bool followed = plausible(fit, motion, dt_s);
+  if (!followed && ++lost_in_a_row_ < reinitialise_after_ && map.patches() > 0) return Track::kLost;
   lost_in_a_row_ = 0;
-  return Track::kReinitialised;
+  followed_stamp_ = last_stamp_.value_or(followed_stamp_);
+  return followed ? Track::kFollowed : Track::kReinitialised;
 }
 
 bool TrackingState::plausible(const Fit& fit, const SE3& motion, double dt_s) const {

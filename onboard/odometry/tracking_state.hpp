@@ -33,6 +33,11 @@ class TrackingState {
   /// After begin(). Not later than the last scan's stamp: ≤ 0.
   [[nodiscard]] double seconds_since_last(Time stamp) const { return to_seconds(stamp - *last_stamp_); }
 
+  /// The same since the last scan that was followed or began a map.
+  [[nodiscard]] double seconds_since_followed(Time stamp) const { return to_seconds(stamp - followed_stamp_); }
+  /// The last scan was lost.
+  [[nodiscard]] bool lost() const { return lost_in_a_row_ > 0; }
+
   /// The scan follows a gap and shows less than 0.6 of a revolution: too little to find the way
   /// back with.
   [[nodiscard]] bool is_fragment_after_gap(double dt_s, double duration_s) const;
@@ -51,6 +56,7 @@ class TrackingState {
   int reinitialise_after_;
 
   std::optional<Time> last_stamp_;
+  Time followed_stamp_{};
   double revolution_s_ = 0;  // the longest of the last scans; 0 while scans have no firing times
   int lost_in_a_row_ = 0;
 };

@@ -80,7 +80,7 @@ void run_scene(const support::Scene& scene, double seconds, unsigned seed) {
     const double start = i * support::Vlp16::kScanSeconds;
     const Scan scan = lidar.scan(scene.world, path, start);
     const SE3 truth = T_start.inverse() * path(start + support::Vlp16::kScanSeconds);
-    Budget budget = Budget::steps(100);
+    Budget budget = Budget::steps(most_steps(g_config));
     const Duration t0 = thread_cpu_time();
     const auto u = odometry.update(scan, budget);
     f.cpu_ms.push_back(to_milliseconds(thread_cpu_time() - t0));
@@ -173,7 +173,7 @@ void run_kitti(const std::filesystem::path& recording, int scans, double angle_d
     char name[64];
     std::snprintf(name, sizeof name, "/velodyne/%06d.bin", i);
     const Scan scan = kitti_scan(folder + name, i, angle_deg);
-    Budget budget = Budget::steps(100);
+    Budget budget = Budget::steps(most_steps(g_config));
     const Duration t0 = thread_cpu_time();
     const auto u = odometry.update(scan, budget);
     f.cpu_ms.push_back(to_milliseconds(thread_cpu_time() - t0));

@@ -41,7 +41,7 @@ class Timed {
   explicit Timed(const SE3& T_base_lidar) : odometry_({}, T_base_lidar, workers_) {}
 
   const OdometryUpdate& update(const Scan& scan) {
-    Budget budget = Budget::steps(12);
+    Budget budget = Budget::steps(most_steps({}));
     const SE3 before = last_.T_odom_base.mean;
     ms_.push_back(cpu_ms([&] { last_ = odometry_.update(scan, budget).value(); }));
     way_m_ += (before.inverse() * last_.T_odom_base.mean).translation().norm();

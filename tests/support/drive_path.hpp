@@ -15,6 +15,7 @@ struct Ride {
   double max_speed = 1.5;                        ///< m/s
   double max_turn = 0.8;                         ///< rad/s
   double rest_s = 1.0;                           ///< standing still at first
+  double lag_s = 0.4;                            ///< until about two thirds of a new speed are reached
   double wobble_rad = 0.0;                       ///< amplitude of roll and pitch, for bodies on springs and drones
   std::function<double(double, double)> ground = [](double, double) { return 0.0; };  ///< height over x, y
 };
@@ -28,7 +29,7 @@ class RidePath {
     for (std::size_t i = 0; i < n; ++i) {
       phi_.push_back(phi);
       // A first-order lag keeps the acceleration bounded.
-      rate += kStep / 0.4 * (target_rate(phi, kStep * static_cast<double>(i)) - rate);
+      rate += kStep / ride_.lag_s * (target_rate(phi, kStep * static_cast<double>(i)) - rate);
       phi += kStep * rate;
     }
   }

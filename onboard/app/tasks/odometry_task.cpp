@@ -18,7 +18,7 @@ constexpr Duration kBatchPeriod = std::chrono::milliseconds(500);
 
 OdometryTask::OdometryTask(const RobotProfile& profile, Robot& robot, Monitor& monitor, Progress progress)
     : deadline_(from_seconds(profile.odometry_deadline_s)),
-      max_iterations_(profile.odometry.max_iterations),
+      max_steps_(odometry::most_steps(profile.odometry)),
       robot_(robot),
       monitor_(monitor),
       latency_(monitor.stage("packet_to_pose")),
@@ -36,7 +36,7 @@ void OdometryTask::tick(Tick& tick) {
 void OdometryTask::locate(const ArrivedScan& arrived, Tick& tick) {
   ArrivedMotion* out = motions.back(tick);
   const Time deadline = robot_.resuming() ? Time::max() : arrived.scan.valid.end + deadline_;
-  Budget budget = tick.budget(steps_slot, deadline, max_iterations_);
+  Budget budget = tick.budget(steps_slot, deadline, max_steps_);
   const auto located = robot_.locate(arrived.scan, budget, out != nullptr ? out->scan : dropped_);
   tick.settle(steps_slot, budget);
   if (located && published_ != nullptr) published_->publish(*located);

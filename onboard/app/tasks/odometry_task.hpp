@@ -40,7 +40,7 @@ class OdometryTask final : public scheduler::Task {
   void publish_status(scheduler::Tick& tick);
 
   Duration deadline_;
-  int max_iterations_;
+  int max_steps_;
   Robot& robot_;
   Monitor& monitor_;
   StageStats& latency_;

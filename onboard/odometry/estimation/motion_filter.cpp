@@ -2,6 +2,7 @@
 #include "onboard/odometry/estimation/motion_filter.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
 
 namespace cairn::odometry {
 namespace {
@@ -20,6 +21,10 @@ Matrix12 information(const NormalEquations& n, double overconfidence) {
 // as 0.2 · 0.4 = 0.08 of it per scan's time: less than the acceleration's noise.
 constexpr double kGapShare = 0.2;
 constexpr double kCorrectedShare = 0.4;
+
+// s. Roll and pitch of a body on springs, on legs or in the air swing within half a second: a rate
+// says nothing of what comes after a quarter of it.
+constexpr double kTiltMemory_s = 0.15;
 
 Matrix12 inverse_of(const Matrix12& m) { return m.ldlt().solve(Matrix12::Identity()); }
 
@@ -54,19 +59,29 @@ void MotionFilter::forget_gap() {
   correction_.setZero();
 }
 
+void MotionFilter::doubt_twist(const Vector6& share) {
+  const Vector6 taken = (Vector6::Ones() - share).cwiseProduct(state_.twist);
+  state_.twist -= taken;
+  const Matrix6 doubt = taken.cwiseAbs2().asDiagonal();
+  uncertainty_.local.bottomRightCorner<6, 6>() += doubt;
+  uncertainty_.total.bottomRightCorner<6, 6>() += doubt;
+  forget_gap();
+}
+
 void MotionFilter::predict(double dt, const MotionNoise& noise) {
   before_ = state_;
   dt_ = dt;
   state_.twist += correction_;
   correction_.setZero();
-  const Vector6 xi = dt * state_.twist;
+  // A body that tilts does not go on tilting.
+  Vector6 moving_s = Vector6::Constant(dt);
+  moving_s.segment<2>(3).setConstant(std::min(dt, kTiltMemory_s));
+  const Vector6 xi = moving_s.cwiseProduct(state_.twist);
   const SE3 motion = SE3::exp(xi);
   transition_.setIdentity();
   transition_.topLeftCorner<6, 6>() = motion.inverse().adjoint();
-  transition_.topRightCorner<6, 6>() = dt * right_jacobian(xi);
-  Vector6 acceleration;
-  acceleration << Eigen::Vector3d::Constant(noise.linear), Eigen::Vector3d::Constant(noise.angular);
-  const Matrix6 q = acceleration.cwiseAbs2().asDiagonal();
+  transition_.topRightCorner<6, 6>() = right_jacobian(xi) * moving_s.asDiagonal();
+  const Matrix6 q = noise.acceleration.cwiseAbs2().asDiagonal();
   // ⅓ instead of ¼: an acceleration that varies within the step; it also keeps the matrix
   // invertible.
   process_ << q * (dt * dt * dt * dt / 3), q * (dt * dt * dt / 2), q * (dt * dt * dt / 2), q * (dt * dt);

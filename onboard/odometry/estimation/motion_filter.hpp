@@ -19,11 +19,14 @@ struct MotionState {
   Vector6 twist = Vector6::Zero();  ///< of base_link in base_link: m/s, rad/s
 };
 
-/// White acceleration, constant within one step: standard deviations. LidarOdometry takes them from
-/// its config.
+/// White acceleration, constant within one step: standard deviations along the body's axes (m/s²,
+/// rad/s²).
 struct MotionNoise {
-  double linear = 3.0;   ///< m/s²
-  double angular = 3.0;  ///< rad/s²
+  Vector6 acceleration;
+
+  [[nodiscard]] static MotionNoise of(double linear, double angular) {
+    return {(Vector6() << Eigen::Vector3d::Constant(linear), Eigen::Vector3d::Constant(angular)).finished()};
+  }
 };
 
 /// What one scan says, linearised at one state.
@@ -55,8 +58,15 @@ class MotionFilter {
   void reset(const MotionState& state, const Uncertainty& uncertainty);
   /// Forgets how far motion and twist have differed: the next scans begin a new map.
   void forget_gap();
+  /// Keeps this share of each component of the twist, 0…1: nothing has confirmed it. Its uncertainty grows by what
+  /// was taken.
+  void doubt_twist(const Vector6& share);
   /// Moves the state by `dt` seconds (> 0).
   void predict(double dt, const MotionNoise& noise);
+
+  /// Takes `state` for the prediction, with the uncertainty of the last predict(): what a search
+  /// has found.
+  void believe(const MotionState& state) { state_ = state; }
 
   /// One Gauss–Newton step from `x` towards the maximum of the posterior; `n` was linearised at x.
   [[nodiscard]] Vector12 step(const MotionState& x, const Measurement& m) const;

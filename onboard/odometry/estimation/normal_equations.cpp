@@ -2,6 +2,7 @@
 #include "onboard/odometry/estimation/normal_equations.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 namespace cairn::odometry {
 namespace {
@@ -23,6 +24,11 @@ float mahalanobis(const PatchMatch& m) {
 }
 
 bool is_inlier(const PatchMatch& m) { return m.kind == PatchMatch::Kind::kOn && mahalanobis(m) < kInlier; }
+
+/// On a floor or a ceiling.
+bool is_level(const PatchMatch& m) {
+  return m.kind == PatchMatch::Kind::kOn && m.rows == 1 && std::abs(m.row[0].direction.z()) > kLevelCosine;
+}
 
 /// Geman–McClure: full weight on the patch, a quarter at 3 σ (or at a third of the gate, while that
 /// is wider).
@@ -53,9 +59,13 @@ class Accumulator {
     sum_.chi2 += w * r * r;
     sum_.squared_distance += robust * r * r;
   }
-  void count(bool matched, bool inlier) {
-    sum_.matched += matched ? 1 : 0;
-    sum_.inliers += inlier ? 1 : 0;
+  void count(const PatchMatch& m) {
+    if (m.kind == PatchMatch::Kind::kNone) return;
+    const int inlier = is_inlier(m) ? 1 : 0, telling = is_level(m) ? 0 : 1;
+    sum_.matched += 1;
+    sum_.inliers += inlier;
+    sum_.telling += telling;
+    sum_.telling_inliers += telling * inlier;
   }
 
   [[nodiscard]] const NormalEquations& sum() const { return sum_; }
@@ -79,6 +89,8 @@ void NormalEquations::operator+=(const NormalEquations& o) {
   squared_distance += o.squared_distance;
   matched += o.matched;
   inliers += o.inliers;
+  telling += o.telling;
+  telling_inliers += o.telling_inliers;
 }
 
 Linearise::Linearise(std::size_t max_keypoints) {
@@ -105,7 +117,7 @@ NormalEquations Linearise::operator()(std::span<const Keypoint> keypoints, const
       const Eigen::Vector3f q = deskew(keypoints[i].p_lidar, keypoints[i].age_s);
       const Eigen::Vector3d ray = R * q.cast<double>();
       const PatchMatch match = map.match(ray + t, (lidar - ray).cast<float>(), gate);
-      sum.count(match.kind != PatchMatch::Kind::kNone, is_inlier(match));
+      sum.count(match);
       if (match.kind != PatchMatch::Kind::kOn) continue;
       const float robust = robust_weight(match, gate);
       uses_[i] = {robust / match.row[0].variance, match.epoch};

@@ -37,9 +37,15 @@ struct NormalEquations {
   double squared_distance = 0;     ///< Σ robust weight · r²
   int matched = 0;                 ///< points whose neighbourhood holds a plane
   int inliers = 0;                 ///< of these, within 3 σ of it
+  int telling = 0;                 ///< of `matched`, those not on a floor or ceiling, which fits anywhere
+  int telling_inliers = 0;         ///< of these, within 3 σ of their patch
 
   void operator+=(const NormalEquations& o);
 };
+
+/// Cosine of 32°, between a patch's normal and the axis z of odom. A flatter patch is a floor or a
+/// ceiling: no robot climbs and no hand tilts a sensor that far.
+inline constexpr float kLevelCosine = 0.85F;
 
 /// State at which to linearise, and how wide to look.
 struct Linearisation {

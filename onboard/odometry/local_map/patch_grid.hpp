@@ -65,6 +65,12 @@ class PatchGrid {
     return edge_ * (Eigen::Vector3d(at.x, at.y, at.z).array() + half_);
   }
 
+  /// Calls `visit(index, moments of one side)` for all blocks, in the order in which they were made.
+  template <class Visit>
+  void for_each_block(Visit&& visit) const {
+    for (std::size_t i = 0; i < index_.size(); ++i) visit(index_[i], moments_[i]);
+  }
+
   [[nodiscard]] double edge() const { return edge_; }
   [[nodiscard]] std::size_t size() const { return index_.size(); }
   [[nodiscard]] std::size_t capacity() const { return limits_.blocks; }

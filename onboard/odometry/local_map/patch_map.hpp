@@ -49,6 +49,8 @@ class PatchMap {
   void keep_within(const Eigen::Vector3d& centre, double radius);
   void clear();
 
+  /// The grid with the smallest blocks that is not staggered.
+  [[nodiscard]] const PatchGrid& finest() const { return grids_.front(); }
   [[nodiscard]] std::size_t patches() const;
   [[nodiscard]] std::size_t blocks() const;
 

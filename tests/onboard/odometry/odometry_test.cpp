@@ -45,11 +45,11 @@ class Ride {
     for (std::size_t i = 0; i < whole.cloud.size(); ++i)
       if (whole.cloud.offset_ns[i] >= skipped)
         part.cloud.push_back(whole.cloud.xyz[i], 0, whole.cloud.offset_ns[i] - skipped, 0, ReturnType::kStrongest);
-    Budget budget = Budget::steps(12);
+    Budget budget = Budget::steps(most_steps({}));
     return odometry_.update(part, budget);
   }
   OdometryUpdate feed(const Scan& scan) {
-    Budget budget = Budget::steps(12);
+    Budget budget = Budget::steps(most_steps({}));
     const auto update = odometry_.update(scan, budget);
     EXPECT_TRUE(update) << to_string(update.error());
     if (count_ == 1) T_world_odom_ = path_(to_seconds(scan.valid.end));
@@ -92,12 +92,80 @@ TEST(Odometry, ATurnThatEndsWhileNoScanComesIsFollowed) {
     Ride ride(support::lobby().world, turning);
     OdometryUpdate last;
     for (int i = 0; i < 15; ++i) last = ride.step();
-    ASSERT_LT(ride.error(last).norm(), 0.05) << rate;
+    ASSERT_LT(ride.error(last).norm(), 0.08) << rate << ": the first scan was taken while it began to turn";
     ride.lose(3);  // until 1.8 s: it has been standing for 0.2 s
     EXPECT_FALSE(ride.step_with_the_end_of_a_scan(0.3)) << "too little to find the way back with";
     for (int i = 0; i < 5; ++i) last = ride.step();
     EXPECT_LT(ride.error(last).tail<3>().norm(), 0.01) << rate;
-    EXPECT_LT(ride.error(last).head<3>().norm(), 0.05) << rate;
+    EXPECT_LT(ride.error(last).head<3>().norm(), 0.08) << rate;
+  }
+}
+
+/// Drives on at 1.5 m/s; from 1 s on turns at 2.1 rad/s (120°/s) for 1.5 s, with an onset of 0.1 s.
+SE3 sharp_turn(double t) {
+  constexpr double kOnset = 0.1, kRate = 2.1, kFrom = 1.0, kUntil = 2.5;
+  const auto turned = [](double since) {
+    return since <= 0 ? 0.0 : since < kOnset ? since * since / (2 * kOnset) : since - kOnset / 2;
+  };
+  const double yaw = kRate * (turned(t - kFrom) - turned(t - kUntil));
+  return SE3::from_xyz_rpy((Vector6() << 8 + 0.5 * t, 4 + 0.2 * t, 0, 0, 0, yaw).finished());
+}
+
+TEST(Odometry, ATurnOf120DegreesPerSecondThatBeginsAndEndsAtOnceIsFollowed) {
+  Ride ride(support::lobby().world, sharp_turn);
+  for (int i = 0; i < 35; ++i) {
+    const OdometryUpdate update = ride.step();
+    EXPECT_FALSE(update.lost) << i;
+    const double most = i == 10 || i == 25 ? 0.06 : 0.02;  // a scan in which a turn begins or ends is bent
+    EXPECT_LT(ride.error(update).tail<3>().norm(), most) << i;
+  }
+}
+
+TEST(Odometry, BeginsInAFastTurn) {
+  const auto turning = [](double t) {
+    return SE3::from_xyz_rpy((Vector6() << 20 + 2.0 * std::sin(t), 4 + 0.5 * t, 0, 0, 0, 2.0 * t).finished());
+  };
+  Ride ride(support::lobby().world, turning);
+  OdometryUpdate last;
+  for (int i = 0; i < 20; ++i) {
+    last = ride.step();
+    EXPECT_FALSE(last.lost) << i;
+  }
+  EXPECT_LT(ride.error(last).norm(), 0.05);
+  EXPECT_NEAR(last.twist[5], 2.0, 0.05) << "scans that are skewed alike fit with a twist of zero, too";
+}
+
+TEST(Odometry, KeyFramesTwiceASecondAreFollowed) {
+  support::Scene scene = support::office();
+  scene.ride.max_turn = 1.2;
+  const support::RidePath path(scene.ride, 31);
+  Ride ride(scene.world, path);
+  for (int i = 0; i < 60; ++i) {
+    const OdometryUpdate update = ride.step();
+    ride.lose(4);
+    EXPECT_FALSE(update.lost) << i;
+    EXPECT_LT(ride.error(update).head<3>().norm(), 0.15) << i;
+  }
+}
+
+TEST(Odometry, ALostRobotIsFoundWithinThreeScans) {
+  for (const double turned : {-0.5, 0.5}) {  // 29°, while nothing was seen
+    const auto jerked = [turned](double t) {
+      const double share = std::clamp((t - 2.0) / 0.3, 0.0, 1.0);
+      return SE3::from_xyz_rpy((Vector6() << 8, 4 + 0.5 * share, 0, 0, 0, turned * share).finished());
+    };
+    Ride ride(support::lobby().world, jerked);
+    for (int i = 0; i < 20; ++i) ride.step();
+    Scan blind;
+    for (int i = 0; i < 4; ++i) {
+      ride.lose(1);
+      blind.valid = {Time{from_seconds(2.0 + 0.1 * i)}, Time{from_seconds(2.1 + 0.1 * i)}};
+      EXPECT_TRUE(ride.feed(blind).lost);
+    }
+    OdometryUpdate last;
+    for (int i = 0; i < 3; ++i) last = ride.step();
+    EXPECT_FALSE(last.lost);
+    EXPECT_LT(ride.error(last).norm(), 0.05) << turned;
   }
 }
 

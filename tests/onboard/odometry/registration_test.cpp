@@ -54,6 +54,7 @@ class RegistrationInARoom : public ::testing::Test {
 };
 
 TEST_F(RegistrationInARoom, FindsTheBaseAndHowItMoved) {
+  predict(0.05);
   const Fit fit = align(100);
   EXPECT_TRUE(fit.converged);
   EXPECT_LT(error(fit).head<3>().norm(), 0.005) << error(fit).transpose();

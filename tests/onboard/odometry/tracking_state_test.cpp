@@ -49,6 +49,19 @@ TEST_F(Tracking, BeginsWithTheFirstScan) {
   EXPECT_NEAR(state_.seconds_since_last(time_at(3.0)), -0.1, 1e-12);
 }
 
+TEST_F(Tracking, KnowsHowLongAgoAScanWasFollowed) {
+  state_.begin(time_at(0));
+  state_.advance(time_at(0.1), 0.1);
+  EXPECT_EQ(judge(fit_of(100, 10)), Track::kLost);
+  EXPECT_TRUE(state_.lost());
+  EXPECT_NEAR(state_.seconds_since_followed(time_at(0.2)), 0.2, 1e-12);
+  EXPECT_NEAR(state_.seconds_since_last(time_at(0.2)), 0.1, 1e-12);
+  state_.advance(time_at(0.2), 0.1);
+  EXPECT_EQ(judge(fit_of(100, 90)), Track::kFollowed);
+  EXPECT_FALSE(state_.lost());
+  EXPECT_NEAR(state_.seconds_since_followed(time_at(0.3)), 0.1, 1e-12);
+}
+
 TEST_F(Tracking, AFragmentAfterAGapIsToldFromAWholeScan) {
   state_.begin(time_at(0));
   EXPECT_FALSE(state_.is_fragment_after_gap(10, 0.001)) << "how long a whole one takes is not known yet";

@@ -12,8 +12,8 @@ namespace cairn::odometry {
 namespace {
 
 constexpr double kDt = 0.1;
-constexpr MotionNoise kNoise{3.0, 2.0};
-constexpr MotionNoise kSilence{0.0, 0.0};
+const MotionNoise kNoise = MotionNoise::of(3.0, 2.0);
+const MotionNoise kSilence = MotionNoise::of(0.0, 0.0);
 
 class Random {
  public:
@@ -229,7 +229,7 @@ MotionState driven(MotionState x, Random& random) {
   constexpr int kParts = 10;
   for (int i = 0; i < kParts; ++i) {
     Vector6 acceleration;
-    acceleration << kNoise.linear * random.vector<3>(), kNoise.angular * random.vector<3>();
+    acceleration = kNoise.acceleration.cwiseProduct(random.vector<6>());
     x.twist += kDt / std::sqrt(kParts) * acceleration;
     x = moved(x, kDt / kParts);
   }

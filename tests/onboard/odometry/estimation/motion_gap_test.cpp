@@ -8,7 +8,7 @@ namespace cairn::odometry {
 namespace {
 
 constexpr double kStep = 0.1;
-constexpr MotionNoise kFree{3.0, 2.0};
+const MotionNoise kFree = MotionNoise::of(3.0, 2.0);
 
 /// Ends each step at `x`, whatever was measured: what a map would say that confirms every twist.
 void believe(MotionFilter& filter, const MotionState& x) {

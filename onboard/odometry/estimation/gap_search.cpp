@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/odometry/gap_search.hpp"
+#include "onboard/odometry/estimation/gap_search.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -22,14 +22,10 @@ constexpr Axis kForward{.index = 0, .step = 0.15, .reach = 4.0};
 constexpr Axis kSideways{.index = 1, .step = 0.15, .reach = 2.0};
 // Of the prediction's standard deviation along an axis.
 constexpr double kReachSigmas = 3.0;
-// A change of the pose by δ comes with one of the twist by 1.5·δ/dt: MotionFilter::predict()
-// couples them as ½·dt³ to ⅓·dt⁴.
-constexpr double kTwistPerMotion = 1.5;
-
 MotionState changed(const MotionState& from, int index, double by, double dt) {
   Vector12 change = Vector12::Zero();
   change[index] = by;
-  change[6 + index] = kTwistPerMotion * by / dt;
+  change[6 + index] = by / dt;  // the mean twist of that motion
   return from + change;
 }
 

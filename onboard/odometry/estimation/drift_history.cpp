@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/odometry/drift_history.hpp"
+#include "onboard/odometry/estimation/drift_history.hpp"
 
 #include <algorithm>
 #include <utility>

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+
+#include "onboard/odometry/config.hpp"
+#include "onboard/odometry/estimation/motion_filter.hpp"
+
+namespace cairn::odometry {
+
+/// How much acceleration to expect before a scan is seen. A steady robot is believed to stay
+/// steady, which makes its path straight. One that was seen to jerk is expected to do it again.
+class MotionPrior {
+ public:
+  explicit MotionPrior(const OdometryConfig& config);
+
+  /// Of the next step. `settled`: see LocalMap::settled().
+  [[nodiscard]] MotionNoise usual(bool settled) const;
+  /// Of whatever a robot may have done in the last `dt_s` seconds (> 0).
+  [[nodiscard]] MotionNoise anything(double dt_s) const;
+  /// The twist has changed by so much in `dt_s` seconds (> 0), as a scan showed.
+  void learn(const Vector6& change, double dt_s);
+  /// Forgets what was learnt.
+  void reset() { seen_.setZero(); }
+
+ private:
+  double linear_, angular_, settling_factor_;
+  AgilityConfig config_;
+  Eigen::Vector3d seen_ = Eigen::Vector3d::Zero();  // m/s² of all axes, rad/s² of tilting, of turning
+};
+
+}  // namespace cairn::odometry

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/odometry/second_look.hpp"
+
+#include <tuple>
+
+namespace cairn::odometry {
+namespace {
+
+// Per scan. The usual share rises within ten scans. It falls within fifty: a wrong fit does not
+// become usual before it is found out.
+constexpr double kRise = 0.1, kFall = 0.02;
+// m. A place of the search is off by up to a step of 0.5 m, and its tilt by 6°, which moves a point
+// at 10 m by 1 m. Twice that is the edge of the coarsest blocks. With half of both gates, walks
+// through simulated buildings were lost three times as often.
+constexpr double kTrialGate_m = 2.0, kLastGate_m = 1.0;
+
+/// About so many of them, evenly spread.
+void add_some(std::span<const Keypoint> from, std::size_t wanted, std::vector<Keypoint>& out) {
+  const std::size_t stride = from.size() / wanted + 1;
+  for (std::size_t i = 0; i < from.size(); i += stride) out.push_back(from[i]);
+}
+
+// Of the upright keypoints: if fewer fit after the trials, the places in between are tried.
+constexpr double kPoor = 0.4;
+constexpr double kFine_m = 0.125, kFineYaw_rad = 0.03;
+constexpr int kFineSteps = 5;
+
+}  // namespace
+
+SecondLook::SecondLook(const OdometryConfig& config, const SE3& T_base_lidar)
+    : config_(config.second_look),
+      narrowest_gate_m_(config.narrowest_gate_m),
+      T_base_lidar_(T_base_lidar),
+      search_(T_base_lidar) {}
+
+bool SecondLook::needed(const Fit& first, double dt_s) const {
+  return dt_s > config_.long_step_s || first.telling_share() < config_.doubtful_share * usual_share_;
+}
+
+void SecondLook::learn(const Fit& fit) {
+  const double change = fit.telling_share() - usual_share_;
+  usual_share_ += (change > 0 ? kRise : kFall) * change;
+}
+
+std::optional<Fit> SecondLook::find(const Selection& scan, const PatchMap& map, MotionFilter& wide, const Fit& first,
+                                    double dt_s, Registration& registration, Budget& budget) {
+  if (scan.keypoints.empty()) return std::nullopt;
+  choose(scan, wide.state().T_odom_base);
+  const auto places = search_.find({.for_map = {}, .keypoints = telling_, .duration_s = scan.duration_s}, map,
+                                   wide.state(), wide.uncertainty().local, dt_s);
+  const Selection few{.for_map = {}, .keypoints = few_, .duration_s = scan.duration_s};
+  const double share = static_cast<double>(few_.size()) / static_cast<double>(scan.keypoints.size());
+  MotionState start = first.state;
+  int most = registration.telling_inliers(few, map, start, narrowest_gate_m_);
+  const auto attempt = [&](const MotionState& place) {
+    wide.believe(place);  // a direction that nothing determines stays as found, not as predicted
+    const Fit trial = registration.align(few, map, wide, place, budget, {kTrialGate_m, kStepsOfATrial, share});
+    const int fits = registration.telling_inliers(few, map, trial.state, narrowest_gate_m_);
+    if (fits <= most) return;
+    most = fits;
+    start = trial.state;
+  };
+  for (const MotionState& place : places) attempt(place);
+  if (most < kPoor * static_cast<double>(telling_.size())) {
+    const Selection upright{.for_map = {}, .keypoints = telling_, .duration_s = scan.duration_s};
+    for (const MotionState& place : places) attempt(refined(place, upright, map, dt_s, registration));
+  }
+  wide.believe(start);
+  Fit again = registration.align(scan, map, wide, start, budget, {kLastGate_m});
+  if (again.iterations > 0 && again.equations.telling_inliers >= config_.better * first.equations.telling_inliers)
+    return again;
+  std::ignore = registration.telling_inliers(scan, map, first.state, narrowest_gate_m_);  // its uses are asked for next
+  return std::nullopt;
+}
+
+/// The best of the places between those of the search: trunks are slimmer than its steps.
+MotionState SecondLook::refined(const MotionState& place, const Selection& upright, const PatchMap& map, double dt_s,
+                                Registration& registration) const {
+  MotionState best = place;
+  int most = -1;
+  for (const double yaw : {0.0, -kFineYaw_rad, kFineYaw_rad}) {
+    for (int k = 0; k < kFineSteps * kFineSteps; ++k) {
+      Vector12 change = Vector12::Zero();
+      change[0] = kFine_m * (k % kFineSteps - kFineSteps / 2);
+      change[1] = kFine_m * (k / kFineSteps - kFineSteps / 2);
+      change[5] = yaw;
+      change.tail<6>() = change.head<6>() / dt_s;
+      const MotionState here = place + change;
+      const int fits = registration.telling_inliers(upright, map, here, narrowest_gate_m_);
+      if (fits <= most) continue;
+      most = fits;
+      best = here;
+    }
+  }
+  return best;
+}
+
+/// What is searched with, and what the places found are tried with: also points on floors, which
+/// hold height and tilt.
+void SecondLook::choose(const Selection& scan, const SE3& T_odom_base) {
+  const auto wanted = static_cast<std::size_t>(config_.keypoints);
+  upright_.choose(scan.keypoints, T_odom_base * T_base_lidar_, wanted, telling_);
+  few_ = telling_;
+  add_some(scan.keypoints, wanted / 2, few_);
+}
+
+}  // namespace cairn::odometry

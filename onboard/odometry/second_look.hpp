@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hal/budget.hpp"
+#include "hal/se3.hpp"
+#include "onboard/odometry/coarse_search.hpp"
+#include "onboard/odometry/config.hpp"
+#include "onboard/odometry/estimation/motion_filter.hpp"
+#include "onboard/odometry/keypoint_selector.hpp"
+#include "onboard/odometry/registration.hpp"
+
+namespace cairn::odometry {
+
+/// Doubts a fit that is worse than usual, and looks for a better one farther around. A registration
+/// that begins at a wrong prediction ends in a wrong place where some surfaces fit by chance. The
+/// share of keypoints that fit falls then, long before it is so small that the scan counts as lost.
+///
+/// Only keypoints that tell are counted, see NormalEquations::telling.
+class SecondLook {
+ public:
+  SecondLook(const OdometryConfig& config, const SE3& T_base_lidar);
+
+  /// `first` fits worse than the last scans did, or `dt_s` is so long that the prediction says
+  /// little.
+  [[nodiscard]] bool needed(const Fit& first, double dt_s) const;
+  /// A fit that is clearly better than `first`, if there is one. `wide` holds a prediction that
+  /// expects anything; it is moved to where the better fit began. Leaves the keypoint uses of the better fit in
+  /// `registration`.
+  [[nodiscard]] std::optional<Fit> find(const Selection& scan, const PatchMap& map, MotionFilter& wide,
+                                        const Fit& first, double dt_s, Registration& registration, Budget& budget);
+  /// Takes note of what a fit that is followed looks like.
+  void learn(const Fit& fit);
+  /// So few points fit that the scan would blur the map.
+  [[nodiscard]] bool blurred(const Fit& fit) const {
+    return fit.telling_share() < config_.blurred_share * usual_share_;
+  }
+  /// A new map begins.
+  void reset() { usual_share_ = 1; }
+
+  /// Of all trials together, at most.
+  static constexpr int kStepsOfATrial = 8;
+  static constexpr int kTrialSteps = 2 * static_cast<int>(CoarseSearch::kPlaces) * kStepsOfATrial;
+
+ private:
+  void choose(const Selection& scan, const SE3& T_odom_base);
+
+  [[nodiscard]] MotionState refined(const MotionState& place, const Selection& upright, const PatchMap& map,
+                                    double dt_s, Registration& registration) const;
+
+  SecondLookConfig config_;
+  double narrowest_gate_m_;
+  SE3 T_base_lidar_;
+  UprightPoints upright_;
+  CoarseSearch search_;
+  double usual_share_ = 1;
+  std::vector<Keypoint> telling_, few_;
+};
+
+}  // namespace cairn::odometry

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/odometry/second_look.hpp"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "onboard/odometry/motion_prior.hpp"
+#include "tests/onboard/odometry/room_points.hpp"
+
+namespace cairn::odometry {
+namespace {
+
+constexpr double kStep_s = 0.1;
+constexpr int kAmple = std::numeric_limits<int>::max();
+
+Fit fit_of(int telling, int inliers) {
+  Fit out;
+  out.equations.telling = telling;
+  out.equations.telling_inliers = inliers;
+  return out;
+}
+
+TEST(SecondLook, IsNeededIfFewerPointsFitThanUsual) {
+  SecondLook look({}, {});
+  for (int i = 0; i < 200; ++i) look.learn(fit_of(1000, 800));
+  EXPECT_FALSE(look.needed(fit_of(1000, 760), kStep_s));
+  EXPECT_TRUE(look.needed(fit_of(1000, 730), kStep_s));
+  EXPECT_TRUE(look.needed(fit_of(0, 0), kStep_s)) << "nothing fits";
+  EXPECT_TRUE(look.needed(fit_of(1000, 990), 0.5)) << "after half a second the prediction says little";
+}
+
+TEST(SecondLook, AWrongFitDoesNotBecomeUsualAtOnce) {
+  SecondLook look({}, {});
+  for (int i = 0; i < 10; ++i) look.learn(fit_of(1000, 500));
+  EXPECT_TRUE(look.needed(fit_of(1000, 500), kStep_s));
+  look.reset();
+  EXPECT_FALSE(look.needed(fit_of(1000, 940), kStep_s));
+}
+
+TEST(SecondLook, AScanThatFitsFarWorseWouldBlurTheMap) {
+  SecondLook look({}, {});
+  EXPECT_FALSE(look.blurred(fit_of(1000, 710)));
+  EXPECT_TRUE(look.blurred(fit_of(1000, 690)));
+}
+
+/// A room that is mapped, and a robot that stood in it until something turned it.
+class SecondLookInARoom : public ::testing::Test {
+ protected:
+  SecondLookInARoom() {
+    map_.insert(Room(1).points(30000, 0.01), Room::sensor(), 0, workers_);
+    Vector12 sigma = Vector12::Constant(0.01);
+    MotionFilter::Uncertainty uncertainty;
+    uncertainty.local = uncertainty.total = sigma.cwiseAbs2().asDiagonal();
+    narrow_.reset({}, uncertainty);
+    wide_ = narrow_;
+    narrow_.predict(kStep_s, MotionPrior({}).usual(true));
+    wide_.predict(kStep_s, MotionPrior({}).anything(kStep_s));
+  }
+  Selection scan_from(const SE3& truth) {
+    keypoints_.clear();
+    for (const Eigen::Vector3d& p : Room(3).points(2000, 0.01))
+      keypoints_.push_back({(truth.inverse() * p).cast<float>(), 0});
+    return {.for_map = {}, .keypoints = keypoints_, .duration_s = 0};
+  }
+  Fit first(const Selection& scan) {
+    Budget budget = Budget::steps(kAmple);
+    return registration_.align(scan, map_, narrow_, narrow_.state(), budget);
+  }
+  std::optional<Fit> second(const Selection& scan, const Fit& before, int steps = kAmple) {
+    Budget budget = Budget::steps(steps);
+    return look_.find(scan, map_, wide_, before, kStep_s, registration_, budget);
+  }
+
+  Workers workers_{1};
+  PatchMap map_{{.finest_block_m = 0.5, .max_blocks = 1 << 14, .max_points_per_block = 400, .criteria = {}}};
+  MotionFilter narrow_, wide_;
+  Registration registration_{{}, {}, workers_};
+  SecondLook look_{{}, {}};
+  std::vector<Keypoint> keypoints_;
+};
+
+TEST_F(SecondLookInARoom, FindsWhatTheFirstHasMissed) {
+  for (const double yaw : {-0.5, 0.35, 0.5}) {
+    const SE3 truth = SE3::from_xyz_rpy((Vector6() << 0.2, -0.15, 0.02, 0.05, -0.05, yaw).finished());
+    const Selection scan = scan_from(truth);
+    const Fit missed = first(scan);
+    ASSERT_GT(rotation_angle(missed.state.T_odom_base.inverse() * truth), 0.05)
+        << "the test needs a jerk that is too much";
+    EXPECT_TRUE(look_.needed(missed, kStep_s));
+    const auto found = second(scan, missed);
+    ASSERT_TRUE(found) << yaw;
+    EXPECT_LT((found->state.T_odom_base.inverse() * truth).log().norm(), 0.01) << yaw;
+    EXPECT_EQ(registration_.uses().size(), scan.keypoints.size());
+  }
+}
+
+TEST_F(SecondLookInARoom, LeavesAGoodFitAlone) {
+  const Selection scan = scan_from(SE3::exp(0.01 * Vector6::Ones()));
+  const Fit good = first(scan);
+  EXPECT_FALSE(look_.needed(good, kStep_s));
+  EXPECT_FALSE(second(scan, good));
+}
+
+TEST_F(SecondLookInARoom, WithoutTimeOrPointsNothingIsFound) {
+  const SE3 truth = SE3::from_xyz_rpy((Vector6() << 0, 0, 0, 0, 0, 0.5).finished());
+  const Selection scan = scan_from(truth);
+  Budget spent = Budget::steps(1);
+  EXPECT_TRUE(spent.one_more());
+  EXPECT_FALSE(look_.find(scan, map_, wide_, first(scan), kStep_s, registration_, spent));
+  keypoints_.clear();
+  EXPECT_FALSE(second({.for_map = {}, .keypoints = keypoints_, .duration_s = 0}, {}));
+}
+
+}  // namespace
+}  // namespace cairn::odometry
