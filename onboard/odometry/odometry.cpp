@@ -22,8 +22,7 @@ MotionFilter::Uncertainty at_the_start(const OdometryConfig& c) {
 // while it turned has often ended the turn.
 constexpr double kTwistBelieved_s = 0.2;
 
-// The motion that the first scan was deskewed with is off by a third of what it was before, each
-// time.
+// Chosen by hand: starts in turns of 120°/s end with the right twist (test BeginsInAFastTurn).
 constexpr int kStraightenings = 3;
 constexpr double kStraightGate_m = 0.5;
 
@@ -115,6 +114,7 @@ Fit LidarOdometry::align(const Selection& selected, double dt_s, Budget& budget)
 /// map is made again from the first scan's points, deskewed with it.
 Fit LidarOdometry::straighten_first(const Selection& selected, Fit fit, double dt_s, Budget& budget) {
   const FirstScan first = *std::exchange(first_, std::nullopt);
+  if (!tracking_.fits(fit) || fit.degeneracy.count > 0) return fit;  // it does not show the motion
   for (int round = 0; round < kStraightenings; ++round) {
     const Vector6 twist = (followed_.state().T_odom_base.inverse() * fit.state.T_odom_base).log() / dt_s;
     map_.begin(followed_.state().T_odom_base, followed_.odom_covariance());

@@ -12,6 +12,8 @@ constexpr double kGateSigmas = 3.0, kGateShrink = 0.5;
 // m. An error in rotation moves a point at this range by as much as the first gate allows for it.
 // Found with walks through simulated buildings, whose tilt changes by 6° in a scan.
 constexpr double kLever_m = 5;
+// Keypoints: fewer say nothing about how well a scan fits. As OdometryConfig::min_matches.
+constexpr int kFewTelling = 60;
 // Converged: the step is below a fiftieth of noise_floor_m (0.01 m); its rotation moves a point at
 // 10 m as far.
 constexpr double kConverged_m = 2e-4, kConverged_rad = 2e-5;
@@ -22,8 +24,13 @@ double Fit::inlier_ratio() const {
   return equations.matched > 0 ? static_cast<double>(equations.inliers) / equations.matched : 0.0;
 }
 
+int Fit::telling_inliers() const {
+  return equations.telling < kFewTelling ? equations.inliers : equations.telling_inliers;
+}
+
 double Fit::telling_share() const {
-  return equations.telling > 0 ? static_cast<double>(equations.telling_inliers) / equations.telling : 0.0;
+  if (equations.telling < kFewTelling) return inlier_ratio();
+  return static_cast<double>(equations.telling_inliers) / equations.telling;
 }
 
 double Fit::rms_m() const {

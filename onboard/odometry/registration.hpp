@@ -25,7 +25,10 @@ struct Fit {
 
   /// Of the keypoints near patches, the share within 3 σ of one; 0 where there are none.
   [[nodiscard]] double inlier_ratio() const;
-  /// The same without points on floors and ceilings, which fit wherever the robot is.
+  /// How many keypoints fit, without those on floors and ceilings, which fit wherever the robot is.
+  /// Where there is hardly anything else, as on an open field, all are counted.
+  [[nodiscard]] int telling_inliers() const;
+  /// The same as a share of the keypoints near patches; 0 where there are none.
   [[nodiscard]] double telling_share() const;
   /// Root mean square distance to the patches in metres, robustly weighted.
   [[nodiscard]] double rms_m() const;

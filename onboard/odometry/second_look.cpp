@@ -14,16 +14,17 @@ constexpr double kRise = 0.1, kFall = 0.02;
 // through simulated buildings were lost three times as often.
 constexpr double kTrialGate_m = 2.0, kLastGate_m = 1.0;
 
+// Of the upright keypoints: if fewer fit after the trials, the places in between are tried, to each
+// side of a place: half a step of the search in position, one narrow step in heading.
+constexpr double kPoor = 0.4;
+constexpr double kFine_m = 0.125, kFineYaw_rad = 0.03;
+constexpr int kFineSteps = 5;
+
 /// About so many of them, evenly spread.
 void add_some(std::span<const Keypoint> from, std::size_t wanted, std::vector<Keypoint>& out) {
   const std::size_t stride = from.size() / wanted + 1;
   for (std::size_t i = 0; i < from.size(); i += stride) out.push_back(from[i]);
 }
-
-// Of the upright keypoints: if fewer fit after the trials, the places in between are tried.
-constexpr double kPoor = 0.4;
-constexpr double kFine_m = 0.125, kFineYaw_rad = 0.03;
-constexpr int kFineSteps = 5;
 
 }  // namespace
 
@@ -67,8 +68,7 @@ std::optional<Fit> SecondLook::find(const Selection& scan, const PatchMap& map, 
   }
   wide.believe(start);
   Fit again = registration.align(scan, map, wide, start, budget, {kLastGate_m});
-  if (again.iterations > 0 && again.equations.telling_inliers >= config_.better * first.equations.telling_inliers)
-    return again;
+  if (again.iterations > 0 && again.telling_inliers() > config_.better * first.telling_inliers()) return again;
   std::ignore = registration.telling_inliers(scan, map, first.state, narrowest_gate_m_);  // its uses are asked for next
   return std::nullopt;
 }

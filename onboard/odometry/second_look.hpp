@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <optional>
 #include <span>
 #include <vector>
@@ -29,8 +28,8 @@ class SecondLook {
   /// little.
   [[nodiscard]] bool needed(const Fit& first, double dt_s) const;
   /// A fit that is clearly better than `first`, if there is one. `wide` holds a prediction that
-  /// expects anything; it is moved to where the better fit began. Leaves the keypoint uses of the better fit in
-  /// `registration`.
+  /// expects anything; it is moved to where the better fit began. Leaves the uses of that fit, or of
+  /// `first`, in `registration`.
   [[nodiscard]] std::optional<Fit> find(const Selection& scan, const PatchMap& map, MotionFilter& wide,
                                         const Fit& first, double dt_s, Registration& registration, Budget& budget);
   /// Takes note of what a fit that is followed looks like.
@@ -42,8 +41,8 @@ class SecondLook {
   /// A new map begins.
   void reset() { usual_share_ = 1; }
 
-  /// Of all trials together, at most.
-  static constexpr int kStepsOfATrial = 8;
+  static constexpr int kStepsOfATrial = 8;  ///< of its registration
+  /// Of all trials of a find() together, at most.
   static constexpr int kTrialSteps = 2 * static_cast<int>(CoarseSearch::kPlaces) * kStepsOfATrial;
 
  private:

@@ -59,10 +59,13 @@ Track TrackingState::judge(const Fit& fit, const SE3& motion, double dt_s, const
   return followed ? Track::kFollowed : Track::kReinitialised;
 }
 
-bool TrackingState::plausible(const Fit& fit, const SE3& motion, double dt_s) const {
+bool TrackingState::fits(const Fit& fit) const {
   const NormalEquations& n = fit.equations;
-  if (n.matched < min_matches_ || n.inliers < min_inlier_ratio_ * n.matched) return false;
-  return motion.translation().norm() <= max_speed_m_s_ * dt_s &&
+  return n.matched >= min_matches_ && n.inliers >= min_inlier_ratio_ * n.matched;
+}
+
+bool TrackingState::plausible(const Fit& fit, const SE3& motion, double dt_s) const {
+  return fits(fit) && motion.translation().norm() <= max_speed_m_s_ * dt_s &&
          rotation_angle(motion) <= max_angular_speed_rad_s_ * dt_s;
 }
 

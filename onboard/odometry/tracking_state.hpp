@@ -48,6 +48,9 @@ class TrackingState {
   /// a row.
   [[nodiscard]] Track judge(const Fit& fit, const SE3& motion, double dt_s, const PatchMap& map);
 
+  /// Enough keypoints match, and enough of them fit.
+  [[nodiscard]] bool fits(const Fit& fit) const;
+
  private:
   [[nodiscard]] bool plausible(const Fit& fit, const SE3& motion, double dt_s) const;
 

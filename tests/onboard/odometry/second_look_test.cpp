@@ -30,6 +30,15 @@ TEST(SecondLook, IsNeededIfFewerPointsFitThanUsual) {
   EXPECT_TRUE(look.needed(fit_of(1000, 990), 0.5)) << "after half a second the prediction says little";
 }
 
+TEST(SecondLook, OnAnOpenFieldTheFloorIsAllThatCanFit) {
+  SecondLook look({}, {});
+  Fit floor;
+  floor.equations.matched = 2000;
+  floor.equations.inliers = 1900;
+  EXPECT_FALSE(look.needed(floor, kStep_s));
+  EXPECT_FALSE(look.blurred(floor)) << "or the map would never grow";
+}
+
 TEST(SecondLook, AWrongFitDoesNotBecomeUsualAtOnce) {
   SecondLook look({}, {});
   for (int i = 0; i < 10; ++i) look.learn(fit_of(1000, 500));
