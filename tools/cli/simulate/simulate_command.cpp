@@ -109,6 +109,24 @@ int run(Options options) {
   return app::kDone;
 }
 
+void add_motion_option(CLI::App& sub, std::string& motion) {
+  sub.add_option("--motion", motion,
+                 "how a husky moves: gentle to 1.5 m/s and 60 deg/s, brisk to 2 m/s and 90 deg/s, aggressive to 3 m/s "
+                 "and 120 deg/s with bumps and sudden stops, handheld: a walking person carries it")
+      ->check(CLI::IsMember(std::vector<std::string>(simulator::kMotions.begin(), simulator::kMotions.end())))
+      ->capture_default_str();
+}
+
+void add_lidar_options(CLI::App& sub, simulator::LidarConfig& lidar) {
+  sub.add_option("--range-noise", lidar.range_noise_m, "standard deviation of LiDAR ranges, m")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  sub.add_option("--dropout", lidar.dropout, "share of LiDAR returns lost at random")
+      ->check(CLI::Range(0.0, 1.0))
+      ->capture_default_str();
+  sub.add_flag("--pps", lidar.pps, "lock the LiDAR's clock to UTC; otherwise it runs freely");
+}
+
 }  // namespace
 
 void add_simulate_command(app::Commands& commands) {
@@ -133,24 +151,14 @@ void add_simulate_command(app::Commands& commands) {
   sub->add_option("--profile", s.profile, "husky drives; uav flies and carries a camera only")
       ->check(CLI::IsMember({"husky", "uav"}))
       ->capture_default_str();
-  sub->add_option("--motion", options->motion,
-                  "how a husky moves: gentle to 1.5 m/s and 60 deg/s, brisk to 2 m/s and 90 deg/s, aggressive to 3 m/s "
-                  "and 120 deg/s with bumps and sudden stops, handheld: a walking person carries it")
-      ->check(CLI::IsMember(std::vector<std::string>(simulator::kMotions.begin(), simulator::kMotions.end())))
-      ->capture_default_str();
+  add_motion_option(*sub, options->motion);
   sub->add_option("--sensors", options->sensors, "sensors to record, with commas; default: lidar, for a uav camera")
       ->delimiter(',')
       ->check(CLI::IsMember({"lidar", "camera", "thermal", "depth", "drive", "gpio", "all"}));
   sub->add_option("--threads", s.threads, "threads to use; the result does not depend on it")
       ->check(CLI::Range(1U, 256U))
       ->capture_default_str();
-  sub->add_option("--range-noise", s.lidar.range_noise_m, "standard deviation of LiDAR ranges, m")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  sub->add_option("--dropout", s.lidar.dropout, "share of LiDAR returns lost at random")
-      ->check(CLI::Range(0.0, 1.0))
-      ->capture_default_str();
-  sub->add_flag("--pps", s.lidar.pps, "lock the LiDAR's clock to UTC; otherwise it runs freely");
+  add_lidar_options(*sub, s.lidar);
   sub->add_flag("--json", options->json, "one JSON object on stdout");
   sub->callback([&commands, options] { commands.job = [options] { return run(*options); }; });
 }
