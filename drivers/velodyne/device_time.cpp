@@ -2,7 +2,6 @@
 #include "drivers/velodyne/device_time.hpp"
 
 #include <algorithm>
-#include <utility>
 
 #include "drivers/velodyne/packet.hpp"
 
@@ -16,6 +15,9 @@ std::int64_t unwrapped(std::int64_t step, std::int64_t modulus, std::int64_t exp
   return step + (away + half) / modulus * modulus;
 }
 
+/// Up to here the offset is reduced in the pause at a packet's end.
+constexpr double kEvenSlew = 1.0 / 64;
+
 }  // namespace
 
 std::int64_t resolve_utc_us(std::uint32_t counter_us, std::int64_t reference_utc_us) {
@@ -28,42 +30,29 @@ std::int64_t resolve_utc_us(std::uint32_t counter_us, std::int64_t reference_utc
 }
 
 DeviceTime::Stamp DeviceTime::update(std::uint32_t counter_us, Time arrival, Duration span, std::optional<Time> exact) {
-  arrival = unbroken(arrival);
-  const Duration step = started_ ? step_from_last(counter_us, arrival) : Duration{};
-  const bool overlaps = started_ && step < busy_share(span_);
-  if (overlaps && step >= -kReorderWindow && ++late_run_ <= kMaxLateRun)
-    return {step == Duration{} ? Kind::kDuplicate : Kind::kLate, {}, step};
-  late_run_ = 0;
-
+  arrival += arrival_shift_;
   Time first_firing = arrival - span;
   if (exact) {
     const Duration gap = *exact + arrival_shift_ - first_firing;
     if (gap >= -kExactTolerance && gap <= kExactTolerance) first_firing += gap;
   }
+  const Duration step = started_ ? step_from_last(counter_us, arrival) : Duration{};
   const Duration sample = first_firing.time_since_epoch() - (device_ + step);
-  const Duration delay = sample - offset_;
-  const bool jump = arrival_broken_ || overlaps || delay < -kMaxEarly || delay > kMaxDelay;
-  const Kind kind = !started_ ? Kind::kFirst : jump || rotate_window(arrival, sample) ? Kind::kJump : Kind::kNext;
+  const Kind kind = judge(step, arrival, sample);
+  if (kind == Kind::kDuplicate || kind == Kind::kLate || kind == Kind::kAhead) return {kind, {}, step};
   counter_us_ = counter_us;
-  arrival_ = started_ ? std::max(arrival_, arrival) : arrival;
-  const Stamp stamp = kind == Kind::kNext ? (slew(step, arrival), Stamp{kind, last_first_firing(), step})
-                                          : restart(kind, first_firing, arrival);
+  if (kind != Kind::kNext) restart(kind, arrival, sample + step);
   span_ = span;
-  return stamp;
+  return kind == Kind::kNext ? follow(step, arrival) : Stamp{kind, last_first_firing(), {}, 1.0};
 }
 
-/// The arrival on a line that never goes back by more than a queue can explain.
-Time DeviceTime::unbroken(Time arrival) {
-  arrival += arrival_shift_;
-  arrival_broken_ = started_ && arrival < arrival_ - kMaxDelay;
-  if (arrival_broken_) arrival_shift_ += arrival_ - std::exchange(arrival, arrival_);
-  return arrival;
-}
-
-/// The counter wraps at the hour; seen in the field are sensors that pass it and wrap as u32.
+/// The counter wraps at the hour; seen in the field are sensors that pass it and wrap as u32. A counter that goes on
+/// evenly is believed whatever arrival says.
 Duration DeviceTime::step_from_last(std::uint32_t counter_us, Time arrival) const {
-  const std::int64_t expected = (arrival - arrival_).count() / 1000;
   const std::int64_t raw = std::int64_t{counter_us} - std::int64_t{counter_us_};
+  for (const std::int64_t even : {raw, raw + kMicrosecondsPerHour})
+    if (even > 0 && std::chrono::microseconds(even) <= kContinuous) return std::chrono::microseconds(even);
+  const std::int64_t expected = (arrival - arrival_).count() / 1000;
   std::int64_t best = unwrapped(raw, kMicrosecondsPerHour, expected);
   if (counter_us_ >= kMicrosecondsPerHour) {
     const std::int64_t at_u32 = raw + (std::int64_t{1} << 32);
@@ -73,34 +62,49 @@ Duration DeviceTime::step_from_last(std::uint32_t counter_us, Time arrival) cons
   return std::chrono::microseconds(best);
 }
 
-DeviceTime::Stamp DeviceTime::restart(Kind kind, Time first_firing, Time arrival) {
-  if (started_) first_firing = std::max(first_firing, last_first_firing() + span_);
-  offset_ = first_firing.time_since_epoch() - device_;
-  window_min_ = previous_min_ = offset_;
-  window_start_ = offset_since_ = arrival;
-  started_ = true;
-  return {kind, first_firing, {}};
+/// What the packet is, and the filter's sample of it.
+DeviceTime::Kind DeviceTime::judge(Duration step, Time arrival, Duration sample) {
+  if (!started_) return Kind::kFirst;
+  if (const auto why = contradiction(step, arrival, sample)) return ++set_aside_ <= kMaxSetAside ? *why : Kind::kJump;
+  set_aside_ = 0;
+  if (may_begin_again_ && sample < delay_.offset() - kQueueDrains) return Kind::kFirst;
+  if (step > kContinuous) stepped_ = true;
+  if (sample - delay_.offset() < DelayFilter::kMaxWindowError) stepped_ = false;
+  return delay_.add(sample, arrival) && stepped_ ? Kind::kJump : Kind::kNext;
 }
 
-/// Adds a sample to the running window; true when the window that just ended was late as a whole.
-bool DeviceTime::rotate_window(Time arrival, Duration sample) {
-  if (arrival - window_start_ < kWindow) {
-    window_min_ = std::min(window_min_, sample);
-    return false;
+std::optional<DeviceTime::Kind> DeviceTime::contradiction(Duration step, Time arrival, Duration sample) const {
+  if (step == Duration{}) return Kind::kDuplicate;
+  if (step < busy_share(span_) || arrival < arrival_ - kMaxDelay) return Kind::kLate;
+  if (step > kContinuous && sample < delay_.smallest() - kMaxEarly) return Kind::kAhead;
+  return std::nullopt;
+}
+
+/// `sample`: of a device time that has made no step.
+void DeviceTime::restart(Kind kind, Time arrival, Duration sample) {
+  if (started_ && arrival < arrival_ - kMaxDelay) {
+    const Duration back = arrival_ - arrival;
+    arrival_shift_ += back;
+    sample += back;
+    arrival = arrival_;
   }
-  const bool late = window_min_ - offset_ > kMaxWindowError;
-  previous_min_ = std::exchange(window_min_, sample);
-  window_start_ = arrival;
-  return late;
+  const Duration earliest = kind == Kind::kJump ? delay_.offset() + span_ : sample;
+  delay_.begin(sample, std::max(sample, earliest), arrival);
+  arrival_ = kind == Kind::kJump ? std::max(arrival_, arrival) : arrival;
+  started_ = true;
+  stepped_ = false;
+  set_aside_ = 0;
 }
 
-/// Steps the device time and moves the offset towards the windows' minimum.
-void DeviceTime::slew(Duration step, Time arrival) {
-  const Duration earliest = busy_share(span_);
-  const Duration limit = step / (arrival - offset_since_ < kWindow ? kFastSlew : kSlowSlew);
-  const Duration wanted = std::min(previous_min_, window_min_) - offset_;
+DeviceTime::Stamp DeviceTime::follow(Duration step, Time arrival) {
   device_ += step;
-  offset_ += std::max(std::clamp(wanted, -limit, limit), earliest - step);
+  delay_.advance(step, arrival, std::max(step - busy_, Duration{}));
+  // A stamp far after its packet's firings is wrong, and must not make the next packets look as if they went back.
+  arrival_ = std::max(arrival_, std::min(arrival, last_first_firing() + span_ + kMaxDelay));
+  const double catch_up = delay_.catch_up();
+  const double pace = catch_up > kEvenSlew ? 1.0 - catch_up : 1.0;
+  busy_ = pace < 1.0 ? from_seconds(to_seconds(busy_share(span_)) * pace) : busy_share(span_);
+  return {Kind::kNext, last_first_firing(), step, pace};
 }
 
 }  // namespace cairn::velodyne

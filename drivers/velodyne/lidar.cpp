@@ -71,14 +71,18 @@ Result<const Scan*> Lidar::decode_data(const Packet& packet) {
     return ++counters_.duplicates, Error{Errc::kMalformed, "duplicate of the previous data packet"};
   if (when.kind == DeviceTime::Kind::kLate)
     return ++counters_.late, Error{Errc::kMalformed, "data packet was overtaken by a later one"};
+  if (when.kind == DeviceTime::Kind::kAhead)
+    return ++counters_.ahead, Error{Errc::kMalformed, "device time of the data packet ran ahead of its arrival"};
 
   ++counters_.data_packets;
   note_mode(*data, packet.arrival);
+  if (when.kind == DeviceTime::Kind::kFirst) assembler_.discard();
   if (when.kind == DeviceTime::Kind::kJump) note_jump(packet.arrival);
   if (when.kind == DeviceTime::Kind::kNext) count_lost(when.step, data->azimuth[0] * kAzimuthUnitDeg);
   update_rotation(*data);
   delay_ = packet.arrival - when.first_firing - nominal_step_;
-  assemble(*data, when.first_firing);
+  note_late_stamps(packet.arrival);
+  assemble(*data, when);
   return count(assembler_.finished());
 }
 
@@ -141,6 +145,18 @@ void Lidar::note_jump(Time arrival) {
   monitor_.event(arrival, kStage, "device time jumped against arrival: running scan discarded");
 }
 
+/// Said once for each time that stamps have to catch up.
+void Lidar::note_late_stamps(Time arrival) {
+  const Duration late = device_time_.late_by();
+  if (late < kSettled) late_noted_ = false;
+  if (late < kUnsettled || late_noted_) return;
+  late_noted_ = true;
+  ++counters_.late_starts;
+  monitor_.event(arrival, kStage,
+                 "packets before came at least " + std::to_string(late / std::chrono::milliseconds(1)) +
+                     " ms late: stamps of the scans until now are too late, and catch up within seconds");
+}
+
 void Lidar::count_lost(Duration step, double azimuth_deg) {
   if (2 * step <= 3 * nominal_step_) return;
   // A sensor with a limited field of view is silent over the rest of the turn.
@@ -168,12 +184,13 @@ void Lidar::update_rotation(const DataPacket& data) {
   nominal_step_ = model_.packet_span(data.dual());
 }
 
-void Lidar::assemble(const DataPacket& data, Time first_firing) {
+void Lidar::assemble(const DataPacket& data, const DeviceTime::Stamp& when) {
   assembler_.begin_packet();
   const int firings = decoder_.firing_count(data.dual());
   for (int i = 0; i < firings; ++i) {
     const Firing firing = decoder_.firing(data, i);
-    const Time time = first_firing + firing.offset;
+    const Duration offset = when.pace == 1.0 ? firing.offset : from_seconds(to_seconds(firing.offset) * when.pace);
+    const Time time = when.first_firing + offset;
     assembler_.begin_firing(time, firing.azimuth_deg, decoder_.firing_duration(), period_);
     const auto since_ns = static_cast<std::uint32_t>((time - assembler_.start()).count());
     decoder_.append(data, firing, since_ns, assembler_.cloud());
@@ -223,7 +240,9 @@ const Scan* Lidar::flush() { return count(assembler_.flush()); }
 
 const Scan* Lidar::count(const Scan* scan) {
   counters_.revolutions = assembler_.revolutions();
-  counters_.scans += scan != nullptr ? 1 : 0;
+  if (scan == nullptr) return nullptr;
+  ++counters_.scans;
+  device_time_.hold_stamps();
   return scan;
 }
 

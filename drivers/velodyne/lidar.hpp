@@ -31,10 +31,12 @@ struct Counters {
   std::uint64_t wrong_product = 0;  ///< of another sensor model
   std::uint64_t duplicates = 0;     ///< same device time again
   std::uint64_t late = 0;           ///< overtaken by a later packet
+  std::uint64_t ahead = 0;          ///< device time ran ahead of arrival
   std::uint64_t bad_nmea = 0;       ///< faulty sentences in position packets that were otherwise good
 
   std::uint64_t lost_packets = 0;     ///< missing by device time, whatever the cause
   std::uint64_t time_jumps = 0;       ///< of the device's counter or of arrival
+  std::uint64_t late_starts = 0;      ///< times that stamps were found to be late and had to catch up
   std::uint64_t over_the_hour = 0;    ///< device times of 3600 s and more
   std::uint64_t discarded_scans = 0;  ///< dropped because time jumped inside them
   std::uint64_t revolutions = 0;      ///< scans closed by the cut angle
@@ -66,6 +68,8 @@ class Lidar final : public ScanDecoder {
   [[nodiscard]] const Counters& counters() const { return counters_; }
   [[nodiscard]] const Model& model() const { return model_; }
 
+  /// Stamps that are this late are said, until they are settled again.
+  static constexpr Duration kUnsettled = std::chrono::milliseconds(10), kSettled = std::chrono::milliseconds(2);
   static constexpr Duration kPositionTimeout =
       std::chrono::seconds(5);  ///< PPS counts as absent without position packets
 
@@ -82,7 +86,8 @@ class Lidar final : public ScanDecoder {
   void note_nmea(const PositionPacket& position, Time arrival);
   void count_lost(Duration step, double azimuth_deg);
   void update_rotation(const DataPacket& data);
-  void assemble(const DataPacket& data, Time first_firing);
+  void note_late_stamps(Time arrival);
+  void assemble(const DataPacket& data, const DeviceTime::Stamp& when);
   const Scan* count(const Scan* scan);
 
   Config config_;
@@ -100,6 +105,7 @@ class Lidar final : public ScanDecoder {
   std::optional<Time> locked_at_;  // arrival of the last position packet that said locked and valid
   std::int64_t nmea_utc_us_ = 0;   // latest valid date and time, and when it arrived
   Time nmea_arrival_{};
+  bool late_noted_ = false;
   bool mode_noted_ = false;
   bool product_noted_ = false;
 };

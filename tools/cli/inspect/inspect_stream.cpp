@@ -41,7 +41,8 @@ const char* name_of(velodyne::PpsState state) {
 report::Json to_json(const velodyne::Counters& c) {
   report::Json json{{"data_packets", c.data_packets}, {"position_packets", c.position_packets},
                     {"revolutions", c.revolutions},   {"rpm", c.rpm},
-                    {"lost_packets", c.lost_packets}, {"time_jumps", c.time_jumps}};
+                    {"lost_packets", c.lost_packets}, {"time_jumps", c.time_jumps},
+                    {"late_starts", c.late_starts}};
   json["refused"] = {{"truncated", c.truncated},
                      {"wrong_length", c.wrong_length},
                      {"wrong_port", c.wrong_port},
@@ -49,6 +50,7 @@ report::Json to_json(const velodyne::Counters& c) {
                      {"wrong_product", c.wrong_product},
                      {"duplicates", c.duplicates},
                      {"late", c.late},
+                     {"ahead", c.ahead},
                      {"bad_nmea", c.bad_nmea}};
   json["over_the_hour"] = c.over_the_hour;
   json["discarded_scans"] = c.discarded_scans;
