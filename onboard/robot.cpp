@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/robot.hpp"
 
+#include <algorithm>
 #include <utility>
 
 namespace cairn {
@@ -33,17 +34,20 @@ Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapp
   }
 }
 
-Result<TrackPoint> Robot::locate(const Scan& scan, Budget& budget, LocatedScan& located) {
+Result<TrackPoint> Robot::locate(const Scan& scan, Budget& budget, LocatedScan& located, const DriveState* wheels) {
   const StageTimer timing(odometry_stage_);
   const bool resuming = odometry_.resuming();
-  const auto motion = odometry_.update(scan, budget);
+  const auto motion = odometry_.update(scan, budget, wheels);
   if (!motion) return motion.error();
 
   if (motion->lost) monitor_.event(motion->stamp, "odometry", "lost: the scan does not fit the map of the recent past");
   located.stamp = motion->stamp;
   located.T_odom_base = motion->T_odom_base;
   located.points_base.assign(motion->points_base.begin(), motion->points_base.end());
-  if (motion->began) ++epoch_;
+  if (motion->began || motion->apart) ++epoch_;
+  if (motion->apart)
+    monitor_.event(motion->stamp, "odometry",
+                   "a new map begins: how it lies to the one before is not known (kept as map-epoch-N.cairn)");
   if (motion->began && resuming)
     monitor_.event(motion->stamp, "restart", "the robot is not where the saved map ends: it begins anew");
   located.epoch = epoch_;
@@ -58,10 +62,19 @@ Result<TrackPoint> Robot::locate(const Scan& scan, Budget& budget, LocatedScan& 
   return track_.back();
 }
 
+void Robot::begin_map(std::uint32_t epoch) {
+  auto before = mapper_.begin_anew();
+  const std::uint32_t ended = std::exchange(mapped_epoch_, epoch);
+  if (before->size() == 0) return;
+  earlier_.push_back({.epoch = ended, .tree = std::move(before)});
+  if (earlier_.size() <= kEarlierMaps) return;
+  earlier_.erase(std::ranges::min_element(earlier_, {}, [](const EarlierMap& map) { return map.tree->size(); }));
+}
+
 Result<void> Robot::extend_map(const LocatedScan& scan, const MapShare& share) {
   if (scan.lost) return {};
   const StageTimer timing(mapping_stage_);
-  if (scan.epoch != std::exchange(mapped_epoch_, scan.epoch)) mapper_.clear();
+  if (scan.epoch != mapped_epoch_) begin_map(scan.epoch);
   const SE3& T_odom_base = scan.T_odom_base.mean;
   const Eigen::Matrix3f R = T_odom_base.rotation().cast<float>();
   const Eigen::Vector3f t = T_odom_base.translation().cast<float>();

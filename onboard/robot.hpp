@@ -2,10 +2,12 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <vector>
 
 #include "hal/budget.hpp"
+#include "hal/drive.hpp"
 #include "hal/monitor.hpp"
 #include "hal/point_cloud.hpp"
 #include "hal/result.hpp"
@@ -28,8 +30,8 @@ struct TrackPoint {
   Time stamp{};
   UncertainPose T_odom_base;
   Vector6 twist = Vector6::Zero();  ///< of base_link in base_link: m/s, rad/s
-  std::uint32_t epoch = 0;          ///< counts beginnings of odom: poses of two epochs have nothing in common
-  int degenerate_directions = 0;    ///< of the motion since the last scan: 0 = all six directions were observed
+  std::uint32_t epoch = 0;        ///< counts maps; how the poses of two lie to each other is hardly known or not at all
+  int degenerate_directions = 0;  ///< of the motion since the last scan: 0 = all six directions were observed
   int iterations = 0;
   bool lost = false;
 };
@@ -60,6 +62,12 @@ struct Resume {
   Time stamp{};  ///< of the pose
 };
 
+/// The map of an epoch that has ended.
+struct EarlierMap {
+  std::uint32_t epoch = 0;
+  std::unique_ptr<mapping::SemanticOcTree> tree;
+};
+
 /// One robot: scans in, trajectory and map out. Deterministic for any number of threads. locate()
 /// and extend_map() may run at the same time on two threads.
 class Robot {
@@ -73,9 +81,10 @@ class Robot {
   Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapping_workers, Monitor& monitor,
         const Resume& saved);
 
-  /// Estimates the motion since the last scan; fills `located`, reusing its memory. On an error the
-  /// scan is dropped, and the track is as before.
-  Result<TrackPoint> locate(const Scan& scan, Budget& budget, LocatedScan& located);
+  /// Estimates the motion since the last scan; fills `located`, reusing its memory. `wheels`: their
+  /// state at the scan's end, null where it is not known. On an error the scan is dropped, and the
+  /// track is as before.
+  Result<TrackPoint> locate(const Scan& scan, Budget& budget, LocatedScan& located, const DriveState* wheels = nullptr);
   /// Adds a scan to the map, where its pose is trusted. On an error (kLimit: the map's memory) the
   /// map is as before.
   Result<void> extend_map(const LocatedScan& scan, const MapShare& share = {});
@@ -86,6 +95,9 @@ class Robot {
 
   [[nodiscard]] const std::vector<TrackPoint>& track() const { return track_; }
   [[nodiscard]] const mapping::SemanticOcTree& map() const { return mapper_.tree(); }
+  static constexpr std::size_t kEarlierMaps = 3;
+  /// Maps of earlier epochs, the oldest first: at most kEarlierMaps, the largest ones.
+  [[nodiscard]] const std::vector<EarlierMap>& earlier_maps() const { return earlier_; }
   /// See Mapper::take_changed_tiles(). After a new epoch began, all of the map's.
   [[nodiscard]] std::vector<mapping::TileKey> take_changed_tiles() { return mapper_.take_changed_tiles(); }
 
@@ -93,12 +105,15 @@ class Robot {
   SE3 T_base_lidar_;
   odometry::LidarOdometry odometry_;
   mapping::Mapper mapper_;
+  void begin_map(std::uint32_t epoch);
+
   Monitor& monitor_;
   StageStats& odometry_stage_;
   StageStats& mapping_stage_;
   std::vector<TrackPoint> track_;
-  std::uint32_t epoch_ = 0;                   // odometry's
-  std::uint32_t mapped_epoch_ = 0;            // mapping's
+  std::uint32_t epoch_ = 0;         // odometry's
+  std::uint32_t mapped_epoch_ = 0;  // mapping's: of the map
+  std::vector<EarlierMap> earlier_;
   std::vector<Eigen::Vector3f> points_odom_;  // reused
 };
 

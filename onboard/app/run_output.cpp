@@ -120,6 +120,15 @@ void add_ground_truth(const RunFacts& facts, report::RunReport& report) {
     for (const auto& p : *truth) report.ground_truth.push_back({p.stamp + shift_of(facts), p.pose});
 }
 
+/// One file for each epoch that ended during the run: their maps do not lie in the frame of map.cairn.
+Result<void> write_earlier_maps(const RunFacts& facts, std::vector<fs::path>& hashed) {
+  for (const EarlierMap& map : facts.tasks.robot.earlier_maps()) {
+    hashed.push_back(facts.options.out / ("map-epoch-" + std::to_string(map.epoch) + ".cairn"));
+    if (const auto r = mapping::save_cairn(*map.tree, hashed.back()); !r) return r.error();
+  }
+  return {};
+}
+
 /// What a team run leaves besides, as a part of what is to be repeated.
 Result<void> add_team_files(const RunFacts& facts, report::RunReport& report, std::vector<fs::path>& hashed) {
   if (!facts.tasks.team || !facts.tasks.team->team().team()) return {};
@@ -151,6 +160,7 @@ Result<report::RunReport> write_output(const RunFacts& facts) {
   if (const auto r = write_trajectory(hashed[0], facts.tasks.robot.track(), shift_of(facts)); !r) return r.error();
   if (const auto r = mapping::save_cairn(facts.tasks.robot.map(), hashed[1]); !r) return r.error();
   if (const auto r = mapping::save_ot(facts.tasks.robot.map(), out / "map.ot"); !r) return r.error();
+  if (const auto r = write_earlier_maps(facts, hashed); !r) return r.error();
   if (const auto r = add_team_files(facts, report, hashed); !r) return r.error();
   const auto hash = report::sha256_of_files(hashed);
   if (!hash) return hash.error();

@@ -21,7 +21,7 @@ std::size_t megabytes(int n) { return static_cast<std::size_t>(n) * kMegabyte; }
 Mapper::Mapper(const MappingConfig& config, Workers& workers)
     : config_(config),
       workers_(workers),
-      tree_(config.resolution_m),
+      tree_(std::make_unique<SemanticOcTree>(config.resolution_m)),
       rays_(config.resolution_m, config.max_range_m),
       footprints_(workers.threads(), Footprint(megabytes(config.max_scan_mb) / sizeof(BrickBits) / 2)) {
   set_up();
@@ -30,7 +30,7 @@ Mapper::Mapper(const MappingConfig& config, Workers& workers)
 Mapper::Mapper(const MappingConfig& config, Workers& workers, const SemanticOcTree& saved)
     : config_(config),
       workers_(workers),
-      tree_(saved),
+      tree_(std::make_unique<SemanticOcTree>(saved)),
       rays_(config.resolution_m, config.max_range_m),
       footprints_(workers.threads(), Footprint(megabytes(config.max_scan_mb) / sizeof(BrickBits) / 2)) {
   if (saved.getResolution() != config.resolution_m) std::abort();
@@ -38,28 +38,30 @@ Mapper::Mapper(const MappingConfig& config, Workers& workers, const SemanticOcTr
 }
 
 void Mapper::set_up() {
-  tree_.setProbHit(config_.prob_hit);
-  tree_.setProbMiss(config_.prob_miss);
-  tree_.setClampingThresMin(config_.clamping_min);
-  tree_.setClampingThresMax(config_.clamping_max);
-  tree_.reserve_bytes(megabytes(config_.reserve_mb));
+  tree_->setProbHit(config_.prob_hit);
+  tree_->setProbMiss(config_.prob_miss);
+  tree_->setClampingThresMin(config_.clamping_min);
+  tree_->setClampingThresMax(config_.clamping_max);
+  tree_->reserve_bytes(megabytes(config_.reserve_mb));
   for (std::vector<TileKey>* tiles : {&changed_, &changed_now_, &merged_}) tiles->reserve(kTiles);
 }
 
-void Mapper::clear() {
-  tree_.clear();
+std::unique_ptr<SemanticOcTree> Mapper::begin_anew() {
+  auto before = std::exchange(tree_, std::make_unique<SemanticOcTree>(config_.resolution_m));
+  set_up();
   changed_.clear();
+  return before;
 }
 
 Result<InsertReport> Mapper::insert(std::span<const Eigen::Vector3f> points_map, const Eigen::Vector3f& origin_map) {
-  if (tree_.memoryUsage() > std::max(megabytes(config_.max_mb), megabytes(config_.reserve_mb) + kMegabyte))
+  if (tree_->memoryUsage() > std::max(megabytes(config_.max_mb), megabytes(config_.reserve_mb) + kMegabyte))
     return Error{Errc::kLimit, "the map is as large as allowed", {}, {}, std::to_string(config_.max_mb) + " MB"};
   const auto counts = rays_.prepare(points_map, origin_map, footprints_.front());
   if (!counts) return counts.error();
   if (!march())
     return Error{Errc::kLimit, "the scan touches too much space", {}, {}, "limit the range or use coarser voxels"};
   changed_now_.clear();
-  applier_.apply(footprints_.front(), tree_, workers_, changed_now_);
+  applier_.apply(footprints_.front(), *tree_, workers_, changed_now_);
   note_changed();
   return InsertReport{.points = points_map.size(),
                       .not_finite = counts->not_finite,

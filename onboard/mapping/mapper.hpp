@@ -45,10 +45,10 @@ class Mapper {
   /// the map, scan or map beyond its memory) the map is as before.
   Result<InsertReport> insert(std::span<const Eigen::Vector3f> points_map, const Eigen::Vector3f& origin_map);
 
-  /// Forgets the map and what changed in it; keeps the memory.
-  void clear();
+  /// Begins with an empty map, and returns the one before.
+  std::unique_ptr<SemanticOcTree> begin_anew();
 
-  [[nodiscard]] const SemanticOcTree& tree() const { return tree_; }
+  [[nodiscard]] const SemanticOcTree& tree() const { return *tree_; }
   [[nodiscard]] const MappingConfig& config() const { return config_; }
 
   /// Tiles in which, since the last take_changed_tiles(), a voxel became known or went from free to occupied or back;
@@ -63,7 +63,7 @@ class Mapper {
 
   MappingConfig config_;
   Workers& workers_;
-  SemanticOcTree tree_;
+  std::unique_ptr<SemanticOcTree> tree_;
   ScanRays rays_;
   std::vector<Footprint> footprints_;  // one per thread; all end up in the first
   FootprintApplier applier_;

@@ -102,6 +102,9 @@ void declare(config::Section& s, SecondLookConfig& c) {
            "a fit is doubted if fewer points fit than this share of what is usual");
   s.number("blurred_share", c.blurred_share, {0.0, 1.0}, "",
            "a scan is not added to the map if fewer points fit than this share of what is usual");
+  s.number("unsure_after_s", c.unsure_after_s, {0.0, 60.0}, "s",
+           "after a longer time without a scan that fits, only a fit nearly as good as usual is believed");
+  s.number("sure_share", c.sure_share, {0.0, 1.0}, "", "of the usual share of points that fit, for that");
   s.number("long_step_s", c.long_step_s, {0.0, 60.0}, "s", "after a longer time between scans every fit is doubted");
   s.number("better", c.better, {1.0, 10.0}, "", "times as many points must fit before another place is believed");
   s.integer("keypoints", c.keypoints, {50, 20000}, "", "points to search with");

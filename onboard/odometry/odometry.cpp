@@ -22,6 +22,12 @@ MotionFilter::Uncertainty at_the_start(const OdometryConfig& c) {
 // while it turned has often ended the turn.
 constexpr double kTwistBelieved_s = 0.2;
 
+// m/s and rad/s, standard deviation of a twist that wheels tell. Chosen by hand.
+const Vector6 kWheelTwist = (Vector6() << 0.3, 0.2, 0.1, 0.3, 0.3, 0.3).finished();
+
+// A new map that begins at a pose with a larger standard deviation is not added to the one before. Chosen by hand.
+constexpr double kConnected_m = 0.3, kConnected_rad = 0.06;
+
 // Chosen by hand: starts in turns of 120°/s end with the right twist (test BeginsInAFastTurn).
 constexpr int kStraightenings = 3;
 constexpr double kStraightGate_m = 0.5;
@@ -49,8 +55,9 @@ LidarOdometry::LidarOdometry(const OdometryConfig& config, const SE3& T_base_lid
       tracking_(config),
       relocaliser_(config) {}
 
-Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget) {
+Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget, const DriveState* wheels) {
   if (const auto good = check(scan); !good) return good.error();
+  wheels_.note(wheels);
   const PreparedScan& prepared = preparation_.prepare(scan);
   const Selection selected = selector_.select(prepared);
   if (!tracking_.began()) return begin(prepared, selected);
@@ -67,7 +74,9 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget) {
   if (place == Relocalisation::kElsewhere) return begin(prepared, selected);
 
   const SE3 motion = filter_.motion_to(fit.state.T_odom_base);
-  const Track track = tracking_.judge(fit, motion, dt_s, map_.patches());
+  const bool told = bridged(dt_s);
+  const int patience = told || !map_.settled() ? config_.reinitialise_after : config_.give_up_after;
+  const Track track = tracking_.judge(fit, motion, dt_s, map_.patches(), second_look_.sure(fit, dt_s), patience);
   const bool clear = track == Track::kFollowed ? follow(fit, motion, dt_s) : lose(track, dt_s);
   deskewer_.deskew(prepared, filter_.state().twist);
   if (clear) insert(selected);
@@ -90,23 +99,61 @@ bool LidarOdometry::follow(const Fit& fit, const SE3& motion, double dt_s) {
 
 /// The prediction stands. True if the scan shall begin a new map.
 bool LidarOdometry::lose(Track track, double dt_s) {
-  filter_ = anything_since_followed(dt_s);
+  filter_ = bridged(dt_s) ? moved_as_wheels_say(dt_s) : anything_since_followed(dt_s);
+  apart_ = track == Track::kReinitialised && placed_badly();
   if (track == Track::kReinitialised) reinitialise();
   return track == Track::kReinitialised;
 }
 
 /// Predicts, and registers the scan; once more, and farther around, if that leaves doubts.
 Fit LidarOdometry::align(const Selection& selected, double dt_s, Budget& budget) {
-  filter_ = followed_;
-  filter_.predict(dt_s, prior_.usual(map_.settled()));
+  if (bridged(dt_s)) {
+    filter_ = moved_as_wheels_say(dt_s);
+  } else {
+    filter_ = followed_;
+    filter_.predict(dt_s, prior_.usual(map_.settled()));
+  }
   const MotionState start = start_hypothesis(selected, dt_s);
   const Fit first = registration_.align(selected, map_.patches(), filter_, start, budget);
   if (relocaliser_.pending() || !second_look_.needed(first, dt_s)) return first;
-  MotionFilter wide = anything_since_followed(dt_s);
-  const auto better = second_look_.find(selected, map_.patches(), wide, first, dt_s, registration_, budget);
-  if (!better) return first;
-  filter_ = wide;
-  return *better;
+  return look_farther(selected, first, dt_s, budget).value_or(first);
+}
+
+/// Where the wheels say that the base is. If the scan does not fit there, anywhere it may have come to: wheels spin,
+/// and robots are carried.
+std::optional<Fit> LidarOdometry::look_farther(const Selection& selected, const Fit& first, double dt_s,
+                                               Budget& budget) {
+  const auto look = [&](MotionFilter wide, const Fit& known) {
+    auto better = second_look_.find(selected, map_.patches(), wide, known, dt_s, registration_, budget);
+    if (better) filter_ = wide;
+    return better;
+  };
+  if (!bridged(dt_s)) return look(anything_since_followed(dt_s), first);
+  auto found = look(moved_as_wheels_say(dt_s), first);
+  const Fit& best = found ? *found : first;
+  if (!second_look_.doubtful(best)) return found;
+  const MotionFilter as_wheels_say = filter_;
+  auto elsewhere = look(anything_since_followed(dt_s), best);
+  if (elsewhere && !second_look_.doubtful(*elsewhere)) return elsewhere;
+  filter_ = as_wheels_say;
+  return found;
+}
+
+/// A second wall beside the first would be worse than a map in two parts.
+bool LidarOdometry::placed_badly() const {
+  const Matrix12& P = filter_.uncertainty().local;
+  return std::sqrt(std::max(P(0, 0), P(1, 1))) > kConnected_m || std::sqrt(P(5, 5)) > kConnected_rad;
+}
+
+/// Whether wheels tell the motion better than the twist of the last scan that was followed.
+bool LidarOdometry::bridged(double dt_s) const {
+  return (dt_s > config_.second_look.long_step_s || tracking_.lost()) && wheels_.since_followed().has_value();
+}
+
+MotionFilter LidarOdometry::moved_as_wheels_say(double dt_s) const {
+  MotionFilter moved = followed_;
+  moved.predict_by(*wheels_.since_followed(), wheels_.twist(), kWheelTwist, dt_s);
+  return moved;
 }
 
 /// The first scan of a map was taken in an unknown motion, so its points are skewed. The second one
@@ -192,11 +239,13 @@ void LidarOdometry::correct(const Fit& fit, double dt_s) {
   prior_.learn(fit.state.twist - followed_.state().twist, dt_s);
   second_look_.learn(fit);
   followed_ = filter_;
+  wheels_.followed();
 }
 
 void LidarOdometry::reinitialise() {
   begin_map();
   followed_ = filter_;
+  wheels_.followed();
 }
 
 void LidarOdometry::insert(const Selection& selected) {
@@ -225,6 +274,7 @@ OdometryUpdate LidarOdometry::report(Time stamp, const Fit& fit, Track track) co
   update.degenerate_length_m = fit.degeneracy.length_m;
   update.lost = track != Track::kFollowed;
   update.reinitialised = track == Track::kReinitialised;
+  update.apart = update.reinitialised && apart_;
   return update;
 }
 

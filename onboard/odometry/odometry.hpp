@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal/budget.hpp"
+#include "hal/drive.hpp"
 #include "hal/point_cloud.hpp"
 #include "hal/result.hpp"
 #include "hal/se3.hpp"
@@ -15,6 +16,7 @@
 #include "onboard/odometry/config.hpp"
 #include "onboard/odometry/estimation/motion_filter.hpp"
 #include "onboard/odometry/estimation/twist_check.hpp"
+#include "onboard/odometry/estimation/wheel_bridge.hpp"
 #include "onboard/odometry/keypoint_selector.hpp"
 #include "onboard/odometry/local_map.hpp"
 #include "onboard/odometry/motion_prior.hpp"
@@ -53,6 +55,8 @@ struct OdometryUpdate {
   bool began = false;          ///< the first scan: T_odom_base is the identity, odom has nothing in common with before
   bool lost = false;           ///< the scan did not fit: the pose is predicted, the map was left alone
   bool reinitialised = false;  ///< lost for too long: this scan began a new map at the predicted pose
+  /// Reinitialised at a pose so uncertain that the new map must not be added to the one before: they would not match.
+  bool apart = false;
 };
 
 /// Steps that one scan can take at most: a limit for its budget that cuts nothing short.
@@ -68,12 +72,13 @@ class LidarOdometry {
   /// `T_base_lidar` takes a point of the sensor to base_link. `workers` must outlive the odometry.
   LidarOdometry(const OdometryConfig& config, const SE3& T_base_lidar, Workers& workers);
 
-  /// Consumes one scan. Every iteration asks the budget; one is always made. Errors (the state is
-  /// left as it was):
+  /// Consumes one scan. Every iteration asks the budget; one is always made. `wheels`: their state at
+  /// the scan's end, null where it is not known. It bridges gaps and times in which scans do not fit.
+  /// Errors (the state is left as it was):
   ///   - kMalformed: the scan is not later than the last one, or has points without a firing time
   ///   - kLimit: too many points
   ///   - kTruncated: the first scan after a gap is less than a revolution
-  Result<OdometryUpdate> update(const Scan& scan, Budget& budget);
+  Result<OdometryUpdate> update(const Scan& scan, Budget& budget, const DriveState* wheels = nullptr);
 
   /// Goes on from where a previous run ended. To be called before the first scan. `scans` are the
   /// last ones it placed (finite points). At `stamp` the base was at `T_odom_base` and had this
@@ -96,6 +101,10 @@ class LidarOdometry {
   void begin_map();
   [[nodiscard]] MotionState start_hypothesis(const Selection& selected, double dt_s);
   [[nodiscard]] Fit align(const Selection& selected, double dt_s, Budget& budget);
+  [[nodiscard]] std::optional<Fit> look_farther(const Selection& selected, const Fit& first, double dt_s,
+                                                Budget& budget);
+  [[nodiscard]] bool bridged(double dt_s) const;
+  [[nodiscard]] MotionFilter moved_as_wheels_say(double dt_s) const;
   [[nodiscard]] MotionFilter anything_since_followed(double dt_s) const;
   [[nodiscard]] bool follow(const Fit& fit, const SE3& motion, double dt_s);
   [[nodiscard]] bool lose(Track track, double dt_s);
@@ -106,6 +115,7 @@ class LidarOdometry {
   void insert(const Selection& selected);
   [[nodiscard]] OdometryUpdate report(Time stamp) const;
   [[nodiscard]] OdometryUpdate report(Time stamp, const Fit& fit, Track track) const;
+  [[nodiscard]] bool placed_badly() const;
   [[nodiscard]] double known_share(const PlacedScan& scan);
 
   OdometryConfig config_;
@@ -123,6 +133,7 @@ class LidarOdometry {
   SecondLook second_look_;
   TrackingState tracking_;
   TwistCheck twist_check_;
+  WheelBridge wheels_;
   Relocaliser relocaliser_;
   /// The scan that began the map, until the next one shows how the base moved.
   struct FirstScan {
@@ -130,6 +141,7 @@ class LidarOdometry {
     std::vector<std::uint32_t> for_map;
   };
   std::optional<FirstScan> first_;
+  bool apart_ = false;  // the last scan began a map that must not be added to the one before
 };
 
 }  // namespace cairn::odometry

@@ -34,8 +34,12 @@ SecondLook::SecondLook(const OdometryConfig& config, const SE3& T_base_lidar)
       T_base_lidar_(T_base_lidar),
       search_(T_base_lidar) {}
 
-bool SecondLook::needed(const Fit& first, double dt_s) const {
-  return dt_s > config_.long_step_s || first.telling_share() < config_.doubtful_share * usual_share_;
+bool SecondLook::needed(const Fit& first, double dt_s) const { return dt_s > config_.long_step_s || doubtful(first); }
+
+bool SecondLook::doubtful(const Fit& fit) const { return fit.telling_share() < config_.doubtful_share * usual_share_; }
+
+bool SecondLook::sure(const Fit& fit, double dt_s) const {
+  return dt_s <= config_.unsure_after_s || fit.telling_share() >= config_.sure_share * usual_share_;
 }
 
 void SecondLook::learn(const Fit& fit) {

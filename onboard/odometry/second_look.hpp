@@ -24,6 +24,11 @@ class SecondLook {
  public:
   SecondLook(const OdometryConfig& config, const SE3& T_base_lidar);
 
+  /// The fit is worse than those of the last scans.
+  [[nodiscard]] bool doubtful(const Fit& fit) const;
+  /// A fit so long after the last one that was followed may be of a place that looks alike: it is believed only if it
+  /// is nearly as good as usual.
+  [[nodiscard]] bool sure(const Fit& fit, double dt_s) const;
   /// `first` fits worse than the last scans did, or `dt_s` is so long that the prediction says
   /// little.
   [[nodiscard]] bool needed(const Fit& first, double dt_s) const;

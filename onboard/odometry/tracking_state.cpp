@@ -34,8 +34,7 @@ TrackingState::TrackingState(const OdometryConfig& config)
     : min_matches_(config.min_matches),
       min_inlier_ratio_(config.min_inlier_ratio),
       max_speed_m_s_(config.max_speed),
-      max_angular_speed_rad_s_(config.max_angular_speed),
-      reinitialise_after_(config.reinitialise_after) {}
+      max_angular_speed_rad_s_(config.max_angular_speed) {}
 
 void TrackingState::begin(Time stamp) {
   last_stamp_ = followed_stamp_ = stamp;
@@ -51,9 +50,10 @@ void TrackingState::advance(Time stamp, double duration_s) {
   last_stamp_ = stamp;
 }
 
-Track TrackingState::judge(const Fit& fit, const SE3& motion, double dt_s, const PatchMap& map) {
-  const bool followed = plausible(fit, motion, dt_s);
-  if (!followed && ++lost_in_a_row_ < reinitialise_after_ && map.patches() > 0) return Track::kLost;
+Track TrackingState::judge(const Fit& fit, const SE3& motion, double dt_s, const PatchMap& map, bool sure,
+                           int patience) {
+  const bool followed = sure && plausible(fit, motion, dt_s);
+  if (!followed && ++lost_in_a_row_ < patience && map.patches() > 0) return Track::kLost;
   lost_in_a_row_ = 0;
   followed_stamp_ = last_stamp_.value_or(followed_stamp_);
   return followed ? Track::kFollowed : Track::kReinitialised;

@@ -45,8 +45,9 @@ class TrackingState {
   void advance(Time stamp, double duration_s);
 
   /// Judges a fit that says the base made this `motion` in `dt_s` seconds. Counts the lost scans in
-  /// a row.
-  [[nodiscard]] Track judge(const Fit& fit, const SE3& motion, double dt_s, const PatchMap& map);
+  /// a row. Not `sure`: it may be of another place. `patience`: so many lost scans in a row begin a new map.
+  [[nodiscard]] Track judge(const Fit& fit, const SE3& motion, double dt_s, const PatchMap& map, bool sure,
+                            int patience);
 
   /// Enough keypoints match, and enough of them fit.
   [[nodiscard]] bool fits(const Fit& fit) const;
@@ -56,7 +57,6 @@ class TrackingState {
 
   int min_matches_;
   double min_inlier_ratio_, max_speed_m_s_, max_angular_speed_rad_s_;
-  int reinitialise_after_;
 
   std::optional<Time> last_stamp_;
   Time followed_stamp_{};

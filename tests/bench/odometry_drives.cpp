@@ -6,6 +6,8 @@
 // starts=N      begins at N scans of each recording and goes on for 10 s; says how far off it is then
 // first=N       begins at scan N of each recording
 // A recording without ground_truth.tum is taken to stand.
+// gap=S         leaves out S seconds of scans, at 8 s and then every 12 s
+// wheels=0      without the wheels, where the recording has them
 // icp=0         without the plain ICP, which takes most of the time
 // trace=1       a line for each scan
 // KEY=VALUE     any key of the configuration's section `odometry`
@@ -19,12 +21,14 @@
 #include <string>
 #include <vector>
 
+#include "drivers/drive/wheel_decoder.hpp"
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "drivers/recording/recording_reader.hpp"
 #include "drivers/velodyne/lidar.hpp"
 #include "hal/clock.hpp"
 #include "onboard/odometry/odometry.hpp"
 #include "tests/bench/plain_icp.hpp"
+#include "tools/simulator/sensors/motor_bus.hpp"
 
 namespace cairn::odometry {
 namespace {
@@ -32,14 +36,16 @@ namespace {
 struct Settings {
   OdometryConfig odometry;
   int every = 1, starts = 0, first = 0;
-  bool deskewed = false, icp = true, trace = false;
+  double gap_s = 0;
+  bool deskewed = false, icp = true, trace = false, wheels = true;
 };
 
 struct Recorded {
   std::string name;
   SE3 T_base_lidar;
   std::vector<Scan> scans;
-  std::vector<SE3> truth;  // T_world_base at each scan's end
+  std::vector<SE3> truth;                         // T_world_base at each scan's end
+  std::vector<std::optional<DriveState>> wheels;  // newest at each scan's end
 };
 
 class Truth {
@@ -72,24 +78,37 @@ void deskew_with(const Truth& truth, const SE3& T_base_lidar, Scan& scan) {
   scan.cloud.offset_ns.clear();
 }
 
+/// Scan `n` of a LiDAR of 10 Hz falls into a gap.
+bool in_a_gap(int n, double gap_s) {
+  constexpr int kFirst = 80, kPeriod = 120;
+  return n >= kFirst && (n - kFirst) % kPeriod < static_cast<int>(10 * gap_s);
+}
+
 Recorded load(const std::filesystem::path& folder, const Settings& settings) {
   auto reader = recording::RecordingReader::open(folder).value();
   const auto& source = reader->recording().sources.front();
   Recorded out{
-      folder.parent_path().filename().string() + "/" + folder.filename().string(), source.T_base_sensor(), {}, {}};
+      folder.parent_path().filename().string() + "/" + folder.filename().string(), source.T_base_sensor(), {}, {}, {}};
   Monitor monitor;
   const auto lidar = velodyne::Lidar::create({}, SourceId{}, monitor).value();
+  const auto wheels = drive::WheelDecoder::create(simulator::husky_drive()).value();
+  std::optional<DriveState> rolled;
   const Truth truth(folder / "ground_truth.tum");
   Packet packet;
   int n = 0;
   while (true) {
     const auto poll = reader->next(packet, Duration::zero());
     if (!poll || *poll == Poll::kEnd) break;
+    if (const auto& kind = reader->recording().sources[static_cast<std::size_t>(packet.source)].kind;
+        kind == recording::kDrive) {
+      if (const auto state = wheels->decode(packet); state && *state != nullptr) rolled = **state;
+    }
     if (packet.source != SourceId{0}) continue;
     const auto scan = lidar->decode(packet);
-    if (!scan || *scan == nullptr || n++ % settings.every != 0) continue;
+    if (!scan || *scan == nullptr || n++ % settings.every != 0 || in_a_gap(n, settings.gap_s)) continue;
     out.scans.push_back(**scan);
     out.truth.push_back(truth((*scan)->valid.end));
+    out.wheels.push_back(settings.wheels ? rolled : std::nullopt);
     if (settings.deskewed) deskew_with(truth, out.T_base_lidar, out.scans.back());
   }
   return out;
@@ -142,7 +161,7 @@ Figures follow(const Recorded& drive, const Settings& settings, std::size_t firs
   for (std::size_t i = first; i < std::min(first + count, drive.scans.size()); ++i) {
     Budget budget = Budget::steps(most_steps(settings.odometry));
     const Duration begun = thread_cpu_time();
-    const auto u = odometry.update(drive.scans[i], budget);
+    const auto u = odometry.update(drive.scans[i], budget, drive.wheels[i] ? &*drive.wheels[i] : nullptr);
     const double ms = to_milliseconds(thread_cpu_time() - begun);
     if (!u) {
       std::printf("scan %zu: %s\n", i, to_string(u.error()).c_str());
@@ -219,8 +238,12 @@ bool set(Settings& s, const std::string& key, const std::string& value, std::str
     s.starts = number;
   else if (key == "first")
     s.first = number;
+  else if (key == "gap")
+    s.gap_s = std::atof(value.c_str());
   else if (key == "deskewed")
     s.deskewed = number != 0;
+  else if (key == "wheels")
+    s.wheels = number != 0;
   else if (key == "icp")
     s.icp = number != 0;
   else if (key == "trace")

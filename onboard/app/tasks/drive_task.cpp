@@ -72,6 +72,7 @@ void DriveTask::tick(Tick& tick) {
   command(tick.release());
   if (const auto state = drive_->tick(tick.release()); state && *state != nullptr) state_ = **state;
   publish(tick);
+  publish_wheels(tick);
   if (link_->feed.ended()) tick.end_of_input();
 }
 
@@ -110,6 +111,15 @@ void DriveTask::publish(Tick& tick) {
   if (out == nullptr) return;  // with the next tick
   *out = published_ = news;
   status.push(tick);
+}
+
+void DriveTask::publish_wheels(Tick& tick) {
+  if (!state_ || state_->stamp == published_wheels_) return;
+  published_wheels_ = state_->stamp;
+  DriveState* out = wheels.back(tick);
+  if (out == nullptr) return;
+  *out = *state_;
+  wheels.push(tick);
 }
 
 }  // namespace cairn::app

@@ -48,6 +48,8 @@ class DriveTask final : public scheduler::Task {
   const ReplayableCanLink::Slots can_slots{take_slots(), take_slots(), take_slots(), take_slots()};
   scheduler::InputPort<safety::FailsafeDecision> decisions{*this, "decisions"};
   scheduler::OutputPort<DriveNews> status{*this, "status"};
+  scheduler::OutputPort<DriveState> wheels{*this,
+                                           "wheels"};  ///< each new state; one is left out where the port is full
 
   /// Says where the robot is to move, at a time; none: nowhere. The task sets the epoch of the command. Called in every
   /// tick, on the task's thread.
@@ -71,6 +73,7 @@ class DriveTask final : public scheduler::Task {
   void obey(scheduler::Tick& tick);
   void command(Time now);
   void publish(scheduler::Tick& tick);
+  void publish_wheels(scheduler::Tick& tick);
 
   Planner planner_;
   std::unique_ptr<ReplayableCanLink> link_;
@@ -78,6 +81,7 @@ class DriveTask final : public scheduler::Task {
   safety::FailsafeDecision decision_;
   std::optional<std::uint32_t> epoch_;  // of the last arming
   std::optional<DriveState> state_;
+  Time published_wheels_ = Time::min();  // stamp
   DriveNews published_;
 };
 

@@ -25,6 +25,7 @@ OdometryTask::OdometryTask(const RobotProfile& profile, Robot& robot, Monitor& m
       progress_(std::move(progress)) {}
 
 void OdometryTask::tick(Tick& tick) {
+  while (const DriveState* state = wheels.take(tick)) history_.add(*state);
   while (const ArrivedScan* arrived = scans.take(tick)) {
     locate(*arrived, tick);
     if (tick.regime() != Regime::kDrain) break;
@@ -37,7 +38,9 @@ void OdometryTask::locate(const ArrivedScan& arrived, Tick& tick) {
   ArrivedMotion* out = motions.back(tick);
   const Time deadline = robot_.resuming() ? Time::max() : arrived.scan.valid.end + deadline_;
   Budget budget = tick.budget(steps_slot, deadline, max_steps_);
-  const auto located = robot_.locate(arrived.scan, budget, out != nullptr ? out->scan : dropped_);
+  const auto rolled = history_.at(arrived.scan.valid.end);
+  const auto located =
+      robot_.locate(arrived.scan, budget, out != nullptr ? out->scan : dropped_, rolled ? &*rolled : nullptr);
   tick.settle(steps_slot, budget);
   if (located && published_ != nullptr) published_->publish(*located);
   lost_ = !located || located->lost;

@@ -10,6 +10,7 @@
 #include "onboard/app/profile/robot_profile.hpp"
 #include "onboard/app/tasks/map_copier.hpp"
 #include "onboard/app/tasks/messages.hpp"
+#include "onboard/app/tasks/wheel_history.hpp"
 #include "onboard/app/team/team_messages.hpp"
 #include "onboard/safety/overload.hpp"
 #include "onboard/scheduler/ports.hpp"
@@ -24,6 +25,7 @@ class OdometryTask final : public scheduler::Task {
   const std::size_t steps_slot = take_slots();  ///< iterations granted
   scheduler::OutputPort<ArrivedMotion> motions{*this, "motions"};
   scheduler::OutputPort<OdometryNews> status{*this, "status"};
+  scheduler::InputPort<DriveState> wheels{*this, "wheels"};
 
   using Progress = std::function<void(Time, std::size_t scans)>;
 
@@ -41,6 +43,7 @@ class OdometryTask final : public scheduler::Task {
 
   Duration deadline_;
   int max_steps_;
+  WheelHistory history_;
   Robot& robot_;
   Monitor& monitor_;
   StageStats& latency_;

@@ -74,6 +74,7 @@ void RobotTasks::connect_safety(const ScheduleProfile& schedule) {
   graph.connect(drive.status, safety.drive, {.capacity = kWaitingNews, .lag = kNextTick});
   graph.connect(odometry.status, safety.odometry, {.capacity = kWaitingNews, .lag = 2 * schedule.odometry.deadline()});
   graph.connect(safety.decisions, drive.decisions, {.capacity = kWaitingNews});
+  graph.connect(drive.wheels, odometry.wheels, {.capacity = kWaitingNews, .lag = kNextTick});
 }
 
 void RobotTasks::connect_map(bool live) {

@@ -85,6 +85,24 @@ void MotionFilter::predict(double dt, const MotionNoise& noise) {
   // ⅓ instead of ¼: an acceleration that varies within the step; it also keeps the matrix
   // invertible.
   process_ << q * (dt * dt * dt * dt / 3), q * (dt * dt * dt / 2), q * (dt * dt * dt / 2), q * (dt * dt);
+  carry(motion);
+}
+
+void MotionFilter::predict_by(const UncertainPose& motion, const Vector6& twist, const Vector6& deviation, double dt) {
+  before_ = state_;
+  dt_ = dt;
+  forget_gap();
+  transition_.setZero();  // nothing is left of the twist before
+  transition_.topLeftCorner<6, 6>() = motion.mean.inverse().adjoint();
+  process_.setZero();
+  process_.topLeftCorner<6, 6>() = motion.covariance;
+  process_.bottomRightCorner<6, 6>() = deviation.cwiseAbs2().asDiagonal();
+  state_.twist = twist;
+  carry(motion.mean);
+}
+
+/// Moves state and uncertainty with transition_ and process_.
+void MotionFilter::carry(const SE3& motion) {
   local_before_ = uncertainty_.local;
   uncertainty_.local = symmetric(transition_ * uncertainty_.local * transition_.transpose() + process_);
   uncertainty_.total = symmetric(transition_ * uncertainty_.total * transition_.transpose() + process_);

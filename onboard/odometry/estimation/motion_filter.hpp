@@ -64,6 +64,9 @@ class MotionFilter {
   /// Moves the state by `dt` seconds (> 0).
   void predict(double dt, const MotionNoise& noise);
 
+  /// The same by a motion that something else has measured, and a twist with these standard deviations (m/s, rad/s).
+  void predict_by(const UncertainPose& motion, const Vector6& twist, const Vector6& deviation, double dt);
+
   /// Takes `state` for the prediction, with the uncertainty of the last predict(): what a search
   /// has found.
   void believe(const MotionState& state) { state_ = state; }
@@ -86,6 +89,7 @@ class MotionFilter {
   [[nodiscard]] const Matrix6& step_covariance() const { return step_covariance_; }
 
  private:
+  void carry(const SE3& motion);
   void follow_motion();
 
   MotionState state_;

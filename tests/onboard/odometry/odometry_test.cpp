@@ -6,71 +6,15 @@
 #include <limits>
 #include <random>
 
-#include "tests/support/box_world.hpp"
-#include "tests/support/scenes.hpp"
+#include "tests/onboard/odometry/ride.hpp"
 
 namespace cairn::odometry {
 namespace {
-
-const SE3 kMount = SE3::from_xyz_rpy((Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished());
 
 SE3 drive(double t) {
   return SE3::from_xyz_rpy(
       (Vector6() << 5 + 0.9 * t, 4 + 0.3 * std::sin(t), 0, 0, 0, 0.15 * std::sin(0.8 * t)).finished());
 }
-
-/// One scan after the other from a ride through a world, and what the odometry made of it.
-class Ride {
- public:
-  Ride(const support::World& world, support::Path path, unsigned threads = 1)
-      : world_(world), path_(std::move(path)), lidar_(kMount, 0.02, 1), workers_(threads) {}
-
-  OdometryUpdate step() {
-    const Scan scan = lidar_.scan(world_, path_, 0.1 * count_++);
-    return feed(scan);
-  }
-  /// Scans that are made and never come.
-  void lose(int scans) {
-    for (int i = 0; i < scans; ++i) (void)lidar_.scan(world_, path_, 0.1 * count_++);
-  }
-  /// The last `share` of the next revolution alone, as after a pause.
-  Result<OdometryUpdate> step_with_the_end_of_a_scan(double share) {
-    const Scan whole = lidar_.scan(world_, path_, 0.1 * count_++);
-    Scan part = whole;
-    part.cloud = {};
-    part.incomplete = true;
-    const auto skipped =
-        static_cast<std::uint32_t>((1 - share) * static_cast<double>((whole.valid.end - whole.valid.start).count()));
-    part.valid.start = whole.valid.start + Duration(skipped);
-    for (std::size_t i = 0; i < whole.cloud.size(); ++i)
-      if (whole.cloud.offset_ns[i] >= skipped)
-        part.cloud.push_back(whole.cloud.xyz[i], 0, whole.cloud.offset_ns[i] - skipped, 0, ReturnType::kStrongest);
-    Budget budget = Budget::steps(most_steps({}));
-    return odometry_.update(part, budget);
-  }
-  OdometryUpdate feed(const Scan& scan) {
-    Budget budget = Budget::steps(most_steps({}));
-    const auto update = odometry_.update(scan, budget);
-    EXPECT_TRUE(update) << to_string(update.error());
-    if (count_ == 1) T_world_odom_ = path_(to_seconds(scan.valid.end));
-    return *update;
-  }
-  /// T_estimate⁻¹·T_truth as a tangent vector.
-  [[nodiscard]] Vector6 error(const OdometryUpdate& update) const {
-    const SE3 truth = T_world_odom_.inverse() * path_(to_seconds(update.stamp));
-    return (update.T_odom_base.mean.inverse() * truth).log();
-  }
-  LidarOdometry& odometry() { return odometry_; }
-
- private:
-  support::World world_;
-  support::Path path_;
-  support::Vlp16 lidar_;
-  Workers workers_;
-  LidarOdometry odometry_{OdometryConfig{}, kMount, workers_};
-  SE3 T_world_odom_;
-  int count_ = 0;
-};
 
 TEST(Odometry, FollowsARideThroughALobbyToCentimetres) {
   Ride ride(support::lobby().world, drive);

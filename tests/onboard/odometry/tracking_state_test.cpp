@@ -30,13 +30,11 @@ PatchMap map_of(std::size_t points) {
 
 class Tracking : public ::testing::Test {
  protected:
-  Track judge(const Fit& f, const SE3& motion = {}) { return state_.judge(f, motion, kScan_s, map_); }
-  static TrackingState with(int reinitialise_after) {
-    OdometryConfig config;
-    config.reinitialise_after = reinitialise_after;
-    return TrackingState(config);
+  static constexpr int kPatience = 4;
+  Track judge(const Fit& f, const SE3& motion = {}, bool sure = true) {
+    return state_.judge(f, motion, kScan_s, map_, sure, kPatience);
   }
-  TrackingState state_ = with(4);
+  TrackingState state_{OdometryConfig{}};
   PatchMap map_ = map_of(5000), empty_ = map_of(0);
 };
 
@@ -103,7 +101,11 @@ TEST_F(Tracking, LostScansInARowBeginANewMap) {
 }
 
 TEST_F(Tracking, AMapWithoutPatchesIsGivenUpAtOnce) {
-  EXPECT_EQ(state_.judge(fit_of(0, 0), {}, kScan_s, empty_), Track::kReinitialised);
+  EXPECT_EQ(state_.judge(fit_of(0, 0), {}, kScan_s, empty_, true, kPatience), Track::kReinitialised);
+}
+
+TEST_F(Tracking, AFitThatMayBeOfAnotherPlaceIsNotFollowed) {
+  EXPECT_EQ(judge(fit_of(100, 100), {}, false), Track::kLost);
 }
 
 TEST_F(Tracking, EveryOutcomeHasAName) {

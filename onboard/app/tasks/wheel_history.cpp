@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/tasks/wheel_history.hpp"
+
+#include <algorithm>
+
+namespace cairn::app {
+
+void WheelHistory::add(const DriveState& state) {
+  if (!states_.empty() && state.stamp <= states_.back().stamp) return;
+  states_.push_back(state);
+  while (states_.front().stamp < state.stamp - kKept) states_.pop_front();
+}
+
+std::optional<DriveState> WheelHistory::at(Time t) const {
+  const auto after = std::ranges::upper_bound(states_, t, {}, &DriveState::stamp);
+  if (after == states_.begin()) return std::nullopt;
+  DriveState state = *(after - 1);
+  if (t - state.stamp > kMaxAge) return std::nullopt;
+  Vector6 moved = Vector6::Zero();
+  moved[0] = state.v;
+  moved[5] = state.w;
+  state.T_odom_base.mean = state.T_odom_base.mean * SE3::exp(to_seconds(t - state.stamp) * moved);
+  state.stamp = t;
+  return state;
+}
+
+}  // namespace cairn::app

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/odometry/estimation/wheel_bridge.hpp"
+
+namespace cairn::odometry {
+namespace {
+
+// Wheels slip more than their model says, and their stamps are off by some milliseconds. Height and tilt come from the
+// ground. All chosen by hand.
+constexpr double kDistrust = 2.0;
+constexpr double kLeast_m = 0.05, kLeastHeight_m = 0.1, kLeastTilt_rad = 0.05, kLeastYaw_rad = 0.03;
+
+Matrix6 least() {
+  Vector6 deviation;
+  deviation << kLeast_m, kLeast_m, kLeastHeight_m, kLeastTilt_rad, kLeastTilt_rad, kLeastYaw_rad;
+  return deviation.cwiseAbs2().asDiagonal();
+}
+
+}  // namespace
+
+void WheelBridge::note(const DriveState* wheels) { now_ = wheels != nullptr ? std::optional(*wheels) : std::nullopt; }
+
+void WheelBridge::followed() { followed_ = now_; }
+
+std::optional<UncertainPose> WheelBridge::since_followed() const {
+  if (!now_ || !followed_) return std::nullopt;
+  const SE3 motion = followed_->T_odom_base.mean.inverse() * now_->T_odom_base.mean;
+  const Matrix6 carry = motion.inverse().adjoint();
+  // Dead reckoning adds the motion's own error to the old one, carried along.
+  const Matrix6 own = now_->T_odom_base.covariance - carry * followed_->T_odom_base.covariance * carry.transpose();
+  return UncertainPose{.mean = motion, .covariance = kDistrust * kDistrust * own + least()};
+}
+
+Vector6 WheelBridge::twist() const {
+  Vector6 twist = Vector6::Zero();
+  if (now_) twist << now_->v, 0, 0, 0, 0, now_->w;
+  return twist;
+}
+
+}  // namespace cairn::odometry

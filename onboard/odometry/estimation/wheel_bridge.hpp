@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <optional>
+
+#include "hal/drive.hpp"
+#include "hal/se3.hpp"
+
+namespace cairn::odometry {
+
+/// What the wheels say of the motion since the last scan that was followed. It stands in where scans do not tell: over
+/// a gap, and while the robot is lost.
+class WheelBridge {
+ public:
+  /// The wheels' state at the scan that comes now, or null where there is none.
+  void note(const DriveState* wheels);
+  /// The scan that came last was followed.
+  void followed();
+  /// Nothing connects to what comes next.
+  void forget() { followed_.reset(); }
+
+  /// Motion of the base since the last followed scan, with the wheels' covariance (of a right perturbation), widened by
+  /// what wheels do not measure. None without wheels, now or then.
+  [[nodiscard]] std::optional<UncertainPose> since_followed() const;
+  /// Of base_link in base_link, m/s and rad/s. Valid where since_followed() is.
+  [[nodiscard]] Vector6 twist() const;
+
+ private:
+  std::optional<DriveState> now_, followed_;
+};
+
+}  // namespace cairn::odometry

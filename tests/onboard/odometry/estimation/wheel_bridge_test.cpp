@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/odometry/estimation/wheel_bridge.hpp"
+
+#include <gtest/gtest.h>
+
+#include <Eigen/Eigenvalues>
+
+namespace cairn::odometry {
+namespace {
+
+DriveState at(double x, double yaw, double variance) {
+  DriveState state;
+  state.T_odom_base.mean = SE3::from_xyz_rpy((Vector6() << x, 0, 0, 0, 0, yaw).finished());
+  state.T_odom_base.covariance = variance * Matrix6::Identity();
+  state.v = 1.5;
+  state.w = -0.3;
+  return state;
+}
+
+TEST(WheelBridge, SaysNothingWithoutWheelsNowOrThen) {
+  WheelBridge bridge;
+  const DriveState state = at(1, 0, 0.01);
+  EXPECT_FALSE(bridge.since_followed());
+  bridge.note(&state);
+  EXPECT_FALSE(bridge.since_followed()) << "no wheels at a followed scan";
+  bridge.followed();
+  EXPECT_TRUE(bridge.since_followed());
+  bridge.note(nullptr);
+  EXPECT_FALSE(bridge.since_followed()) << "no wheels now";
+}
+
+TEST(WheelBridge, GivesTheMotionSinceTheLastFollowedScan) {
+  WheelBridge bridge;
+  const DriveState then = at(3, 0.2, 0.01), now = at(5, 0.9, 0.02);
+  bridge.note(&then);
+  bridge.followed();
+  bridge.note(&now);
+  const auto motion = bridge.since_followed();
+  ASSERT_TRUE(motion);
+  const SE3 wanted = then.T_odom_base.mean.inverse() * now.T_odom_base.mean;
+  EXPECT_LT((motion->mean.inverse() * wanted).log().norm(), 1e-12);
+  EXPECT_EQ(bridge.twist(), (Vector6() << 1.5, 0, 0, 0, 0, -0.3).finished());
+}
+
+/// The error of the way before the last followed scan is in both states. It is no error of the motion between.
+TEST(WheelBridge, OldErrorsOfTheWheelsDoNotCount) {
+  WheelBridge bridge;
+  DriveState then = at(0, 0, 0);
+  then.T_odom_base.covariance = 4.0 * Matrix6::Identity();
+  DriveState now = then;
+  bridge.note(&then);
+  bridge.followed();
+  bridge.note(&now);
+  const Matrix6 standing = bridge.since_followed()->covariance;
+  EXPECT_LT(standing.diagonal().maxCoeff(), 0.011) << "only what wheels do not measure";
+  now.T_odom_base.covariance(0, 0) += 0.01;
+  bridge.note(&now);
+  EXPECT_NEAR(bridge.since_followed()->covariance(0, 0) - standing(0, 0), 0.04, 1e-12) << "distrusted twice";
+  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix6>(bridge.since_followed()->covariance).eigenvalues().minCoeff(), 0);
+}
+
+}  // namespace
+}  // namespace cairn::odometry

@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+// Times in which no scan comes, or none that fits.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/onboard/odometry/ride.hpp"
+
+namespace cairn::odometry {
+namespace {
+
+/// Drives 10 m along a hallway with the same doors on both sides, turns around in its middle and goes back, in 8 s from
+/// 1.5 s on.
+SE3 there_and_back(double t) {
+  const double since = std::clamp(t - 1.5, 0.0, 8.0);
+  const double x = since < 3 ? 1.2 * since : since < 5 ? 3.6 : 3.6 - 1.2 * (since - 5);
+  const double yaw = std::clamp((since - 3) / 2, 0.0, 1.0) * M_PI;
+  return SE3::from_xyz_rpy((Vector6() << 8 + x, 4, 0, 0, 0, yaw).finished());
+}
+
+Scan blind(double t) {
+  Scan scan;
+  scan.valid = {Time{from_seconds(t - 0.1)}, Time{from_seconds(t)}};
+  return scan;
+}
+
+TEST(Gap, FiveSecondsWithATurnAreBridgedByTheWheels) {
+  for (const auto& scene : {support::lobby(), support::office()}) {
+    Ride ride(scene.world, there_and_back);
+    ride.roll([&](double t) { return ride.true_wheels(t); });
+    for (int i = 0; i < 25; ++i) ride.step();
+    ride.lose(50);
+    OdometryUpdate last;
+    for (int i = 0; i < 3; ++i) {
+      last = ride.step();
+      EXPECT_FALSE(last.lost) << i;
+    }
+    EXPECT_LT(ride.error(last).head<3>().norm(), 0.1);
+    EXPECT_LT(ride.error(last).tail<3>().norm(), 0.03);
+  }
+}
+
+/// Without wheels the robot may be found or not. It is never taken for somewhere else.
+TEST(Gap, WithoutWheelsAPlaceThatLooksAlikeIsNotBelieved) {
+  for (const auto& scene : {support::office(), support::corridor()}) {
+    Ride ride(scene.world, there_and_back);
+    for (int i = 0; i < 25; ++i) ride.step();
+    ride.lose(50);
+    for (int i = 0; i < 3; ++i) {
+      const OdometryUpdate update = ride.step();
+      const Eigen::Vector2d sigma = update.T_odom_base.covariance.diagonal().head<2>().cwiseSqrt();
+      const Vector6 error = ride.error(update);
+      EXPECT_LT(std::abs(error[0]), 3 * sigma[0] + 0.05) << i << " lost: " << update.lost;
+      EXPECT_LT(std::abs(error[1]), 3 * sigma[1] + 0.05) << i << " lost: " << update.lost;
+    }
+  }
+}
+
+/// The wheels spin on the spot while the robot stands.
+TEST(Gap, WheelsThatSpinAreFoundOut) {
+  Ride ride(support::lobby().world, [](double) { return there_and_back(2); });
+  const auto spinning = [&](double t) {
+    DriveState state = ride.true_wheels(t);
+    const double spun = std::max(t - 2, 0.0);
+    state.T_odom_base.mean = state.T_odom_base.mean * SE3::exp((Vector6() << spun, 0, 0, 0, 0, 0).finished());
+    return state;
+  };
+  ride.roll(spinning);
+  for (int i = 0; i < 20; ++i) ride.step();
+  ride.lose(20);
+  OdometryUpdate last;
+  for (int i = 0; i < 3; ++i) last = ride.step();
+  EXPECT_FALSE(last.lost);
+  EXPECT_LT(ride.error(last).norm(), 0.05);
+}
+
+/// Where wheels say how the new map lies to the one before, it goes on. Where nothing does, it is a map of its own.
+TEST(Gap, AMapThatBeginsSomewhereUnknownIsApart) {
+  for (const bool wheels : {false, true}) {
+    Ride ride(support::lobby().world, there_and_back);
+    if (wheels) ride.roll([&](double t) { return ride.true_wheels(t); });
+    for (int i = 0; i < 30; ++i) ride.step();
+    int lost = 0;
+    OdometryUpdate update;
+    for (; !update.reinitialised && lost < 100; ++lost) update = ride.feed(blind(3.1 + 0.1 * lost));
+    EXPECT_EQ(lost, wheels ? OdometryConfig{}.reinitialise_after : OdometryConfig{}.give_up_after);
+    EXPECT_EQ(update.apart, !wheels);
+  }
+}
+
+}  // namespace
+}  // namespace cairn::odometry

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <functional>
+#include <optional>
+#include <utility>
+
+#include "onboard/odometry/odometry.hpp"
+#include "tests/support/box_world.hpp"
+#include "tests/support/scenes.hpp"
+
+namespace cairn::odometry {
+
+inline const SE3 kMount = SE3::from_xyz_rpy((Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished());
+
+/// One scan after the other from a ride through a world, and what the odometry made of it.
+class Ride {
+ public:
+  Ride(const support::World& world, support::Path path, unsigned threads = 1)
+      : world_(world), path_(std::move(path)), lidar_(kMount, 0.02, 1), workers_(threads) {}
+
+  OdometryUpdate step() {
+    const Scan scan = lidar_.scan(world_, path_, 0.1 * count_++);
+    return feed(scan);
+  }
+  /// Scans that are made and never come.
+  void lose(int scans) {
+    for (int i = 0; i < scans; ++i) (void)lidar_.scan(world_, path_, 0.1 * count_++);
+  }
+  /// The last `share` of the next revolution alone, as after a pause.
+  Result<OdometryUpdate> step_with_the_end_of_a_scan(double share) {
+    const Scan whole = lidar_.scan(world_, path_, 0.1 * count_++);
+    Scan part = whole;
+    part.cloud = {};
+    part.incomplete = true;
+    const auto skipped =
+        static_cast<std::uint32_t>((1 - share) * static_cast<double>((whole.valid.end - whole.valid.start).count()));
+    part.valid.start = whole.valid.start + Duration(skipped);
+    for (std::size_t i = 0; i < whole.cloud.size(); ++i)
+      if (whole.cloud.offset_ns[i] >= skipped)
+        part.cloud.push_back(whole.cloud.xyz[i], 0, whole.cloud.offset_ns[i] - skipped, 0, ReturnType::kStrongest);
+    Budget budget = Budget::steps(most_steps({}));
+    return odometry_.update(part, budget);
+  }
+  OdometryUpdate feed(const Scan& scan) {
+    Budget budget = Budget::steps(most_steps({}));
+    const auto rolled = wheels_ ? std::optional(wheels_(to_seconds(scan.valid.end))) : std::nullopt;
+    const auto update = odometry_.update(scan, budget, rolled ? &*rolled : nullptr);
+    EXPECT_TRUE(update) << to_string(update.error());
+    if (count_ == 1) T_world_odom_ = path_(to_seconds(scan.valid.end));
+    return *update;
+  }
+  /// T_estimate⁻¹·T_truth as a tangent vector.
+  [[nodiscard]] Vector6 error(const OdometryUpdate& update) const {
+    const SE3 truth = T_world_odom_.inverse() * path_(to_seconds(update.stamp));
+    return (update.T_odom_base.mean.inverse() * truth).log();
+  }
+  /// What the wheels say at a time in seconds, from now on.
+  void roll(std::function<DriveState(double)> wheels) { wheels_ = std::move(wheels); }
+  /// Wheels that say where the path is, to a share of the way.
+  [[nodiscard]] DriveState true_wheels(double t) const {
+    DriveState state;
+    state.stamp = Time{from_seconds(t)};
+    state.T_odom_base.mean = path_(t);
+    state.T_odom_base.covariance = 1e-4 * (1 + t) * Matrix6::Identity();
+    const Vector6 twist = (path_(t - 0.01).inverse() * path_(t)).log() / 0.01;
+    state.v = twist[0];
+    state.w = twist[5];
+    return state;
+  }
+  LidarOdometry& odometry() { return odometry_; }
+
+ private:
+  support::World world_;
+  support::Path path_;
+  support::Vlp16 lidar_;
+  Workers workers_;
+  LidarOdometry odometry_{OdometryConfig{}, kMount, workers_};
+  std::function<DriveState(double)> wheels_;
+  SE3 T_world_odom_;
+  int count_ = 0;
+};
+
+}  // namespace cairn::odometry
