@@ -22,9 +22,6 @@ MotionFilter::Uncertainty at_the_start(const OdometryConfig& c) {
 // while it turned has often ended the turn.
 constexpr double kTwistBelieved_s = 0.2;
 
-// m/s and rad/s, standard deviation of a twist that wheels tell. Chosen by hand.
-const Vector6 kWheelTwist = (Vector6() << 0.3, 0.2, 0.1, 0.3, 0.3, 0.3).finished();
-
 // A new map that begins at a pose with a larger standard deviation is not added to the one before. Chosen by hand.
 constexpr double kConnected_m = 0.3, kConnected_rad = 0.06;
 
@@ -152,7 +149,7 @@ bool LidarOdometry::bridged(double dt_s) const {
 
 MotionFilter LidarOdometry::moved_as_wheels_say(double dt_s) const {
   MotionFilter moved = followed_;
-  moved.predict_by(*wheels_.since_followed(), wheels_.twist(), kWheelTwist, dt_s);
+  moved.predict_by(*wheels_.since_followed(), wheels_.twist(), WheelBridge::twist_deviation(), dt_s);
   return moved;
 }
 

@@ -24,6 +24,8 @@ class WheelBridge {
   [[nodiscard]] std::optional<UncertainPose> since_followed() const;
   /// Of base_link in base_link, m/s and rad/s. Valid where since_followed() is.
   [[nodiscard]] Vector6 twist() const;
+  /// Standard deviations of twist(), m/s and rad/s. Chosen by hand.
+  [[nodiscard]] static Vector6 twist_deviation() { return (Vector6() << 0.3, 0.2, 0.1, 0.3, 0.3, 0.3).finished(); }
 
  private:
   std::optional<DriveState> now_, followed_;
