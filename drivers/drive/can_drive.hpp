@@ -31,6 +31,8 @@ class CanDrive final : public Drive {
   Result<const DriveState*> tick(Time now) override;
   [[nodiscard]] DriveStatus status() const override { return guard_.status(); }
 
+  /// The scales are known: tick() returns states of the wheels.
+  [[nodiscard]] bool reads_wheels() const { return decoder_ != nullptr; }
   [[nodiscard]] const Counters& counters() const { return counters_; }
   [[nodiscard]] const LinkMonitor& link_monitor() const { return monitor_; }
   [[nodiscard]] const Protocol& protocol() const { return *protocol_; }

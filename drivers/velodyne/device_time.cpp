@@ -62,7 +62,7 @@ Duration DeviceTime::step_from_last(std::uint32_t counter_us, Time arrival) cons
   return std::chrono::microseconds(best);
 }
 
-/// What the packet is, and the filter's sample of it.
+/// What the packet is. A packet that is used gives the filter its sample.
 DeviceTime::Kind DeviceTime::judge(Duration step, Time arrival, Duration sample) {
   if (!started_) return Kind::kFirst;
   if (const auto why = contradiction(step, arrival, sample)) return ++set_aside_ <= kMaxSetAside ? *why : Kind::kJump;

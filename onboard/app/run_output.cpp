@@ -120,8 +120,12 @@ void add_ground_truth(const RunFacts& facts, report::RunReport& report) {
     for (const auto& p : *truth) report.ground_truth.push_back({p.stamp + shift_of(facts), p.pose});
 }
 
-/// One file for each epoch that ended during the run: their maps do not lie in the frame of map.cairn.
+/// One file for each epoch that ended during the run: their maps do not lie in the frame of map.cairn. Those of another
+/// run in the same folder go.
 Result<void> write_earlier_maps(const RunFacts& facts, std::vector<fs::path>& hashed) {
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(facts.options.out, ignored))
+    if (entry.path().filename().string().starts_with("map-epoch-")) fs::remove(entry.path(), ignored);
   for (const EarlierMap& map : facts.tasks.robot.earlier_maps()) {
     hashed.push_back(facts.options.out / ("map-epoch-" + std::to_string(map.epoch) + ".cairn"));
     if (const auto r = mapping::save_cairn(*map.tree, hashed.back()); !r) return r.error();

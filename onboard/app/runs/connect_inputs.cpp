@@ -13,6 +13,16 @@ scheduler::Feed::Tap tap(Recorder* recorder, std::size_t packets, std::size_t by
   return recorder != nullptr ? recorder->tap(packets, bytes) : scheduler::Feed::Tap{};
 }
 
+Result<void> connect_drive(RobotTasks& tasks, const RunContext& context, Input& input, SourceId id,
+                           Recorder* recorder) {
+  const auto attached = tasks.drive.attach(context.profile.drive.driver, *input.source, id, input.can,
+                                           tap(recorder, kWaitingPackets, scheduler::Feed::kSmall));
+  if (attached && !tasks.drive.drive()->reads_wheels())
+    context.monitor.event({}, "drive",
+                          "its wheels are not read, so they bridge no gap of the LiDAR: the profile has no scales");
+  return attached;
+}
+
 Result<void> connect(RobotTasks& tasks, const RunContext& context, Input& input, SourceId id, Recorder* recorder,
                      const scheduler::Feed::Tap& received) {
   const RobotProfile& profile = context.profile;
@@ -21,9 +31,7 @@ Result<void> connect(RobotTasks& tasks, const RunContext& context, Input& input,
                              tap(recorder, kWaitingEdges, scheduler::Feed::kSmall));
     return {};
   }
-  if (input.entry.kind == recording::kDrive)
-    return tasks.drive.attach(profile.drive.driver, *input.source, id, input.can,
-                              tap(recorder, kWaitingPackets, scheduler::Feed::kSmall));
+  if (input.entry.kind == recording::kDrive) return connect_drive(tasks, context, input, id, recorder);
   if (input.entry.kind == recording::kPeers)
     tasks.team->team().attach(*input.source, id, input.peers, tap(recorder, kWaitingPackets, peer_link::kMaxPacket));
   else if (!tasks.receive.add(input, id, received))

@@ -16,7 +16,7 @@ using Kind = DeviceTime::Kind;
 
 constexpr Duration kPacketSpan{1'327'104};  // VLP-16, single return
 
-/// Packets of an even device, each with its delay, until `seconds` have passed.
+/// An even device, and a host that gets each of its packets with a delay.
 struct Delivery {
   std::mt19937_64 random;
   DeviceTime device_time;

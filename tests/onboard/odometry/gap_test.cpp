@@ -2,18 +2,18 @@
 // Times in which no scan comes, or none that fits.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "tests/onboard/odometry/ride.hpp"
 
 namespace cairn::odometry {
 namespace {
 
-/// Drives 10 m along a hallway with the same doors on both sides, turns around in its middle and goes back, in 8 s from
-/// 1.5 s on.
+/// From 1.5 s on: 3.6 m ahead in 3 s, half a turn in 2 s, and 3.6 m on in the new direction.
 SE3 there_and_back(double t) {
   const double since = std::clamp(t - 1.5, 0.0, 8.0);
   const double x = since < 3 ? 1.2 * since : since < 5 ? 3.6 : 3.6 - 1.2 * (since - 5);
-  const double yaw = std::clamp((since - 3) / 2, 0.0, 1.0) * M_PI;
+  const double yaw = std::clamp((since - 3) / 2, 0.0, 1.0) * std::numbers::pi;
   return SE3::from_xyz_rpy((Vector6() << 8 + x, 4, 0, 0, 0, yaw).finished());
 }
 

@@ -47,6 +47,21 @@ struct ConnectInputsTest : ::testing::Test {
   std::optional<RobotTasks> tasks;
 };
 
+TEST_F(ConnectInputsTest, WheelsThatCannotBeReadAreSaid) {
+  profile = load_profile(places::source() / "config/husky.yaml").value();
+  add(recording::kDrive, Time{2s});
+  connect();
+  ASSERT_EQ(monitor.events().size(), 1U);
+  EXPECT_THAT(monitor.events().front().what, ::testing::HasSubstr("the profile has no scales"));
+
+  Monitor quiet;
+  profile.drive.driver.velocity_units_per_rad_s = 1000;
+  profile.drive.driver.position_counts_per_rad = 12'000;
+  RobotTasks with_scales(door.recording.sources, profile, options, previous, quiet);
+  ASSERT_TRUE(connect_inputs(with_scales, {door, profile, options, previous, quiet}, nullptr));
+  EXPECT_TRUE(quiet.events().empty());
+}
+
 TEST_F(ConnectInputsTest, EveryInputGoesToTheTaskThatReadsIt) {
   profile = load_profile(places::source() / "config/husky.yaml").value();
   add(recording::kScans, Time{4s});
