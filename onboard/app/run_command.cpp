@@ -14,6 +14,7 @@
 #include "onboard/app/run.hpp"
 #include "onboard/report/json/budgets.hpp"
 #include "onboard/report/json/report_json.hpp"
+#include "onboard/report/summary.hpp"
 
 namespace cairn::app {
 namespace {
@@ -31,24 +32,8 @@ void show_progress(Time now, std::size_t scans) {
 }
 
 void print_summary(const report::RunReport& r, const std::filesystem::path& out) {
-  std::printf("%s: %zu scans in %.1f s, %.2f m travelled, %llu packets lost\n", r.robot.c_str(),
-              static_cast<std::size_t>(r.scans), r.duration_s, r.distance_m,
-              static_cast<unsigned long long>(r.lost_packets));
-  for (const auto& [device, losses] : r.losses)
-    for (const auto& [name, n] : losses)
-      if (n > 0) std::printf("  %s: %s %llu\n", device.c_str(), name.c_str(), static_cast<unsigned long long>(n));
-  for (const StageStats& s : r.monitor->stages()) {
-    if (s.wall.count() == 0) continue;  // latencies exist in real time only
-    std::printf("  %-9s p50 %7.3f ms  p99 %7.3f ms  max %7.3f ms\n", s.name.c_str(),
-                to_milliseconds(s.wall.percentile(0.5)), to_milliseconds(s.wall.percentile(0.99)),
-                to_milliseconds(s.wall.max()));
-  }
-  std::printf("  map: %llu occupied and %llu free voxels of %.2f m\n", static_cast<unsigned long long>(r.map.occupied),
-              static_cast<unsigned long long>(r.map.free), r.map.resolution_m);
-  for (const Event& e : r.monitor->events())
-    std::printf("  event: %s: %s (%llu times)\n", e.stage.c_str(), e.what.c_str(),
-                static_cast<unsigned long long>(e.count));
-  std::printf("  output_sha256 %s\n  %s\n", r.output_sha256.c_str(), (out / "report.html").c_str());
+  std::printf("%s  output_sha256 %s\n  %s\n", report::to_summary(r).c_str(), r.output_sha256.c_str(),
+              (out / "report.html").c_str());
 }
 
 /// Prints the table; the exit code says whether everything was kept.
@@ -56,8 +41,8 @@ int judge(const std::vector<report::BudgetLimit>& limits, const report::RunRepor
   const auto verdicts = report::check_budgets(limits, report::to_json(report));
   if (!verdicts) return fail(verdicts.error());
   std::fprintf(stderr, "%s", report::to_table(*verdicts).c_str());
-  if (report::all_kept(*verdicts)) return kDone;
-  return fail({Errc::kLimit, "budgets were exceeded", report.robot, {}, "see the table above"});
+  const auto kept = report::all_kept(*verdicts);
+  return kept ? kDone : fail(at(report.robot, kept.error()));
 }
 
 int show_tasks(const RunOptions& options) {

@@ -8,6 +8,7 @@
 #include "drivers/recording/formats/utc.hpp"
 #include "hal/files/file.hpp"
 #include "onboard/app/door/door.hpp"
+#include "onboard/app/door/fitted.hpp"
 #include "onboard/app/run.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
 #include "onboard/app/team/team_output.hpp"
@@ -33,15 +34,18 @@ Result<void> write_trajectory(const fs::path& file, const std::vector<TrackPoint
 
 report::OdometryStats odometry_stats(const std::vector<TrackPoint>& track) {
   report::OdometryStats stats;
+  double iterations = 0;
   for (const TrackPoint& p : track) {
     stats.degenerate_scans += p.degenerate_directions > 0 ? 1U : 0U;
     stats.lost_scans += p.lost ? 1U : 0U;
-    stats.mean_iterations += static_cast<double>(p.iterations) / static_cast<double>(track.size());
+    iterations += p.iterations;
   }
+  if (!track.empty()) stats.mean_iterations = iterations / static_cast<double>(track.size());
   return stats;
 }
 
-double length_m(const std::vector<TrackPoint>& track) {
+std::optional<double> length_m(const std::vector<TrackPoint>& track) {
+  if (track.empty()) return std::nullopt;
   double length = 0;
   for (std::size_t i = 1; i < track.size(); ++i)
     length += (track[i].T_odom_base.mean.translation() - track[i - 1].T_odom_base.mean.translation()).norm();
@@ -52,8 +56,13 @@ double length_m(const std::vector<TrackPoint>& track) {
 void add_tasks(const RobotTasks& tasks, report::RunReport& report) {
   for (const scheduler::ScheduledTask& task : tasks.graph.tasks()) report.tasks.push_back({task.spec, task.stats});
   const scheduler::TaskStats& control = tasks.graph.scheduled(tasks.safety).stats;
-  report.ticks = {control.ticks, control.misses + control.slips, control.wake.max()};
-  report.control_thread_allocations = control.allocations + tasks.graph.scheduled(tasks.drive).stats.allocations;
+  report.ticks.count = control.ticks;
+  if (control.measured()) {
+    report.ticks.missed = control.misses + control.slips;
+    report.ticks.max_lateness = control.wake.max();
+  }
+  if (control.usage_measured())
+    report.control_thread_allocations = control.allocations + tasks.graph.scheduled(tasks.drive).stats.allocations;
 }
 
 /// A level that leaves nothing out is reported as `nothing`, which is first.
@@ -78,7 +87,8 @@ std::string utc_of(Time t, const recording::Recording& recording) {
 void add_input(const RunFacts& facts, report::RunReport& report) {
   const ReceiveTask::Figures& figures = facts.tasks.receive.figures();
   report.scans = figures.scans;
-  report.lost_packets = figures.lost_packets;
+  const auto& sources = facts.door.recording.sources;
+  if (figures.scans > 0 && has_kind(sources, recording::kVelodyne)) report.lost_packets = figures.lost_packets;
   for (const Input& input : facts.door.inputs)
     if (input.losses) report.losses.emplace_back(input.entry.id, input.losses());
   if (!figures.start) return;

@@ -9,12 +9,12 @@
 namespace cairn::app {
 namespace {
 
-/// Where a peer's odom frame lies in this robot's by now, by all that the team knows.
-UncertainPose pose_of(const team::Team& team, peers::RobotId peer) {
+/// Where a peer's odom frame lies in this robot's by now, by all that the team knows. None where it knows nothing.
+std::optional<UncertainPose> pose_of(const team::Team& team, peers::RobotId peer) {
   const team::TeamPoses& poses = team.poses();
   const peers::RobotId self = team.exchange().self();
+  if (!poses.T_team_odom.contains(self) || !poses.T_team_odom.contains(peer)) return std::nullopt;
   UncertainPose pose;
-  if (!poses.T_team_odom.contains(self) || !poses.T_team_odom.contains(peer)) return pose;
   pose.mean = poses.T_team_odom.at(self).inverse() * poses.T_team_odom.at(peer);
   const auto newest = [&](peers::RobotId robot) { return std::prev(poses.nodes.upper_bound({robot, 0xFFFF})); };
   const auto own = newest(self), other = newest(peer);
@@ -45,7 +45,7 @@ report::PeerStats stats_of(const TeamTask& task, peers::RobotId robot) {
     stats.tx_bytes = link->second.sent_bytes;
     stats.rx_bytes = link->second.received_bytes;
   }
-  if (const auto lag = task.lags().find(robot); lag != task.lags().end())
+  if (const auto lag = task.lags().find(robot); lag != task.lags().end() && lag->second.count() > 0)
     stats.age_p99_s = to_seconds(lag->second.percentile(0.99));
   const team::PeerStanding standing = team.standing(robot, task.last_step());
   stats.tiles = tiles_of(team, robot);

@@ -26,10 +26,11 @@ struct PoseEstimate {
   UncertainPose T_odom_base;
 };
 
-/// Ticks of the safety task.
+/// Ticks of the safety task. None in virtual time, in which ticks take no time.
 struct TickStats {
-  std::uint64_t count = 0, missed = 0;
-  Duration max_lateness{};
+  std::uint64_t count = 0;
+  std::optional<std::uint64_t> missed;
+  std::optional<Duration> max_lateness;
 };
 
 /// One fixed-rate task of the run.
@@ -40,16 +41,16 @@ struct TaskFigures {
 
 /// Totals of odometry over a run.
 struct OdometryStats {
-  std::uint64_t degenerate_scans = 0;  ///< some direction was not observable
-  std::uint64_t lost_scans = 0;        ///< registration refused; the motion was predicted
-  double mean_iterations = 0;
+  std::uint64_t degenerate_scans = 0;     ///< some direction was not observable
+  std::uint64_t lost_scans = 0;           ///< registration refused; the motion was predicted
+  std::optional<double> mean_iterations;  ///< none without a pose
 };
 
 /// One robot of the team, as this one saw it.
 struct PeerStats {
   std::uint64_t tx_bytes = 0, rx_bytes = 0, tiles = 0;
-  double age_p99_s = 0;
-  UncertainPose T_map_peer;
+  std::optional<double> age_p99_s;          ///< of its tiles; none where no tile came
+  std::optional<UncertainPose> T_map_peer;  ///< none where it is not known
   bool accepted = false;
   std::string state;                     ///< why it is accepted or not, as a word that scripts may rely on: "no_link"
   std::string reason;                    ///< the same for people, with figures
@@ -65,17 +66,19 @@ struct TeamStats {
   std::string sha256;                        ///< over team.cairn and team.tum: the same on every robot of the team
 };
 
-/// The content of report.json and report.html. The run fills it in, and write_report() writes it.
+/// The content of report.json and report.html. The run fills it in, and write_report() writes it. A figure that was not
+/// measured is none, never zero.
 struct RunReport {
   std::string robot, profile;
   std::string source;   ///< the recording, or "live"
   std::string version;  ///< of the program
   std::string started;  ///< UTC of the first packet as ISO 8601; metadata only. Empty: not known
 
-  double distance_m = 0;  ///< length of the estimated trajectory
-  double duration_s = 0;  ///< on the robot's time line
+  std::optional<double> distance_m;  ///< length of the estimated trajectory; none without a pose
+  std::optional<double> duration_s;  ///< on the robot's time line; none without a packet
   std::uint64_t scans = 0;
-  std::uint64_t lost_packets = 0;  ///< of the LiDAR, by the gaps in its data
+  /// Of the LiDAR, by the gaps in its data. None without a scan, and where scans were not recorded as packets.
+  std::optional<std::uint64_t> lost_packets;
   /// Live: what each device counted as lost or doubtful, by the device's id: "lidar", {"kernel_drops", 3}.
   std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::uint64_t>>>> losses;
   TickStats ticks;  ///< of the control task
@@ -85,7 +88,7 @@ struct RunReport {
   std::vector<std::pair<std::string, std::uint64_t>> shed;  ///< scans at each level of shedding, `nothing` first
   OdometryStats odometry;
   double peak_rss_mb = 0;
-  std::uint64_t control_thread_allocations = 0;
+  std::optional<std::uint64_t> control_thread_allocations;  ///< after the warm-up; none without ticks after it
 
   const Monitor* monitor = nullptr;  ///< stages and events; not owned, may be null, must outlive the report
   Time start{};                      ///< events and series are shown relative to this

@@ -55,16 +55,24 @@ class BudgetReader {
   std::string_view file_;
 };
 
-std::optional<double> number_at(const nlohmann::ordered_json& report, std::string_view path) {
+/// Null where the report has no such field.
+const nlohmann::ordered_json* find(const nlohmann::ordered_json& report, std::string_view path) {
   const nlohmann::ordered_json* at = &report;
   while (!path.empty()) {
+    if (!at->is_object()) return nullptr;
     const std::size_t dot = std::min(path.find('.'), path.size());
-    const auto found = at->is_object() ? at->find(std::string(path.substr(0, dot))) : at->end();
-    if (!at->is_object() || found == at->end()) return std::nullopt;
+    const auto found = at->find(std::string(path.substr(0, dot)));
+    if (found == at->end()) return nullptr;
     at = &*found;
     path.remove_prefix(std::min(dot + 1, path.size()));
   }
-  return at->is_number() ? std::optional(at->get<double>()) : std::nullopt;
+  return at;
+}
+
+std::string row(const BudgetVerdict& v, std::size_t width) {
+  const std::string measured = v.measured ? fmt::format("{:.6g}", *v.measured) : "-";
+  const char* verdict = !v.measured ? "NOT MEASURED" : v.kept() ? "kept" : "EXCEEDED";
+  return fmt::format("{:<{}}  {:>12.6g}  {:>12}  {}\n", v.limit.field, width, v.limit.at_most, measured, verdict);
 }
 
 }  // namespace
@@ -93,8 +101,11 @@ Result<std::vector<BudgetVerdict>> check_budgets(const std::vector<BudgetLimit>&
   std::vector<BudgetVerdict> verdicts;
   std::string faults;
   for (const BudgetLimit& limit : limits) {
-    if (const auto measured = number_at(report, limit.field))
-      verdicts.push_back({limit, *measured});
+    const nlohmann::ordered_json* figure = find(report, limit.field);
+    if (figure != nullptr && figure->is_number())
+      verdicts.push_back({limit, figure->get<double>()});
+    else if (figure != nullptr && figure->is_null())
+      verdicts.push_back({limit, std::nullopt});
     else
       faults += fmt::format("line {}: {}: no such number in report.json\n", limit.line, limit.field);
   }
@@ -107,14 +118,18 @@ std::string to_table(const std::vector<BudgetVerdict>& verdicts) {
   std::size_t width = 5;
   for (const BudgetVerdict& v : verdicts) width = std::max(width, v.limit.field.size());
   std::string table = fmt::format("{:<{}}  {:>12}  {:>12}\n", "field", width, "at most", "measured");
-  for (const BudgetVerdict& v : verdicts)
-    table += fmt::format("{:<{}}  {:>12.6g}  {:>12.6g}  {}\n", v.limit.field, width, v.limit.at_most, v.measured,
-                         v.kept() ? "kept" : "EXCEEDED");
+  for (const BudgetVerdict& v : verdicts) table += row(v, width);
   return table;
 }
 
-bool all_kept(const std::vector<BudgetVerdict>& verdicts) {
-  return std::all_of(verdicts.begin(), verdicts.end(), [](const BudgetVerdict& v) { return v.kept(); });
+Result<void> all_kept(const std::vector<BudgetVerdict>& verdicts) {
+  const auto missing = std::ranges::count_if(verdicts, [](const BudgetVerdict& v) { return !v.measured; });
+  const auto exceeded = std::ranges::count_if(verdicts, [](const BudgetVerdict& v) { return v.measured && !v.kept(); });
+  if (exceeded == 0 && missing == 0) return {};
+  std::string detail = fmt::format("{} of {} exceeded, {} not measured", exceeded, verdicts.size(), missing);
+  if (missing > 0)
+    detail += "; latencies, overruns and allocations are measured by a run at --speed real of more than 2 s";
+  return Error{Errc::kLimit, exceeded > 0 ? "budgets were exceeded" : "budgets were not measured", {}, {}, detail};
 }
 
 }  // namespace cairn::report

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,11 +19,12 @@ struct BudgetLimit {
   int line = 0;  ///< in the file, from 1
 };
 
-/// A limit and the value that the run measured.
+/// A limit and the value that the run measured; none where the run did not measure it, as one in virtual time does not
+/// measure latencies. What was not measured was not kept.
 struct BudgetVerdict {
   BudgetLimit limit;
-  double measured = 0;
-  [[nodiscard]] bool kept() const { return measured <= limit.at_most; }
+  std::optional<double> measured;
+  [[nodiscard]] bool kept() const { return measured && *measured <= limit.at_most; }
 };
 
 /// A budget file: a YAML mapping of report.json's fields, nested as there, to the largest value that is allowed. For
@@ -30,12 +32,13 @@ struct BudgetVerdict {
 [[nodiscard]] Result<std::vector<BudgetLimit>> parse_budgets(std::string_view yaml, std::string_view file_name);
 [[nodiscard]] Result<std::vector<BudgetLimit>> load_budgets(const std::filesystem::path& file);
 
-/// Compares limits with a report. Error kInvalidConfig: fields that are missing in the report or are no numbers, all at
-/// once. A limit that cannot be checked must not count as kept.
+/// Compares limits with a report. Error kInvalidConfig: fields that are missing in the report or are neither number nor
+/// null, all at once. A limit that cannot be checked must not count as kept.
 [[nodiscard]] Result<std::vector<BudgetVerdict>> check_budgets(const std::vector<BudgetLimit>& limits,
                                                                const nlohmann::ordered_json& report);
-/// A table for people: field, limit, measured value, kept or exceeded.
+/// A table for people: field, limit, measured value, and kept, EXCEEDED or NOT MEASURED.
 [[nodiscard]] std::string to_table(const std::vector<BudgetVerdict>& verdicts);
-[[nodiscard]] bool all_kept(const std::vector<BudgetVerdict>& verdicts);
+/// Nothing where every limit was kept; otherwise what was not, and what to do (kLimit).
+[[nodiscard]] Result<void> all_kept(const std::vector<BudgetVerdict>& verdicts);
 
 }  // namespace cairn::report

@@ -20,19 +20,28 @@ Json numbers(const auto& values) {
   return list;
 }
 
+/// A figure of a run that measured it.
+template <class T>
+Json if_measured(bool measured, const T& value) {
+  return measured ? Json(value) : Json(nullptr);
+}
+
 void add_percentiles(Json& stage, const std::string& prefix, const Histogram& times) {
-  stage[prefix + "mean_ms"] = to_milliseconds(times.mean());
-  stage[prefix + "p50_ms"] = to_milliseconds(times.percentile(0.5));
-  stage[prefix + "p99_ms"] = to_milliseconds(times.percentile(0.99));
-  stage[prefix + "p999_ms"] = to_milliseconds(times.percentile(0.999));
-  stage[prefix + "max_ms"] = to_milliseconds(times.max());
+  const auto add = [&](const char* name, Duration time) {
+    stage[prefix + name] = if_measured(times.count() > 0, to_milliseconds(time));
+  };
+  add("mean_ms", times.mean());
+  add("p50_ms", times.percentile(0.5));
+  add("p99_ms", times.percentile(0.99));
+  add("p999_ms", times.percentile(0.999));
+  add("max_ms", times.max());
 }
 
 Json stage_json(const StageStats& stats) {
   Json stage{{"count", stats.wall.count()}};
   add_percentiles(stage, "", stats.wall);
   stage["budget_ms"] = stats.budget > Duration{} ? Json(to_milliseconds(stats.budget)) : Json(nullptr);
-  stage["overruns"] = stats.overruns.get();
+  stage["overruns"] = if_measured(stats.wall.count() > 0, stats.overruns.get());
   add_percentiles(stage, "cpu_", stats.cpu);
   return stage;
 }
@@ -54,22 +63,29 @@ Json task_json(const TaskFigures& task) {
             {"rate_hz", task.spec.rate_hz},
             {"deadline_ms", to_milliseconds(task.spec.deadline())},
             {"budget_ms", task.spec.soft_ms},
-            {"slips", s.slips.get()},
-            {"missed", s.misses.get()},
-            {"miss_ratio", ratio(s.misses, s.ticks)},
-            {"slip_ratio", ratio(s.slips, s.ticks + s.slips)},
-            {"soft_overruns", s.soft_overruns.get()},
-            {"hard_overruns", s.hard_overruns.get()},
-            {"demotions", s.demotions.get()},
-            {"allocations", s.allocations.get()},
-            {"major_faults", s.major_faults.get()},
-            {"minor_faults", s.minor_faults.get()},
-            {"involuntary_switches", s.involuntary_switches.get()}};
+            {"slips", if_measured(s.measured(), s.slips.get())},
+            {"missed", if_measured(s.measured(), s.misses.get())},
+            {"miss_ratio", if_measured(s.measured(), ratio(s.misses, s.ticks))},
+            {"slip_ratio", if_measured(s.measured(), ratio(s.slips, s.ticks + s.slips))},
+            {"soft_overruns", if_measured(s.measured(), s.soft_overruns.get())},
+            {"hard_overruns", if_measured(s.measured(), s.hard_overruns.get())},
+            {"demotions", if_measured(s.measured(), s.demotions.get())},
+            {"allocations", if_measured(s.usage_measured(), s.allocations.get())},
+            {"major_faults", if_measured(s.usage_measured(), s.major_faults.get())},
+            {"minor_faults", if_measured(s.usage_measured(), s.minor_faults.get())},
+            {"involuntary_switches", if_measured(s.usage_measured(), s.involuntary_switches.get())}};
   add_percentiles(json, "response_", s.response);
   add_percentiles(json, "wake_", s.wake);
   add_percentiles(json, "execution_", s.execution);
   add_percentiles(json, "cpu_", s.cpu);
   return json;
+}
+
+Json ticks_json(const TickStats& ticks) {
+  const auto late_us = [](Duration late) { return 1e-3 * static_cast<double>(late.count()); };
+  return {{"count", ticks.count},
+          {"missed", or_null(ticks.missed)},
+          {"max_lateness_us", ticks.max_lateness ? Json(late_us(*ticks.max_lateness)) : Json(nullptr)}};
 }
 
 Json shed_json(const RunReport& report) {
@@ -111,9 +127,9 @@ Json peers_json(const RunReport& report) {
     peers[name] = {{"tx_bytes", p.tx_bytes},
                    {"rx_bytes", p.rx_bytes},
                    {"tiles", p.tiles},
-                   {"age_p99_s", p.age_p99_s},
-                   {"T_map_peer", numbers(p.T_map_peer.mean.matrix())},
-                   {"covariance", numbers(p.T_map_peer.covariance)},
+                   {"age_p99_s", or_null(p.age_p99_s)},
+                   {"T_map_peer", p.T_map_peer ? numbers(p.T_map_peer->mean.matrix()) : Json(nullptr)},
+                   {"covariance", p.T_map_peer ? numbers(p.T_map_peer->covariance) : Json(nullptr)},
                    {"accepted", p.accepted},
                    {"state", p.state},
                    {"reason", p.reason},
@@ -229,16 +245,13 @@ Json to_json(const RunReport& report) {
           {"source", report.source},
           {"version", report.version},
           {"started", report.started.empty() ? Json(nullptr) : Json(report.started)},
-          {"distance_m", report.distance_m},
-          {"duration_s", report.duration_s},
+          {"distance_m", or_null(report.distance_m)},
+          {"duration_s", or_null(report.duration_s)},
           {"scans", report.scans},
-          {"lost_packets", report.lost_packets},
+          {"lost_packets", or_null(report.lost_packets)},
           {"losses", losses_json(report)},
           {"stages", stages_json(report.monitor)},
-          {"ticks",
-           {{"count", report.ticks.count},
-            {"missed", report.ticks.missed},
-            {"max_lateness_us", 1e-3 * static_cast<double>(report.ticks.max_lateness.count())}}},
+          {"ticks", ticks_json(report.ticks)},
           {"tasks", tasks_json(report)},
           {"mode", report.mode},
           {"mode_cause", report.mode_cause},
@@ -246,11 +259,11 @@ Json to_json(const RunReport& report) {
           {"odometry",
            {{"degenerate_scans", report.odometry.degenerate_scans},
             {"lost_scans", report.odometry.lost_scans},
-            {"mean_iterations", report.odometry.mean_iterations}}},
+            {"mean_iterations", or_null(report.odometry.mean_iterations)}}},
           {"ground_truth", ground_truth_json(report)},
           {"map", map_json(report)},
           {"memory", {{"peak_rss_mb", report.peak_rss_mb}}},
-          {"allocations", {{"control_thread", report.control_thread_allocations}}},
+          {"allocations", {{"control_thread", or_null(report.control_thread_allocations)}}},
           {"peers", peers_json(report)},
           {"team", team_json(report)},
           {"events", events_json(report)},

@@ -80,14 +80,24 @@ std::string error_table(const TrajectoryError& e, std::span<const PoseError> err
 
 std::string stage_row(const StageStats& s) {
   const auto ms = [](Duration d) { return number(to_milliseconds(d)); };
+  if (s.wall.count() == 0)
+    return fmt::format("<tr><td class=\"l\">{}</td><td>0</td><td colspan=\"8\">{}</td></tr>\n", escape(s.name),
+                       kNotMeasured);
   const bool over = s.budget > Duration{} && s.wall.percentile(0.99) > s.budget;
   return fmt::format(
       "<tr><td class=\"l\">{}</td><td>{}</td><td>{}</td><td>{}</td><td "
       "class=\"{}\">{}</td><td>{}</td><td>{}</td><td>{}</td>"
       "<td>{}</td><td class=\"{}\">{}</td></tr>\n",
       escape(s.name), count(s.wall.count()), ms(s.wall.mean()), ms(s.wall.percentile(0.5)), over ? "bad" : "",
-      ms(s.wall.percentile(0.99)), ms(s.wall.percentile(0.999)), ms(s.wall.max()), ms(s.cpu.percentile(0.5)),
-      s.budget > Duration{} ? ms(s.budget) : "–", s.overruns > 0 ? "warn" : "", count(s.overruns));
+      ms(s.wall.percentile(0.99)), ms(s.wall.percentile(0.999)), ms(s.wall.max()),
+      s.cpu.count() > 0 ? ms(s.cpu.percentile(0.5)) : "–", s.budget > Duration{} ? ms(s.budget) : "–",
+      s.overruns > 0 ? "warn" : "", count(s.overruns));
+}
+
+std::string pose_cells(const std::optional<UncertainPose>& T_map_peer) {
+  if (!T_map_peer) return "<td colspan=\"2\">not known</td>";
+  const Vector6 pose = T_map_peer->mean.xyz_rpy();
+  return fmt::format("<td>{:.2f}, {:.2f}, {:.2f}</td><td>{:.1f}</td>", pose(0), pose(1), pose(2), kDegrees * pose(5));
 }
 
 }  // namespace
@@ -145,18 +155,17 @@ std::string peers_section(const RunReport& report) {
       "class=\"l\">robot</th><th>sent</th><th>received</th>"
       "<th>tiles</th><th>age p99 s</th><th>x, y, z m</th><th>yaw °</th><th class=\"l\">merged</th></tr>\n";
   for (const auto& [name, p] : report.peers) {
-    const Vector6 pose = p.T_map_peer.mean.xyz_rpy();
     s += fmt::format(
-        "<tr><td class=\"l\">{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{:.2f}, {:.2f}, {:.2f}</td>"
-        "<td>{:.1f}</td><td class=\"l w {}\">{}</td></tr>\n",
+        "<tr><td class=\"l\">{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>{}<td class=\"l w {}\">{}</td></tr>\n",
         escape(name), bytes(static_cast<double>(p.tx_bytes)), bytes(static_cast<double>(p.rx_bytes)), count(p.tiles),
-        number(p.age_p99_s), pose(0), pose(1), pose(2), kDegrees * pose(5), p.accepted ? "good" : "warn",
+        measured(p.age_p99_s, number), pose_cells(p.T_map_peer), p.accepted ? "good" : "warn",
         p.accepted ? "yes" : "no: " + escape(p.reason));
   }
   return s + "</table></div></section>\n";
 }
 
 std::string details_section(const RunReport& report) {
+  const auto late = [](Duration d) { return number(1e-3 * static_cast<double>(d.count())) + " µs late"; };
   const MapSummary& map = report.map;
   std::string s = "<section><h2>Details</h2><div class=\"pair\"><table>\n";
   s +=
@@ -167,11 +176,11 @@ std::string details_section(const RunReport& report) {
   if (map.mean_entropy_occupancy)
     s += row("mean entropy of occupied voxels", number(*map.mean_entropy_occupancy) + " bit");
   s += "</table><table>\n";
-  s += row("iterations per scan", number(report.odometry.mean_iterations));
+  s += row("iterations per scan", measured(report.odometry.mean_iterations, number));
   s +=
       row("degenerate, lost scans", count(report.odometry.degenerate_scans) + ", " + count(report.odometry.lost_scans));
-  s += row("latest tick", number(1e-3 * static_cast<double>(report.ticks.max_lateness.count())) + " µs late");
-  s += row("allocations on the control thread", count(report.control_thread_allocations));
+  s += row("latest tick", measured(report.ticks.max_lateness, late));
+  s += row("allocations on the control thread", measured(report.control_thread_allocations, count));
   s += row("version", escape(report.version));
   s += "</table></div></section>\n";
   if (!report.effective_config.empty())

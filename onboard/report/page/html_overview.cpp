@@ -115,9 +115,10 @@ std::string header(const RunReport& report) {
 
 std::string tiles(const RunReport& report, const Figures& figures) {
   std::string s = "<div class=\"tiles\">\n";
-  s += tile(length(report.distance_m), "distance", "in " + duration(report.duration_s));
-  s += tile(count(report.scans), "scans", count(report.lost_packets) + " packets lost",
-            report.lost_packets > 0 ? "warn" : "");
+  s += tile(measured(report.distance_m, length), "distance",
+            report.duration_s ? "in " + duration(*report.duration_s) : "");
+  s += tile(count(report.scans), "scans", "packets lost: " + measured(report.lost_packets, count),
+            report.lost_packets.value_or(0) > 0 ? "warn" : "");
   if (figures.error) s += error_tiles(*figures.error);
   if (const StageStats* stage = tightest_stage(report.monitor)) {
     const double p99 = to_milliseconds(stage->wall.percentile(0.99)), budget = to_milliseconds(stage->budget);
@@ -125,8 +126,10 @@ std::string tiles(const RunReport& report, const Figures& figures) {
               p99 > budget ? "bad" : "good");
   }
   if (report.ticks.count > 0)
-    s += tile(count(report.ticks.missed), "ticks missed", "of " + count(report.ticks.count),
-              report.ticks.missed > 0 ? "bad" : "good");
+    s += tile(measured(report.ticks.missed, count), "ticks missed", "of " + count(report.ticks.count),
+              !report.ticks.missed       ? ""
+              : *report.ticks.missed > 0 ? "bad"
+                                         : "good");
   s += tile(count(report.map.occupied), "occupied voxels", "of " + number(report.map.resolution_m) + " m");
   s += tile(number(report.peak_rss_mb) + " MiB", "memory at most",
             "map: " + bytes(static_cast<double>(report.map.memory_bytes)));
@@ -135,15 +138,16 @@ std::string tiles(const RunReport& report, const Figures& figures) {
 
 std::string notes(const RunReport& report, const Figures& figures) {
   Notes notes;
-  notes.count(report.ticks.missed, "bad", "ticks were missed.");
+  notes.count(report.ticks.missed.value_or(0), "bad", "ticks were missed.");
   note_schedule(notes, report);
   if (report.monitor != nullptr) note_stages(notes, *report.monitor);
   notes.count(report.odometry.lost_scans, "bad", "scans could not be registered; the motion was predicted.");
   notes.count(report.odometry.degenerate_scans, "warn",
               "scans left a direction of motion open (a corridor, an open field); the covariance says which.");
-  notes.count(report.lost_packets, "warn", "LiDAR packets were lost.");
+  notes.count(report.lost_packets.value_or(0), "warn", "LiDAR packets were lost.");
   note_losses(notes, report);
-  notes.count(report.control_thread_allocations, "warn", "allocations on the control thread after warm-up.");
+  notes.count(report.control_thread_allocations.value_or(0), "warn",
+              "allocations on the control thread after warm-up.");
   note_covariance(notes, figures.pose_errors);
   if (figures.error && figures.error->unmatched > 0)
     notes.count(figures.error->unmatched, "warn", "poses have no ground truth and are left out of the errors.");

@@ -37,10 +37,12 @@ std::string task_row(const TaskFigures& task) {
   const Duration deadline = task.spec.deadline();
   std::string row = fmt::format("<tr><td class=\"l\">{}</td>", escape(task.spec.name));
   row += cell(number(task.spec.rate_hz)) + cell(count(s.ticks));
+  if (!s.measured()) return row + fmt::format("<td colspan=\"15\">{}</td></tr>\n", kNotMeasured);
   row += time_cells(s.response, {0.5, 0.99, 0.999, 1}, deadline) + cell(number(to_milliseconds(deadline)));
   row += time_cells(s.wake, {0.99}, Duration::max());
   row += fault_cell(s.misses, "bad") + fault_cell(s.slips, "warn");
   row += fault_cell(s.soft_overruns, "warn") + fault_cell(s.hard_overruns, "bad") + fault_cell(s.demotions, "bad");
+  if (!s.usage_measured()) return row + fmt::format("<td colspan=\"4\">{}</td></tr>\n", kNotMeasured);
   row += fault_cell(s.allocations, "") + fault_cell(s.major_faults, "warn") + fault_cell(s.minor_faults, "");
   return row + fault_cell(s.involuntary_switches, "") + "</tr>\n";
 }

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -24,6 +25,13 @@ namespace cairn::report::html {
 [[nodiscard]] std::string count(std::uint64_t value);
 /// 512 B, 1.50 KiB, 12.3 MiB …
 [[nodiscard]] std::string bytes(double value);
+/// What stands in the place of a figure that the run did not measure.
+inline constexpr const char* kNotMeasured = "not measured";
+/// The figure as `text` writes it, or kNotMeasured.
+template <class T, class Text>
+[[nodiscard]] std::string measured(const std::optional<T>& figure, Text&& text) {
+  return figure ? text(*figure) : std::string(kNotMeasured);
+}
 /// 35 s, 2:05 min, 1:02:03 h.
 [[nodiscard]] std::string duration(double seconds);
 

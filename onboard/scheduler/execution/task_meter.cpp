@@ -44,7 +44,10 @@ void TaskMeter::note_overruns(const OverrunPolicy::Verdict& verdict) {
 }
 
 void TaskMeter::note_usage(Time release) {
-  if (!warm(release) || warm_ticks_++ % usage_every_ != 0) return;
+  if (!warm(release)) return;
+  const std::uint64_t ticks_before = task_.stats.warm_ticks;
+  ++task_.stats.warm_ticks;
+  if (ticks_before % usage_every_ != 0) return;
   const ThreadUsage now = thread_usage();
   if (!usage_known_) usage_at_warm_up_ = now;
   usage_known_ = true;

@@ -41,7 +41,7 @@ class TaskMeter {
   Duration cpu_{};
   std::uint64_t allocated_ = 0;
   // Page faults and switches are read about once a second.
-  std::uint64_t usage_every_, warm_ticks_ = 0;
+  std::uint64_t usage_every_;
   bool usage_known_ = false;
   ThreadUsage usage_at_warm_up_;
 };

@@ -117,6 +117,8 @@ TEST_F(RunTest, TheReportHoldsTheFieldsThatScriptsRelyOn) {
                             "allocations", "peers", "events", "output_sha256"})
     EXPECT_TRUE(report.contains(field)) << field;
   EXPECT_EQ(report["scans"], kScans);
+  EXPECT_TRUE(report["lost_packets"].is_null()) << "these scans never were packets";
+  EXPECT_TRUE(report["ticks"]["missed"].is_null()) << "ticks take no time";
   EXPECT_EQ(report["stages"]["odometry"]["count"], kScans);
   const ScheduleProfile schedule;
   EXPECT_EQ(report["stages"]["odometry"]["budget_ms"], schedule.odometry.soft_ms);
@@ -139,6 +141,11 @@ TEST_F(RunTest, EveryShippedBudgetIsAboutAFieldThatTheReportHas) {
     const auto verdicts = report::check_budgets(*limits, report::to_json((*result)->report));
     ASSERT_TRUE(verdicts) << to_string(verdicts.error());
     EXPECT_EQ(verdicts->size(), limits->size());
+    for (const report::BudgetVerdict& v : *verdicts) {
+      const bool of_task = v.limit.field.starts_with("tasks.");
+      EXPECT_EQ(v.measured.has_value(), !of_task) << v.limit.field << ": ticks take no time in virtual time";
+    }
+    EXPECT_FALSE(report::all_kept(*verdicts));
   }
 }
 

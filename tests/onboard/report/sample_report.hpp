@@ -69,10 +69,9 @@ inline void drive(RunReport& report, int poses, double drift) {
     Matrix6 covariance = Matrix6::Zero();
     for (Eigen::Index k = 0; k < 6; ++k) covariance(k, k) = i * std::pow(drift * (k < 3 ? 1.0 : 0.3), 2);
     report.trajectory.push_back({at_seconds(100 + s), {pose_at(s) * SE3::exp(error), covariance}});
-    if (i > 0)
-      report.distance_m += (report.trajectory.back().T_odom_base.mean.translation() -
-                            report.trajectory[report.trajectory.size() - 2].T_odom_base.mean.translation())
-                               .norm();
+    const auto& before = report.trajectory[i == 0 ? 0 : report.trajectory.size() - 2].T_odom_base.mean;
+    report.distance_m = report.distance_m.value_or(0) +
+                        (report.trajectory.back().T_odom_base.mean.translation() - before.translation()).norm();
   }
   for (int i = -5; i < poses * 5 + 5; ++i)
     report.ground_truth.push_back({at_seconds(100 + 0.02 * i), T_world_odom * pose_at(0.02 * i)});
@@ -108,6 +107,7 @@ inline void schedule(RunReport& report, const std::string& name) {
       t.stats.response.record(from_seconds(1e-3 * (ms + 0.06)));
       t.stats.wake.record(from_seconds(0.06e-3 * spread(engine)));
       ++t.stats.ticks;
+      ++t.stats.warm_ticks;
     }
     t.stats.involuntary_switches = 12;
     t.stats.minor_faults = 7;
@@ -138,6 +138,7 @@ inline std::unique_ptr<SampleRun> sample_run(int scans = 600, double resolution 
   r.ticks = {static_cast<std::uint64_t>(scans) * 10, 0, from_seconds(180e-6)};
   r.odometry = {14, 0, 6.4};
   r.peak_rss_mb = 143.2;
+  r.control_thread_allocations = 0;
   sample::drive(r, scans, 6e-4);
   sample::spend(run->monitor, scans);
   r.monitor = &run->monitor;
@@ -150,8 +151,9 @@ inline std::unique_ptr<SampleRun> sample_run(int scans = 600, double resolution 
   r.map = summarise(*run->map);
   r.map_file_bytes = 48213;
   if (auto picture = look_at(*run->map, {})) r.picture = std::move(*picture);
-  r.peers[text("robot_2")] = {120000, 98000, 341, 0.42, {sample::pose_at(3), Matrix6::Identity()}, true, "merged", ""};
-  r.peers[text("robot_3")] = {1000, 0, 0, 12.5, {}, false, text("no_place"), text("too little overlap")};
+  r.peers[text("robot_2")] = {120000, 98000,    341, 0.42, UncertainPose{sample::pose_at(3), Matrix6::Identity()},
+                              true,   "merged", ""};
+  r.peers[text("robot_3")] = {1000, 0, 0, {}, {}, false, text("no_place"), text("too little overlap")};
   r.effective_config = text("voxel_size_m: 0.5  # m, edge of a map voxel\nmax_range_m: 30\n");
   r.output_sha256 = "9f86d081884c7d659a2feaa0c55ad015a3bf4f1b2b0b822cd15d6c15b0f00a08";
   return run;

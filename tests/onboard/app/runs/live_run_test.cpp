@@ -64,7 +64,7 @@ TEST(LiveRun, IsRepeatedToTheBitFromWhatItRecorded) {
   ASSERT_TRUE(result) << to_string(result.error());
   const report::RunReport& ran = (*result)->report;
   EXPECT_GE(ran.scans, kLeastScans);
-  EXPECT_EQ(ran.control_thread_allocations, 0U);
+  EXPECT_EQ(ran.control_thread_allocations.value_or(0), 0U);
   ASSERT_EQ(ran.losses.size(), 1U);
   EXPECT_EQ(ran.losses[0].first, "lidar");
   EXPECT_EQ(ran.losses[0].second.front().first, "kernel_drops");

@@ -186,7 +186,7 @@ TEST_F(TeamRun, IsRepeatedToTheBitThoughThePeerProcessDies) {
   ASSERT_TRUE(result) << to_string(result.error());
   const report::RunReport& ran = (*result)->report;
   EXPECT_GE(ran.scans, kLeastPlayed);
-  EXPECT_EQ(ran.control_thread_allocations, 0U);
+  EXPECT_EQ(ran.control_thread_allocations.value_or(0), 0U);
   ASSERT_TRUE(ran.team);
   EXPECT_THAT(ran.team->merged_with, ElementsAre("second"));
   EXPECT_EQ(ran.team->anchor, 1U);

@@ -22,8 +22,28 @@ TEST(Budgets, EveryLimitIsComparedAndTheTableSaysWhichWasExceeded) {
   ASSERT_EQ(verdicts->size(), 3U);
   EXPECT_FALSE((*verdicts)[0].kept());
   EXPECT_TRUE((*verdicts)[1].kept()) << "at most";
-  EXPECT_FALSE(all_kept(*verdicts));
+  const auto kept = all_kept(*verdicts);
+  ASSERT_FALSE(kept);
+  EXPECT_EQ(to_string(kept.error()), "budgets were exceeded: 1 of 3 exceeded, 0 not measured");
   EXPECT_THAT(to_table(*verdicts), ::testing::ContainsRegex("tasks.safety.missed +2 +3  EXCEEDED"));
+}
+
+TEST(Budgets, WhatTheRunDidNotMeasureWasNotKept) {
+  const auto limits = parse_budgets("memory: {peak_rss_mb: 512}\ntasks: {safety: {allocations: 0}}\n", "b.yaml");
+  ASSERT_TRUE(limits);
+  auto report = kReport;
+  report["tasks"]["safety"]["allocations"] = nullptr;
+  const auto verdicts = check_budgets(*limits, report);
+  ASSERT_TRUE(verdicts) << to_string(verdicts.error());
+  EXPECT_FALSE((*verdicts)[1].kept());
+  EXPECT_THAT(to_table(*verdicts), ::testing::ContainsRegex("tasks.safety.allocations +0 +-  NOT MEASURED"));
+  const auto kept = all_kept(*verdicts);
+  ASSERT_FALSE(kept);
+  EXPECT_EQ(kept.error().code, Errc::kLimit);
+  EXPECT_THAT(to_string(kept.error()), HasSubstr("not measured: 0 of 2 exceeded, 1 not measured; "));
+  EXPECT_THAT(to_string(kept.error()), HasSubstr("--speed real"));
+  report["tasks"]["safety"]["allocations"] = 0;
+  EXPECT_TRUE(all_kept(*check_budgets(*limits, report)));
 }
 
 TEST(Budgets, ALimitThatCannotBeCheckedIsAnErrorAndNotKept) {

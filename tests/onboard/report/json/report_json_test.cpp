@@ -72,7 +72,7 @@ TEST(ReportJson, TellsWhatTheRunTold) {
 // T_map_peer is row major: the translation is the last column.
 TEST(ReportJson, WritesMatricesRowMajor) {
   const auto run = sample_run(10);
-  const SE3 T = run->report.peers.at("robot_2").T_map_peer.mean;
+  const SE3 T = run->report.peers.at("robot_2").T_map_peer->mean;
   const auto m = parsed(run->report)["peers"]["robot_2"]["T_map_peer"];
   EXPECT_NEAR(m[3], T.translation().x(), 1e-12);
   EXPECT_NEAR(m[7], T.translation().y(), 1e-12);
@@ -87,6 +87,53 @@ TEST(ReportJson, OfAnEmptyRunIsComplete) {
   EXPECT_TRUE(json["losses"].is_object() && json["losses"].empty());
   EXPECT_TRUE(json["ground_truth"].is_null());
   EXPECT_TRUE(json["started"].is_null());
+}
+
+TEST(ReportJson, WhatWasNotMeasuredIsNull) {
+  RunReport report;
+  Monitor monitor;
+  monitor.stage("packet_to_pose");
+  report.monitor = &monitor;
+  TaskFigures& task = report.tasks.emplace_back();
+  task.spec.name = "safety", task.stats.ticks = 7;
+  report.peers["robot_2"] = {};
+  const auto json = parsed(report);
+  for (const char* field : {"/distance_m",
+                            "/duration_s",
+                            "/lost_packets",
+                            "/ticks/missed",
+                            "/ticks/max_lateness_us",
+                            "/odometry/mean_iterations",
+                            "/allocations/control_thread",
+                            "/stages/packet_to_pose/p99_ms",
+                            "/stages/packet_to_pose/overruns",
+                            "/stages/packet_to_pose/cpu_p50_ms",
+                            "/tasks/safety/missed",
+                            "/tasks/safety/slips",
+                            "/tasks/safety/soft_overruns",
+                            "/tasks/safety/demotions",
+                            "/tasks/safety/allocations",
+                            "/tasks/safety/major_faults",
+                            "/tasks/safety/cpu_p999_ms",
+                            "/tasks/safety/response_max_ms",
+                            "/peers/robot_2/T_map_peer",
+                            "/peers/robot_2/covariance",
+                            "/peers/robot_2/age_p99_s"})
+    EXPECT_TRUE(json.at(nlohmann::json::json_pointer(field)).is_null()) << field;
+  EXPECT_EQ(json["tasks"]["safety"]["count"], 7);
+  EXPECT_EQ(json["stages"]["packet_to_pose"]["count"], 0);
+}
+
+TEST(ReportJson, OfAMeasuredTaskEveryFigureIsANumber) {
+  RunReport report;
+  TaskFigures& task = report.tasks.emplace_back();
+  task.spec.name = "safety", task.stats.ticks = 1;
+  for (Histogram* times : {&task.stats.wake, &task.stats.response, &task.stats.execution, &task.stats.cpu})
+    times->record(Duration{1000});
+  EXPECT_EQ(parsed(report)["tasks"]["safety"]["missed"], 0);
+  EXPECT_TRUE(parsed(report)["tasks"]["safety"]["allocations"].is_null()) << "the warm-up is not over";
+  task.stats.warm_ticks = 1;
+  for (const auto& [name, value] : parsed(report)["tasks"]["safety"].items()) EXPECT_TRUE(value.is_number()) << name;
 }
 
 TEST(ReportJson, SaysWhatEachDeviceLost) {

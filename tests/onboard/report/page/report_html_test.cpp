@@ -97,7 +97,8 @@ TEST(ReportHtml, ShowsEveryTaskAgainstItsDeadline) {
   task.spec.name = "drive", task.spec.rate_hz = 500, task.spec.deadline_ms = 2;
   for (int i = 0; i < 1000; ++i) task.stats.response.record(std::chrono::milliseconds(i == 999 ? 3 : 1));
   task.stats.wake.record(std::chrono::microseconds(500));
-  task.stats.ticks = 1000, task.stats.misses = 1, task.stats.slips = 4, task.stats.soft_overruns = 5;
+  task.stats.ticks = 1000, task.stats.warm_ticks = 800, task.stats.misses = 1, task.stats.slips = 4,
+  task.stats.soft_overruns = 5;
   task.stats.hard_overruns = 6, task.stats.demotions = 7, task.stats.allocations = 8, task.stats.major_faults = 9;
   task.stats.minor_faults = 10, task.stats.involuntary_switches = 11;
   const std::string page = to_html(report).value();
@@ -135,8 +136,31 @@ TEST(ReportHtml, InVirtualTimeTasksHaveNoResponse) {
   report.tasks.emplace_back().spec.name = "drive";
   report.tasks.back().stats.ticks = 12;
   const std::string page = to_html(report).value();
-  EXPECT_THAT(row_of(page, "drive"), HasSubstr("12 – – – –"));
+  EXPECT_THAT(row_of(page, "drive"), HasSubstr("12 not measured"));
   EXPECT_THAT(page, HasSubstr("virtual time"));
+}
+
+TEST(ReportHtml, WhatWasNotMeasuredIsNoZero) {
+  RunReport report;
+  Monitor monitor;
+  monitor.stage("packet_to_pose");
+  report.monitor = &monitor;
+  report.ticks.count = 5000;
+  const std::string page = to_html(report).value();
+  for (const char* text :
+       {"<b>not measured</b><small>of 5\u202f000", "packet_to_pose</td><td>0</td><td colspan=\"8\">not",
+        "distance</span><b>not measured", "packets lost: not measured", "latest tick</td><td>not measured",
+        "iterations per scan</td><td>not measured"})
+    EXPECT_THAT(page, HasSubstr(text));
+  EXPECT_THAT(page, Not(HasSubstr("class=\"tile good\"")));
+}
+
+TEST(ReportHtml, OfAShortRunAllocationsAreNotMeasured) {
+  RunReport report;
+  TaskFigures& task = report.tasks.emplace_back();
+  task.spec.name = "drive";
+  task.stats.response.record(std::chrono::milliseconds(1));
+  EXPECT_THAT(row_of(to_html(report).value(), "drive"), testing::EndsWith("– – – – – not measured "));
 }
 
 TEST(ReportHtml, PointsOutClaimsThatDoNotHold) {
