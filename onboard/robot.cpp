@@ -68,6 +68,7 @@ void Robot::begin_map(std::uint32_t epoch) {
   if (before->size() == 0) return;
   earlier_.push_back({.epoch = ended, .tree = std::move(before)});
   if (earlier_.size() <= kEarlierMaps) return;
+  ++dropped_maps_;
   earlier_.erase(std::ranges::min_element(earlier_, {}, [](const EarlierMap& map) { return map.tree->size(); }));
 }
 

@@ -98,6 +98,8 @@ class Robot {
   static constexpr std::size_t kEarlierMaps = 3;
   /// Maps of earlier epochs, the oldest first: at most kEarlierMaps, the largest ones.
   [[nodiscard]] const std::vector<EarlierMap>& earlier_maps() const { return earlier_; }
+  /// Maps of earlier epochs that are no longer there, because larger ones came.
+  [[nodiscard]] std::size_t dropped_maps() const { return dropped_maps_; }
   /// See Mapper::take_changed_tiles(). After a new epoch began, all of the map's.
   [[nodiscard]] std::vector<mapping::TileKey> take_changed_tiles() { return mapper_.take_changed_tiles(); }
 
@@ -114,6 +116,7 @@ class Robot {
   std::uint32_t epoch_ = 0;         // odometry's
   std::uint32_t mapped_epoch_ = 0;  // mapping's: of the map
   std::vector<EarlierMap> earlier_;
+  std::size_t dropped_maps_ = 0;
   std::vector<Eigen::Vector3f> points_odom_;  // reused
 };
 

@@ -84,7 +84,8 @@ int run_robot(Arguments a) {
                "not one scan came in",
                report.source,
                {},
-               "see the events above; `cairn inspect` says what a recording holds"});
+               report.live ? "see the events; `cairn doctor --config PROFILE` listens to the devices"
+                           : "see the events; `cairn inspect` says what a recording holds"});
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "onboard/app/door/door.hpp"
 #include "onboard/app/door/fitted.hpp"
 #include "onboard/app/run.hpp"
+#include "onboard/app/runs/connect_inputs.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
 #include "onboard/app/team/team_output.hpp"
 #include "onboard/mapping/files/map_file.hpp"
@@ -35,10 +36,13 @@ Result<void> write_trajectory(const fs::path& file, const std::vector<TrackPoint
 report::OdometryStats odometry_stats(const std::vector<TrackPoint>& track) {
   report::OdometryStats stats;
   double iterations = 0;
+  Time before = track.empty() ? Time{} : track.front().stamp;
   for (const TrackPoint& p : track) {
     stats.degenerate_scans += p.degenerate_directions > 0 ? 1U : 0U;
     stats.lost_scans += p.lost ? 1U : 0U;
+    stats.lost_s += p.lost ? to_seconds(p.stamp - before) : 0;
     iterations += p.iterations;
+    before = p.stamp;
   }
   if (!track.empty()) stats.mean_iterations = iterations / static_cast<double>(track.size());
   return stats;
@@ -91,6 +95,9 @@ void add_input(const RunFacts& facts, report::RunReport& report) {
   if (figures.scans > 0 && has_kind(sources, recording::kVelodyne)) report.lost_packets = figures.lost_packets;
   for (const Input& input : facts.door.inputs)
     if (input.losses) report.losses.emplace_back(input.entry.id, input.losses());
+  report.missing_packets = missing_packets(facts.tasks);
+  const drive::CanDrive* drive = facts.tasks.drive.drive();
+  report.wheels_unread = drive != nullptr && !drive->reads_wheels();
   if (!figures.start) return;
   report.start = *figures.start;
   report.started = utc_of(*figures.start, facts.door.recording);
@@ -103,7 +110,8 @@ report::RunReport make_report(const RunFacts& facts) {
   report::RunReport report;
   report.robot = facts.profile.name;
   report.profile = facts.options.config.string();
-  report.source = facts.options.recording.empty() ? "live" : facts.options.recording.string();
+  report.live = facts.options.recording.empty();
+  report.source = report.live ? "live" : facts.options.recording.string();
   report.version = CAIRN_VERSION;
   report.distance_m = length_m(track);
   add_input(facts, report);
@@ -132,14 +140,16 @@ void add_ground_truth(const RunFacts& facts, report::RunReport& report) {
 
 /// One file for each epoch that ended during the run: their maps do not lie in the frame of map.cairn. Those of another
 /// run in the same folder go.
-Result<void> write_earlier_maps(const RunFacts& facts, std::vector<fs::path>& hashed) {
+Result<void> write_earlier_maps(const RunFacts& facts, report::RunReport& report, std::vector<fs::path>& hashed) {
   std::error_code ignored;
   for (const auto& entry : fs::directory_iterator(facts.options.out, ignored))
     if (entry.path().filename().string().starts_with("map-epoch-")) fs::remove(entry.path(), ignored);
   for (const EarlierMap& map : facts.tasks.robot.earlier_maps()) {
-    hashed.push_back(facts.options.out / ("map-epoch-" + std::to_string(map.epoch) + ".cairn"));
+    report.earlier_maps.push_back("map-epoch-" + std::to_string(map.epoch) + ".cairn");
+    hashed.push_back(facts.options.out / report.earlier_maps.back());
     if (const auto r = mapping::save_cairn(*map.tree, hashed.back()); !r) return r.error();
   }
+  report.dropped_maps = facts.tasks.robot.dropped_maps();
   return {};
 }
 
@@ -174,7 +184,7 @@ Result<report::RunReport> write_output(const RunFacts& facts) {
   if (const auto r = write_trajectory(hashed[0], facts.tasks.robot.track(), shift_of(facts)); !r) return r.error();
   if (const auto r = mapping::save_cairn(facts.tasks.robot.map(), hashed[1]); !r) return r.error();
   if (const auto r = mapping::save_ot(facts.tasks.robot.map(), out / "map.ot"); !r) return r.error();
-  if (const auto r = write_earlier_maps(facts, hashed); !r) return r.error();
+  if (const auto r = write_earlier_maps(facts, report, hashed); !r) return r.error();
   if (const auto r = add_team_files(facts, report, hashed); !r) return r.error();
   const auto hash = report::sha256_of_files(hashed);
   if (!hash) return hash.error();

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "onboard/report/notes/notes.hpp"
+
 namespace cairn::report {
 namespace {
 
@@ -39,6 +41,15 @@ std::string events(const Monitor& monitor) {
   return text;
 }
 
+std::string notes(const RunReport& report) {
+  std::string text;
+  for (const Note& note : notes_of(report)) {
+    text += fmt::format("  {}: {}\n", note.severity == Severity::kError ? "ERROR" : "WARNING", note.text);
+    if (!note.remedy.empty()) text += fmt::format("    → {}\n", note.remedy);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string to_summary(const RunReport& report) {
@@ -46,7 +57,8 @@ std::string to_summary(const RunReport& report) {
   if (report.monitor != nullptr) text += latencies(*report.monitor);
   text += fmt::format("  map: {} occupied and {} free voxels of {:.2f} m\n", report.map.occupied, report.map.free,
                       report.map.resolution_m);
-  return report.monitor != nullptr ? text + events(*report.monitor) : text;
+  if (report.monitor != nullptr) text += events(*report.monitor);
+  return text + notes(report);
 }
 
 }  // namespace cairn::report

@@ -7,7 +7,7 @@
 
 namespace cairn::report {
 
-/// A run in some lines for a terminal: what it did, what it cost and what happened.
+/// A run in some lines for a terminal: what it did, what it cost, what happened, and the notes.
 [[nodiscard]] std::string to_summary(const RunReport& report);
 
 }  // namespace cairn::report

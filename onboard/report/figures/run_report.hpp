@@ -43,6 +43,7 @@ struct TaskFigures {
 struct OdometryStats {
   std::uint64_t degenerate_scans = 0;     ///< some direction was not observable
   std::uint64_t lost_scans = 0;           ///< registration refused; the motion was predicted
+  double lost_s = 0;                      ///< from the scan before each of them
   std::optional<double> mean_iterations;  ///< none without a pose
 };
 
@@ -71,6 +72,7 @@ struct TeamStats {
 struct RunReport {
   std::string robot, profile;
   std::string source;   ///< the recording, or "live"
+  bool live = false;    ///< devices, not a recording
   std::string version;  ///< of the program
   std::string started;  ///< UTC of the first packet as ISO 8601; metadata only. Empty: not known
 
@@ -81,7 +83,9 @@ struct RunReport {
   std::optional<std::uint64_t> lost_packets;
   /// Live: what each device counted as lost or doubtful, by the device's id: "lidar", {"kernel_drops", 3}.
   std::vector<std::pair<std::string, std::vector<std::pair<std::string, std::uint64_t>>>> losses;
-  TickStats ticks;  ///< of the control task
+  std::uint64_t missing_packets = 0;  ///< a replay of a live run: packets that it had and the recording lacks
+  bool wheels_unread = false;         ///< there is a drive, but its wheels could not be read
+  TickStats ticks;                    ///< of the control task
   std::vector<TaskFigures> tasks;
   std::string mode;                                         ///< at the end
   std::string mode_cause;                                   ///< the fault's code; empty: none
@@ -96,6 +100,9 @@ struct RunReport {
   std::vector<StampedPose> ground_truth;  ///< T_world_base; empty where there is none
 
   MapSummary map;
+  /// Files of maps whose place in `map` is not known, the oldest first; and how many more were not kept.
+  std::vector<std::string> earlier_maps;
+  std::size_t dropped_maps = 0;
   std::optional<std::uint64_t> map_file_bytes;
   std::optional<MapPicture> picture;  ///< from above
 
@@ -104,6 +111,11 @@ struct RunReport {
   std::string effective_config;   ///< YAML
   std::string output_sha256;      ///< over the files that the run left behind
 };
+
+/// More than one call in a hundred took longer than the stage's budget.
+[[nodiscard]] inline bool over_budget(const StageStats& stage) {
+  return stage.budget > Duration{} && stage.wall.percentile(0.99) > stage.budget;
+}
 
 /// Highest resident set size of this process so far, in MiB (getrusage).
 [[nodiscard]] double peak_rss_mb();

@@ -3,7 +3,8 @@
 
 #include <nlohmann/json.hpp>
 
-#include "onboard/report/figures/pose_error.hpp"
+#include "onboard/report/figures/accuracy.hpp"
+#include "onboard/report/notes/notes.hpp"
 
 namespace cairn::report {
 namespace {
@@ -147,17 +148,21 @@ Json team_json(const RunReport& report) {
 }
 
 Json ground_truth_json(const RunReport& report) {
-  if (report.ground_truth.empty()) return nullptr;
-  std::vector<StampedPose> means;
-  for (const PoseEstimate& p : report.trajectory) means.push_back({p.stamp, p.T_odom_base.mean});
-  const TrajectoryErrorOptions options;
-  const auto error = trajectory_error(means, report.ground_truth, options);
-  if (!error) return {{"error", to_string(error.error())}};
-  Json json = to_json(*error);
-  const auto inside = share_inside_3_sigma(pose_errors(report.trajectory, report.ground_truth, options.max_gap));
+  const Accuracy accuracy = accuracy_of(report);
+  if (!accuracy.why_not.empty()) return {{"error", accuracy.why_not}};
+  if (!accuracy.error) return nullptr;
+  Json json = to_json(*accuracy.error);
+  const auto inside = share_inside_3_sigma(accuracy.pose_errors);
   for (std::size_t i = 0; const char* axis : {"x", "y", "z", "roll", "pitch", "yaw"})
     json["inside_3_sigma"][axis] = or_null(inside[i++]);
   return json;
+}
+
+Json notes_json(const RunReport& report) {
+  Json notes = Json::array();
+  for (const Note& note : notes_of(report))
+    notes.push_back({{"severity", to_string(note.severity)}, {"text", note.text}, {"remedy", note.remedy}});
+  return notes;
 }
 
 Json map_json(const RunReport& report) {
@@ -169,7 +174,9 @@ Json map_json(const RunReport& report) {
           {"bytes", map.memory_bytes},
           {"file_bytes", or_null(report.map_file_bytes)},
           {"nodes", map.nodes},
-          {"mean_entropy_occupancy", or_null(map.mean_entropy_occupancy)}};
+          {"mean_entropy_occupancy", or_null(map.mean_entropy_occupancy)},
+          {"earlier", report.earlier_maps},
+          {"earlier_not_kept", report.dropped_maps}};
 }
 
 }  // namespace
@@ -245,6 +252,7 @@ Json to_json(const RunReport& report) {
           {"source", report.source},
           {"version", report.version},
           {"started", report.started.empty() ? Json(nullptr) : Json(report.started)},
+          {"notes", notes_json(report)},
           {"distance_m", or_null(report.distance_m)},
           {"duration_s", or_null(report.duration_s)},
           {"scans", report.scans},
@@ -259,6 +267,7 @@ Json to_json(const RunReport& report) {
           {"odometry",
            {{"degenerate_scans", report.odometry.degenerate_scans},
             {"lost_scans", report.odometry.lost_scans},
+            {"lost_s", report.odometry.lost_s},
             {"mean_iterations", or_null(report.odometry.mean_iterations)}}},
           {"ground_truth", ground_truth_json(report)},
           {"map", map_json(report)},

@@ -35,11 +35,11 @@ Unit unit_of(const std::vector<PoseError>& errors, Eigen::Index axis) {
 }
 
 /// Error along one axis of base_link with the 3 σ that the estimate claims.
-std::string axis_chart(const RunReport& report, const Figures& figures, Eigen::Index axis, const char* title) {
-  const Unit unit = unit_of(figures.pose_errors, axis);
+std::string axis_chart(const RunReport& report, const Accuracy& accuracy, Eigen::Index axis, const char* title) {
+  const Unit unit = unit_of(accuracy.pose_errors, axis);
   LineChart chart{title, unit.name, {{"path", {}, {}}}, {}, false};
   bool claimed = false;
-  for (const PoseError& e : figures.pose_errors) {
+  for (const PoseError& e : accuracy.pose_errors) {
     chart.curves[0].x.push_back(to_seconds(e.stamp - report.start));
     chart.curves[0].y.push_back(unit.factor * e.error(axis));
     chart.band.x.push_back(chart.curves[0].x.back());
@@ -50,10 +50,10 @@ std::string axis_chart(const RunReport& report, const Figures& figures, Eigen::I
   return svg(chart);
 }
 
-std::string distance_chart(const RunReport& report, const Figures& figures) {
-  const Unit unit = unit_of(figures.pose_errors, 0);
+std::string distance_chart(const RunReport& report, const Accuracy& accuracy) {
+  const Unit unit = unit_of(accuracy.pose_errors, 0);
   LineChart chart{"Position error", unit.name, {{"path", {}, {}}}, {}, true};
-  for (const PoseError& e : figures.pose_errors) {
+  for (const PoseError& e : accuracy.pose_errors) {
     chart.curves[0].x.push_back(to_seconds(e.stamp - report.start));
     chart.curves[0].y.push_back(unit.factor * e.distance_m);
   }
@@ -102,17 +102,17 @@ std::string pose_cells(const std::optional<UncertainPose>& T_map_peer) {
 
 }  // namespace
 
-std::string accuracy_section(const RunReport& report, const Figures& figures) {
-  if (!figures.error || figures.pose_errors.empty()) return {};
-  std::string s = "<section><h2>Accuracy</h2>\n" + error_table(*figures.error, figures.pose_errors);
+std::string accuracy_section(const RunReport& report, const Accuracy& accuracy) {
+  if (!accuracy.error || accuracy.pose_errors.empty()) return {};
+  std::string s = "<section><h2>Accuracy</h2>\n" + error_table(*accuracy.error, accuracy.pose_errors);
   s += "<div class=\"key\"><span><i></i>error, first poses laid over each other, axes of the robot</span>"
        "<span><i class=\"band\"></i>claimed 3 σ</span></div><div class=\"charts\">\n";
-  s += distance_chart(report, figures);
-  s += axis_chart(report, figures, 5, "Heading");
-  s += axis_chart(report, figures, 0, "Ahead (x)");
-  s += axis_chart(report, figures, 1, "To the left (y)");
-  s += axis_chart(report, figures, 2, "Up (z)");
-  s += axis_chart(report, figures, 4, "Pitch");
+  s += distance_chart(report, accuracy);
+  s += axis_chart(report, accuracy, 5, "Heading");
+  s += axis_chart(report, accuracy, 0, "Ahead (x)");
+  s += axis_chart(report, accuracy, 1, "To the left (y)");
+  s += axis_chart(report, accuracy, 2, "Up (z)");
+  s += axis_chart(report, accuracy, 4, "Pitch");
   return s + "</div></section>\n";
 }
 

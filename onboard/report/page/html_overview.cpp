@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "onboard/report/notes/notes.hpp"
 #include "onboard/report/page/html_sections.hpp"
 #include "onboard/report/page/html_text.hpp"
 #include "onboard/report/pictures/map_paint.hpp"
@@ -30,8 +31,7 @@ const StageStats* tightest_stage(const Monitor* monitor) {
   return tightest;
 }
 
-/// Good odometry drifts by less than half a percent of the distance.
-const char* grade_of(double percent) { return percent <= 0.5 ? "good" : percent <= 2 ? "" : "bad"; }
+const char* grade_of(double percent) { return percent <= 0.5 ? "good" : percent <= kLargeError_percent ? "" : "bad"; }
 
 std::string error_tiles(const TrajectoryError& e) {
   if (!e.final_error_percent)
@@ -43,64 +43,11 @@ std::string error_tiles(const TrajectoryError& e) {
               grade_of(*e.final_error_percent));
 }
 
-class Notes {
- public:
-  void add(const char* grade, const std::string& text) {
-    items_ += fmt::format("<li class=\"{}\">{}</li>\n", grade, text);
-  }
-  void count(std::uint64_t n, const char* grade, const char* text) {
-    if (n > 0) add(grade, html::count(n) + " " + text);
-  }
-  [[nodiscard]] std::string section() const {
-    const char* fine = "<li>Nothing to report: no losses, no overruns, nothing missed.</li>\n";
-    return "<section><h2>Worth a look</h2><ul class=\"notes\">\n" + (items_.empty() ? fine : items_) +
-           "</ul></section>\n";
-  }
-
- private:
-  std::string items_;
-};
-
-void note_stages(Notes& notes, const Monitor& monitor) {
-  for (const StageStats& s : monitor.stages())
-    if (s.overruns > 0)
-      notes.add(20 * s.overruns > s.wall.count() ? "bad" : "warn",
-                fmt::format("Stage <b>{}</b> went over its budget of {} ms in {} of {} runs; the longest took {} ms.",
-                            escape(s.name), number(to_milliseconds(s.budget)), count(s.overruns), count(s.wall.count()),
-                            number(to_milliseconds(s.wall.max()))));
-}
-
-void note_schedule(Notes& notes, const RunReport& report) {
-  if (!report.mode.empty() && report.mode != "normal")
-    notes.add("warn", "The run ended in mode <b>" + escape(report.mode) + "</b>" +
-                          (report.mode_cause.empty() ? "." : ": " + escape(report.mode_cause) + "."));
-  for (const TaskFigures& task : report.tasks)
-    if (task.stats.demotions > 0)
-      notes.add("bad", fmt::format("Task <b>{}</b> kept overrunning its hard budget and was demoted {} times.",
-                                   escape(task.spec.name), count(task.stats.demotions)));
-  std::uint64_t shed = 0;
-  for (std::size_t level = 1; level < report.shed.size(); ++level) shed += report.shed[level].second;
-  notes.count(shed, "warn", "scans were mapped while work was shed.");
-}
-
-void note_losses(Notes& notes, const RunReport& report) {
-  for (const auto& [device, counts] : report.losses) {
-    std::string text;
-    for (const auto& [name, n] : counts)
-      if (n > 0) text += (text.empty() ? "" : ", ") + escape(name) + " " + count(n);
-    if (!text.empty()) notes.add("warn", "Device <b>" + escape(device) + "</b> reports " + text + ".");
-  }
-}
-
-void note_covariance(Notes& notes, std::span<const PoseError> errors) {
-  const auto inside = share_inside_3_sigma(errors);
-  for (std::size_t i = 0; const char* axis : {"x", "y", "z", "roll", "pitch", "yaw"}) {
-    const auto share = inside[i++];
-    if (share && *share < 0.95)
-      notes.add(*share < 0.5 ? "bad" : "warn",
-                fmt::format("The claimed covariance is too small along {}: {} % of the errors lie inside 3 σ.", axis,
-                            number(100 * *share)));
-  }
+std::string note_item(const Note& note) {
+  std::string item =
+      fmt::format("<li class=\"{}\">{}", note.severity == Severity::kError ? "bad" : "warn", escape(note.text));
+  if (!note.remedy.empty()) item += fmt::format("<small>{}</small>", escape(note.remedy));
+  return item + "</li>\n";
 }
 
 }  // namespace
@@ -113,50 +60,37 @@ std::string header(const RunReport& report) {
                      about);
 }
 
-std::string tiles(const RunReport& report, const Figures& figures) {
+std::string tiles(const RunReport& report, const Accuracy& accuracy) {
+  const char* good = report.scans > 0 ? "good" : "";  // a run without a scan shows nothing good
   std::string s = "<div class=\"tiles\">\n";
   s += tile(measured(report.distance_m, length), "distance",
             report.duration_s ? "in " + duration(*report.duration_s) : "");
   s += tile(count(report.scans), "scans", "packets lost: " + measured(report.lost_packets, count),
-            report.lost_packets.value_or(0) > 0 ? "warn" : "");
-  if (figures.error) s += error_tiles(*figures.error);
+            report.scans == 0                     ? "bad"
+            : report.lost_packets.value_or(0) > 0 ? "warn"
+                                                  : "");
+  if (accuracy.error) s += error_tiles(*accuracy.error);
   if (const StageStats* stage = tightest_stage(report.monitor)) {
     const double p99 = to_milliseconds(stage->wall.percentile(0.99)), budget = to_milliseconds(stage->budget);
     s += tile(number(p99) + " ms", escape(stage->name) + ", p99", "of a budget of " + number(budget) + " ms",
-              p99 > budget ? "bad" : "good");
+              over_budget(*stage) ? "bad" : good);
   }
   if (report.ticks.count > 0)
     s += tile(measured(report.ticks.missed, count), "ticks missed", "of " + count(report.ticks.count),
               !report.ticks.missed       ? ""
               : *report.ticks.missed > 0 ? "bad"
-                                         : "good");
+                                         : good);
   s += tile(count(report.map.occupied), "occupied voxels", "of " + number(report.map.resolution_m) + " m");
   s += tile(number(report.peak_rss_mb) + " MiB", "memory at most",
             "map: " + bytes(static_cast<double>(report.map.memory_bytes)));
   return s + "</div>\n";
 }
 
-std::string notes(const RunReport& report, const Figures& figures) {
-  Notes notes;
-  notes.count(report.ticks.missed.value_or(0), "bad", "ticks were missed.");
-  note_schedule(notes, report);
-  if (report.monitor != nullptr) note_stages(notes, *report.monitor);
-  notes.count(report.odometry.lost_scans, "bad", "scans could not be registered; the motion was predicted.");
-  notes.count(report.odometry.degenerate_scans, "warn",
-              "scans left a direction of motion open (a corridor, an open field); the covariance says which.");
-  notes.count(report.lost_packets.value_or(0), "warn", "LiDAR packets were lost.");
-  note_losses(notes, report);
-  notes.count(report.control_thread_allocations.value_or(0), "warn",
-              "allocations on the control thread after warm-up.");
-  note_covariance(notes, figures.pose_errors);
-  if (figures.error && figures.error->unmatched > 0)
-    notes.count(figures.error->unmatched, "warn", "poses have no ground truth and are left out of the errors.");
-  for (const auto& [name, peer] : report.peers)
-    if (!peer.accepted)
-      notes.add("warn", fmt::format("<b>{}</b> was not merged: {}", escape(name), escape(peer.reason)));
-  if (report.monitor != nullptr)
-    notes.count(report.monitor->dropped_events(), "warn", "kinds of events did not fit into the list.");
-  return notes.section();
+std::string notes(const RunReport& report) {
+  std::string items;
+  for (const Note& note : notes_of(report)) items += note_item(note);
+  if (items.empty()) items = "<li>Nothing to report: no losses, no overruns, nothing missed.</li>\n";
+  return "<section><h2>Worth a look</h2><ul class=\"notes\">\n" + items + "</ul></section>\n";
 }
 
 std::string map_section(const RunReport& report, const std::string& svg) {

@@ -9,16 +9,6 @@
 namespace cairn::report {
 namespace {
 
-html::Figures figures_of(const RunReport& report) {
-  if (report.ground_truth.empty()) return {};
-  std::vector<StampedPose> means;
-  for (const PoseEstimate& p : report.trajectory) means.push_back({p.stamp, p.T_odom_base.mean});
-  const TrajectoryErrorOptions options;
-  const auto error = trajectory_error(means, report.ground_truth, options);
-  if (!error) return {};
-  return {*error, pose_errors(report.trajectory, report.ground_truth, options.max_gap)};
-}
-
 std::string head(const RunReport& report) {
   return "<!doctype html>\n<html lang=\"en\"><head><meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width,initial-scale=1\">\n"
@@ -40,9 +30,9 @@ std::string foot(const RunReport& report) {
 Result<std::string> to_html(const RunReport& report) {
   const auto map = html::svg_map(report);
   if (!map) return map.error();
-  const html::Figures figures = figures_of(report);
-  return head(report) + html::header(report) + html::tiles(report, figures) + html::notes(report, figures) +
-         html::map_section(report, *map) + html::accuracy_section(report, figures) + html::timing_section(report) +
+  const Accuracy accuracy = accuracy_of(report);
+  return head(report) + html::header(report) + html::tiles(report, accuracy) + html::notes(report) +
+         html::map_section(report, *map) + html::accuracy_section(report, accuracy) + html::timing_section(report) +
          html::schedule_section(report) + html::events_section(report) + html::peers_section(report) +
          html::details_section(report) + foot(report);
 }

@@ -27,6 +27,7 @@ section { background: var(--card); border: 1px solid var(--line); border-radius:
 .tile.good b { color: var(--good); } .tile.warn b { color: var(--warn); } .tile.bad b { color: var(--bad); }
 .notes { list-style: none; margin: 0; padding: 0; display: grid; gap: 6px; }
 .notes li { padding-left: 22px; position: relative; overflow-wrap: anywhere; }
+.notes small { display: block; color: var(--soft); }
 .notes li::before { content: ""; position: absolute; left: 3px; top: .45em; width: 10px; height: 10px; border-radius: 50%; background: var(--good); }
 .notes li.warn::before { background: var(--warn); border-radius: 2px; }
 .notes li.bad::before { background: var(--bad); border-radius: 0; transform: rotate(45deg); }

@@ -123,6 +123,14 @@ inline void schedule(RunReport& report, const std::string& name) {
 
 }  // namespace sample
 
+/// A run of which there is nothing to say.
+inline RunReport uneventful() {
+  RunReport report;
+  report.scans = 1;
+  report.trajectory.resize(1);
+  return report;
+}
+
 /// `hostile` puts markup and broken bytes into every text.
 inline std::unique_ptr<SampleRun> sample_run(int scans = 600, double resolution = 0.2, bool hostile = false) {
   auto run = std::make_unique<SampleRun>();
@@ -136,7 +144,7 @@ inline std::unique_ptr<SampleRun> sample_run(int scans = 600, double resolution 
   r.start = at_seconds(100);
   r.duration_s = 0.1 * scans, r.scans = static_cast<std::uint64_t>(scans), r.lost_packets = 3;
   r.ticks = {static_cast<std::uint64_t>(scans) * 10, 0, from_seconds(180e-6)};
-  r.odometry = {14, 0, 6.4};
+  r.odometry = {14, 0, 0, 6.4};
   r.peak_rss_mb = 143.2;
   r.control_thread_allocations = 0;
   sample::drive(r, scans, 6e-4);

@@ -30,6 +30,14 @@ TEST(Summary, WhatWasNotMeasuredIsNoZero) {
   EXPECT_THAT(text, HasSubstr("packet_to_pose not measured\n"));
 }
 
+TEST(Summary, EndsWithTheNotesAndTheirRemedies) {
+  RunReport report;
+  report.lost_packets = 3;
+  EXPECT_THAT(to_summary(report), ::testing::ContainsRegex("  ERROR: No scan arrived.*\n    → `cairn inspect.*\n"
+                                                           "  WARNING: 3 LiDAR packets were lost.\n    → .*\n$"));
+  EXPECT_THAT(to_summary(uneventful()), ::testing::Not(HasSubstr("ERROR")));
+}
+
 TEST(Summary, DevicesThatLostNothingAreLeftOut) {
   RunReport report;
   report.losses = {{"lidar", {{"kernel_drops", 3}, {"foreign", 0}}}};

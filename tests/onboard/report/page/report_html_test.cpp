@@ -6,6 +6,8 @@
 
 #include <set>
 
+#include "onboard/report/notes/notes.hpp"
+#include "onboard/report/page/html_text.hpp"
 #include "tests/onboard/report/sample_report.hpp"
 
 namespace cairn::report {
@@ -66,7 +68,8 @@ TEST(ReportHtml, EscapesEveryTextFromOutside) {
 TEST(ReportHtml, OfARunThatDidNothingIsStillAPage) {
   const std::string page = to_html(RunReport{}).value();
   EXPECT_EQ(structure_fault(page), "");
-  EXPECT_THAT(page, HasSubstr("Nothing to report"));
+  EXPECT_THAT(page, HasSubstr("<li class=\"bad\">No scan arrived"));
+  EXPECT_THAT(page, HasSubstr("<div class=\"tile bad\"><span>scans"));
   EXPECT_THAT(page, Not(HasSubstr("nan")));
   EXPECT_THAT(page, Not(HasSubstr("Accuracy")));
 }
@@ -108,8 +111,30 @@ TEST(ReportHtml, ShowsEveryTaskAgainstItsDeadline) {
   EXPECT_THAT(page, Not(HasSubstr("<td class=\"bad\">1.0")));
 }
 
-TEST(ReportHtml, PointsOutModeDemotionsAndWhatWasShed) {
+TEST(ReportHtml, OfARunWithoutAScanNothingIsGreen) {
   RunReport report;
+  Monitor monitor;
+  monitor.stage("decode", std::chrono::milliseconds(5)).record(std::chrono::milliseconds(1));
+  report.monitor = &monitor;
+  report.ticks = {.count = 5000, .missed = 0, .max_lateness = Duration{}};
+  EXPECT_THAT(to_html(report).value(), Not(HasSubstr("tile good")));
+  report.scans = 1;
+  EXPECT_THAT(to_html(report).value(), HasSubstr("tile good"));
+}
+
+TEST(ReportHtml, ShowsEveryNoteWithItsRemedy) {
+  const auto run = sample_run(100);
+  const std::string page = to_html(run->report).value();
+  const auto notes = notes_of(run->report);
+  ASSERT_FALSE(notes.empty());
+  for (const Note& note : notes) {
+    EXPECT_THAT(page, HasSubstr(html::escape(note.text)));
+    EXPECT_THAT(page, HasSubstr(html::escape(note.remedy)));
+  }
+}
+
+TEST(ReportHtml, PointsOutModeDemotionsAndWhatWasShed) {
+  RunReport report = uneventful();
   report.mode = "normal";
   report.tasks.emplace_back().spec.name = "mapping";
   report.shed = {{"nothing", 7}, {"peer tiles", 0}};
@@ -118,17 +143,18 @@ TEST(ReportHtml, PointsOutModeDemotionsAndWhatWasShed) {
   report.tasks.back().stats.demotions = 2;
   report.shed[1].second = 3;
   const std::string page = to_html(report).value();
-  for (const char* note : {"ended in mode <b>stop</b>: estop_open", "<b>mapping</b> kept overrunning its hard budget",
-                           "demoted 2 times", "3 scans were mapped while work was shed"})
+  for (const char* note :
+       {"<li class=\"warn\">The run ended in mode stop: estop_open", "<li class=\"bad\">Task mapping kept",
+        "demoted 2 times", "3 scans were mapped while work was shed"})
     EXPECT_THAT(page, HasSubstr(note));
 }
 
 TEST(ReportHtml, PointsOutWhatDevicesLostAndNoZeros) {
-  RunReport report;
+  RunReport report = uneventful();
   report.losses = {{"lidar<1>", {{"kernel_drops", 0}, {"foreign", 0}}}};
   EXPECT_THAT(to_html(report).value(), HasSubstr("Nothing to report"));
   report.losses[0].second[0].second = 3;
-  EXPECT_THAT(to_html(report).value(), HasSubstr("Device <b>lidar&lt;1&gt;</b> reports kernel_drops 3."));
+  EXPECT_THAT(to_html(report).value(), HasSubstr("Device lidar&lt;1&gt; reports kernel_drops 3."));
 }
 
 TEST(ReportHtml, InVirtualTimeTasksHaveNoResponse) {
@@ -165,9 +191,9 @@ TEST(ReportHtml, OfAShortRunAllocationsAreNotMeasured) {
 
 TEST(ReportHtml, PointsOutClaimsThatDoNotHold) {
   auto run = sample_run(300);
-  EXPECT_THAT(to_html(run->report).value(), Not(HasSubstr("claimed covariance is too small")));
+  EXPECT_THAT(to_html(run->report).value(), Not(HasSubstr("stated covariance is too small")));
   for (PoseEstimate& p : run->report.trajectory) p.T_odom_base.covariance *= 1e-4;
-  EXPECT_THAT(to_html(run->report).value(), HasSubstr("claimed covariance is too small along x"));
+  EXPECT_THAT(to_html(run->report).value(), HasSubstr("stated covariance is too small: 3 sigma hold"));
 }
 
 TEST(ReportHtml, StaysSmallForALongRun) {

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/report/notes/notes.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "onboard/report/notes/note_list.hpp"
+
+namespace cairn::report {
+
+std::string_view to_string(Severity severity) { return severity == Severity::kError ? "error" : "warning"; }
+
+std::vector<Note> notes_of(const RunReport& report) {
+  NoteList list;
+  note_inputs(list, report);
+  note_odometry(list, report);
+  note_accuracy(list, report);
+  note_schedule(list, report);
+  note_team(list, report);
+  if (report.monitor != nullptr && report.monitor->dropped_events() > 0)
+    list.warning(fmt::format("{} kinds of events did not fit into the list.", report.monitor->dropped_events()), {});
+  std::ranges::stable_partition(list.notes, [](const Note& note) { return note.severity == Severity::kError; });
+  return std::move(list.notes);
+}
+
+}  // namespace cairn::report

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <fmt/format.h>
+
+#include "onboard/report/notes/note_list.hpp"
+
+namespace cairn::report {
+namespace {
+
+std::string listed(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
+void note_split(NoteList& notes, const RunReport& report) {
+  const std::size_t kept = report.earlier_maps.size();
+  if (kept + report.dropped_maps == 0) return;
+  std::string text = fmt::format(
+      "The map was split into {} parts: how they lie to each other is not known. map.cairn holds the last one",
+      kept + report.dropped_maps + 1);
+  if (kept > 0) text += fmt::format("; of the earlier ones there is {}", listed(report.earlier_maps));
+  if (report.dropped_maps > 0) text += fmt::format("; {} smaller ones were not kept", report.dropped_maps);
+  std::string remedy = "keep the LiDAR free and its data whole, or let wheels bridge the gap";
+  if (kept > 0)
+    remedy = fmt::format("find how two parts lie with `cairn match {} map.cairn --method global`, then `cairn merge`",
+                         report.earlier_maps.back());
+  notes.error(text + ".", remedy);
+}
+
+}  // namespace
+
+void note_odometry(NoteList& notes, const RunReport& report) {
+  const OdometryStats& odometry = report.odometry;
+  if (report.scans > 0 && report.trajectory.empty())
+    notes.error("Not one scan became a pose: there is no trajectory, and the map is empty.", "see the events");
+  if (odometry.lost_scans > 0)
+    notes.error(fmt::format("Odometry was lost for {:.1f} s, in {} of {} scans: the motion was predicted.",
+                            odometry.lost_s, odometry.lost_scans, report.trajectory.size()),
+                "do not rely on the path there; docs/tuning-budgets.md says what to try");
+  note_split(notes, report);
+  if (odometry.degenerate_scans > 0)
+    notes.warning(fmt::format("{} scans left a direction of motion open, as in a corridor or an open field.",
+                              odometry.degenerate_scans),
+                  "the covariance says which direction");
+}
+
+}  // namespace cairn::report
