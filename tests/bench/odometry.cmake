@@ -4,3 +4,4 @@ cairn_quality(odometry_accuracy SOURCES odometry_accuracy.cpp LINK cairn_odometr
 if(embree_FOUND)  # its recordings' wheels are those of the simulator
   cairn_quality(odometry_drives SOURCES odometry_drives.cpp LINK cairn_odometry cairn_velodyne cairn_recording cairn_simulator)
 endif()
+cairn_quality(odometry_delays SOURCES odometry_delays.cpp LINK cairn_odometry cairn_velodyne cairn_recording)

@@ -21,98 +21,20 @@
 #include <string>
 #include <vector>
 
-#include "drivers/drive/wheel_decoder.hpp"
-#include "drivers/recording/formats/trajectory_file.hpp"
-#include "drivers/recording/recording_reader.hpp"
-#include "drivers/velodyne/lidar.hpp"
 #include "hal/clock.hpp"
 #include "onboard/odometry/odometry.hpp"
 #include "tests/bench/plain_icp.hpp"
-#include "tools/simulator/sensors/motor_bus.hpp"
+#include "tests/bench/recorded_drive.hpp"
 
 namespace cairn::odometry {
 namespace {
 
 struct Settings {
   OdometryConfig odometry;
-  int every = 1, starts = 0, first = 0;
-  double gap_s = 0;
-  bool deskewed = false, icp = true, trace = false, wheels = true;
+  bench::Thinning thinning;
+  int starts = 0, first = 0;
+  bool icp = true, trace = false;
 };
-
-struct Recorded {
-  std::string name;
-  SE3 T_base_lidar;
-  std::vector<Scan> scans;
-  std::vector<SE3> truth;                         // T_world_base at each scan's end
-  std::vector<std::optional<DriveState>> wheels;  // newest at each scan's end
-};
-
-class Truth {
- public:
-  explicit Truth(const std::filesystem::path& file) {
-    if (std::filesystem::exists(file)) poses_ = recording::read_tum(file).value();
-  }
-  [[nodiscard]] SE3 operator()(Time t) const {
-    const auto after = std::ranges::lower_bound(poses_, t, {}, [](const auto& p) { return p.stamp; });
-    if (poses_.empty()) return {};
-    if (after == poses_.begin()) return poses_.front().pose;
-    if (after == poses_.end()) return poses_.back().pose;
-    const auto& before = *(after - 1);
-    const double share = to_seconds(t - before.stamp) / to_seconds(after->stamp - before.stamp);
-    return before.pose * SE3::exp(share * (before.pose.inverse() * after->pose).log());
-  }
-
- private:
-  std::vector<recording::StampedPose> poses_;
-};
-
-void deskew_with(const Truth& truth, const SE3& T_base_lidar, Scan& scan) {
-  const SE3 T_lidar_world = (truth(scan.valid.end) * T_base_lidar).inverse();
-  for (std::size_t i = 0; i < scan.cloud.size(); ++i) {
-    const Time fired = scan.valid.start + Duration(scan.cloud.offset_ns[i]);
-    const SE3 motion = T_lidar_world * truth(fired) * T_base_lidar;
-    scan.cloud.xyz[i] = (motion * scan.cloud.xyz[i].cast<double>()).cast<float>();
-  }
-  scan.deskewed = true;
-  scan.cloud.offset_ns.clear();
-}
-
-/// Scan `n` of a LiDAR of 10 Hz falls into a gap.
-bool in_a_gap(int n, double gap_s) {
-  constexpr int kFirst = 80, kPeriod = 120;
-  return n >= kFirst && (n - kFirst) % kPeriod < static_cast<int>(10 * gap_s);
-}
-
-Recorded load(const std::filesystem::path& folder, const Settings& settings) {
-  auto reader = recording::RecordingReader::open(folder).value();
-  const auto& source = reader->recording().sources.front();
-  Recorded out{
-      folder.parent_path().filename().string() + "/" + folder.filename().string(), source.T_base_sensor(), {}, {}, {}};
-  Monitor monitor;
-  const auto lidar = velodyne::Lidar::create({}, SourceId{}, monitor).value();
-  const auto wheels = drive::WheelDecoder::create(simulator::husky_drive()).value();
-  std::optional<DriveState> rolled;
-  const Truth truth(folder / "ground_truth.tum");
-  Packet packet;
-  int n = 0;
-  while (true) {
-    const auto poll = reader->next(packet, Duration::zero());
-    if (!poll || *poll == Poll::kEnd) break;
-    if (const auto& kind = reader->recording().sources[static_cast<std::size_t>(packet.source)].kind;
-        kind == recording::kDrive) {
-      if (const auto state = wheels->decode(packet); state && *state != nullptr) rolled = **state;
-    }
-    if (packet.source != SourceId{0}) continue;
-    const auto scan = lidar->decode(packet);
-    if (!scan || *scan == nullptr || n++ % settings.every != 0 || in_a_gap(n, settings.gap_s)) continue;
-    out.scans.push_back(**scan);
-    out.truth.push_back(truth((*scan)->valid.end));
-    out.wheels.push_back(settings.wheels ? rolled : std::nullopt);
-    if (settings.deskewed) deskew_with(truth, out.T_base_lidar, out.scans.back());
-  }
-  return out;
-}
 
 /// Root mean square distance after the best rigid alignment.
 double ate(const std::vector<SE3>& poses, const std::vector<SE3>& truth) {
@@ -151,7 +73,7 @@ void trace(std::size_t i, const OdometryUpdate& u, const SE3& true_step, const S
       total[0], total[1], total[2], 57.3 * total[5], ms);
 }
 
-Figures follow(const Recorded& drive, const Settings& settings, std::size_t first, std::size_t count) {
+Figures follow(const bench::RecordedDrive& drive, const Settings& settings, std::size_t first, std::size_t count) {
   Workers workers(1);
   LidarOdometry odometry(settings.odometry, drive.T_base_lidar, workers);
   bench::PlainIcp icp;
@@ -209,7 +131,7 @@ void print(const std::string& name, const Figures& f) {
   std::fflush(stdout);
 }
 
-void begin_often(const Recorded& drive, Settings settings) {
+void begin_often(const bench::RecordedDrive& drive, Settings settings) {
   constexpr std::size_t kTenSeconds = 100;
   settings.icp = false;
   double worst = 0;
@@ -233,17 +155,17 @@ void begin_often(const Recorded& drive, Settings settings) {
 bool set(Settings& s, const std::string& key, const std::string& value, std::string& yaml) {
   const int number = std::atoi(value.c_str());
   if (key == "every")
-    s.every = number;
+    s.thinning.every = number;
   else if (key == "starts")
     s.starts = number;
   else if (key == "first")
     s.first = number;
   else if (key == "gap")
-    s.gap_s = std::atof(value.c_str());
+    s.thinning.gap_s = std::atof(value.c_str());
   else if (key == "deskewed")
-    s.deskewed = number != 0;
+    s.thinning.deskewed = number != 0;
   else if (key == "wheels")
-    s.wheels = number != 0;
+    s.thinning.wheels = number != 0;
   else if (key == "icp")
     s.icp = number != 0;
   else if (key == "trace")
@@ -278,7 +200,7 @@ int main(int argc, char** argv) {
   double way = 0, squared = 0;
   std::vector<double> ms;
   for (const std::string& folder : recordings) {
-    const Recorded drive = load(folder, settings);
+    const bench::RecordedDrive drive = bench::load(folder, settings.thinning);
     if (settings.starts > 0) {
       begin_often(drive, settings);
       continue;
