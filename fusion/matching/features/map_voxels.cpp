@@ -3,7 +3,8 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
+
+#include "onboard/mapping/files/point_file.hpp"
 
 namespace cairn::matching {
 namespace {
@@ -78,10 +79,11 @@ Cube root_of(const mapping::SemanticOcTree& map) {
 
 Result<std::vector<Voxel>> occupied_voxels(const mapping::SemanticOcTree& map, std::size_t max_voxels) {
   if (map.getRoot() == nullptr) return std::vector<Voxel>{};
-  Collector collector(map, max_voxels);
-  if (!collector.collect(root_of(map)))
-    return Error{
-        .code = Errc::kLimit, .cause = "too many occupied voxels", .detail = "more than " + std::to_string(max_voxels)};
+  const auto voxels = mapping::listable_voxels(map, max_voxels);
+  if (!voxels) return voxels.error();
+  Collector collector(map, *voxels);
+  collector.voxels().reserve(*voxels);
+  (void)collector.collect(root_of(map));
   return std::move(collector.voxels());
 }
 

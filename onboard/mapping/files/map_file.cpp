@@ -19,7 +19,11 @@ using PointEncoder = std::vector<std::byte> (*)(std::span<const Eigen::Vector3f>
 
 Result<void> save_points(const SemanticOcTree& tree, const std::filesystem::path& path, PointEncoder encode) {
   const auto points = occupied_voxel_centres(tree);
-  if (!points) return at(path.string(), points.error());
+  if (!points) {
+    Error error = at(path.string(), points.error());
+    error.detail += ". Export it as .cairn, .ot or .bt: they hold large cubes as one node";
+    return error;
+  }
   return write_file_atomic(path, encode(*points));
 }
 

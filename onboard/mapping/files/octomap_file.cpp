@@ -204,6 +204,8 @@ std::vector<std::byte> encode_bt(const SemanticOcTree& tree) {
   SemanticOcTree likely(tree);
   likely.toMaxLikelihood();
   likely.prune();
+  // The format has no word for a root without children: OctoMap itself writes an unknown map then.
+  if (likely.getRoot() != nullptr && likely.getRoot()->block() == nullptr) likely.expandNode(likely.getRoot());
   std::vector<std::byte> out = header_bytes(kFirstLineBt, likely);
   if (likely.getRoot() != nullptr) append_bt(out, likely, *likely.getRoot());
   return out;

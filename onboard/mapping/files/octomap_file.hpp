@@ -23,7 +23,8 @@ Result<std::unique_ptr<SemanticOcTree>> decode_bt(std::span<const std::byte> byt
 
 /// The bytes that octomap::OcTree::write() gives for the same tree.
 [[nodiscard]] std::vector<std::byte> encode_ot(const SemanticOcTree& tree);
-/// The bytes that octomap::OcTree::writeBinary() gives for the same tree: its maximum likelihood, pruned.
+/// The bytes that octomap::OcTree::writeBinary() gives for the same tree: its maximum likelihood, pruned. A tree that
+/// is one single cube is written as its eight octants, because the format cannot hold a root without children.
 [[nodiscard]] std::vector<std::byte> encode_bt(const SemanticOcTree& tree);
 
 /// Whether the bytes claim to be of that format, by their first line.

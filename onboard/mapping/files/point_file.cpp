@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/mapping/files/point_file.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
 
@@ -11,35 +12,40 @@ std::vector<std::byte> join(const std::string& header, std::span<const Eigen::Ve
   static_assert(sizeof(Eigen::Vector3f) == 3 * sizeof(float));
   const auto text = std::as_bytes(std::span(header));
   const auto data = std::as_bytes(points);
-  std::vector<std::byte> out(text.begin(), text.end());
+  std::vector<std::byte> out;
+  out.reserve(text.size() + data.size());
+  out.insert(out.end(), text.begin(), text.end());
   out.insert(out.end(), data.begin(), data.end());
   return out;
 }
 
-void append_voxels(const SemanticOcTree& tree, const octomap::OcTreeKey& first, std::uint32_t edge,
-                   std::vector<Eigen::Vector3f>& points) {
-  for (std::uint32_t z = 0; z < edge; ++z)
-    for (std::uint32_t y = 0; y < edge; ++y)
-      for (std::uint32_t x = 0; x < edge; ++x) {
-        const octomap::OcTreeKey key(static_cast<octomap::key_type>(first[0] + x),
-                                     static_cast<octomap::key_type>(first[1] + y),
-                                     static_cast<octomap::key_type>(first[2] + z));
-        const octomap::point3d centre = tree.keyToCoord(key);
-        points.emplace_back(centre.x(), centre.y(), centre.z());
-      }
-}
-
 }  // namespace
 
+std::uint64_t count_occupied_voxels(const SemanticOcTree& tree) {
+  std::uint64_t voxels = 0;
+  for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf)
+    if (tree.isNodeOccupied(*leaf)) voxels += std::uint64_t{1} << (3 * (SemanticOcTree::kDepth - leaf.getDepth()));
+  return voxels;
+}
+
+Result<std::size_t> listable_voxels(const SemanticOcTree& tree, std::size_t max_points) {
+  const std::uint64_t voxels = count_occupied_voxels(tree);
+  const std::uint64_t most = std::min<std::uint64_t>(max_points, kSpareVoxels + kVoxelsPerNode * tree.size());
+  if (voxels <= most) return static_cast<std::size_t>(voxels);
+  return Error{
+      Errc::kLimit,
+      "too many occupied voxels to list them one by one",
+      {},
+      {},
+      std::to_string(voxels) + " voxels in " + std::to_string(tree.size()) + " nodes; at most " + std::to_string(most)};
+}
+
 Result<std::vector<Eigen::Vector3f>> occupied_voxel_centres(const SemanticOcTree& tree, std::size_t max_points) {
+  const auto voxels = listable_voxels(tree, max_points);
+  if (!voxels) return voxels.error();
   std::vector<Eigen::Vector3f> points;
-  for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf) {
-    if (!tree.isNodeOccupied(*leaf)) continue;
-    const unsigned levels = SemanticOcTree::kDepth - leaf.getDepth();
-    if ((std::uint64_t{1} << (3 * levels)) > max_points - points.size())
-      return Error{Errc::kLimit, "too many occupied voxels", {}, {}, "more than " + std::to_string(max_points)};
-    append_voxels(tree, leaf.getIndexKey(), 1U << levels, points);
-  }
+  points.reserve(*voxels);
+  for_each_occupied_voxel(tree, [&](const Eigen::Vector3f& point) { points.push_back(point); });
   return points;
 }
 

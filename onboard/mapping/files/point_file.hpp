@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <vector>
 
@@ -11,8 +12,37 @@
 
 namespace cairn::mapping {
 
-/// Centres of all occupied voxels, in metres in the map frame, in depth-first order; a pruned leaf gives every voxel it
-/// stands for. Errc::kLimit above `max_points`.
+/// Occupied voxels of the map; a pruned leaf counts as every voxel that it stands for. Leaves are
+/// counted as whole cubes: time grows with the number of leaves.
+[[nodiscard]] std::uint64_t count_occupied_voxels(const SemanticOcTree& tree);
+
+/// Voxels that may be listed one by one, unless the number of nodes justifies more. A few leaves of a
+/// crafted map stand for up to 2⁴⁸ voxels.
+inline constexpr std::uint64_t kSpareVoxels = 2'000'000, kVoxelsPerNode = 64;
+
+/// How many occupied voxels the map has. Errc::kLimit if it has more than `tree` justifies: more than
+/// kSpareVoxels + kVoxelsPerNode · nodes, or more than `max_points`.
+Result<std::size_t> listable_voxels(const SemanticOcTree& tree, std::size_t max_points = 100'000'000);
+
+/// Calls `visit(point)` for the centre of each occupied voxel, in metres in the map frame (float), in
+/// depth-first order. Ask listable_voxels() first.
+template <class Visit>
+void for_each_occupied_voxel(const SemanticOcTree& tree, Visit&& visit) {
+  for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf) {
+    if (!tree.isNodeOccupied(*leaf)) continue;
+    const octomap::OcTreeKey first = leaf.getIndexKey();
+    const unsigned edge = 1U << (SemanticOcTree::kDepth - leaf.getDepth());
+    const auto key = [&](unsigned axis, unsigned step) { return static_cast<octomap::key_type>(first[axis] + step); };
+    for (unsigned z = 0; z < edge; ++z)
+      for (unsigned y = 0; y < edge; ++y)
+        for (unsigned x = 0; x < edge; ++x) {
+          const octomap::point3d centre = tree.keyToCoord(octomap::OcTreeKey(key(0, x), key(1, y), key(2, z)));
+          visit(Eigen::Vector3f(centre.x(), centre.y(), centre.z()));
+        }
+  }
+}
+
+/// The centres as a list. Errors: those of listable_voxels().
 Result<std::vector<Eigen::Vector3f>> occupied_voxel_centres(const SemanticOcTree& tree,
                                                             std::size_t max_points = 100'000'000);
 

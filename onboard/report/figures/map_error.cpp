@@ -35,34 +35,32 @@ std::optional<double> ratio(std::uint64_t part, std::uint64_t whole) {
   return static_cast<double>(part) / static_cast<double>(whole);
 }
 
-void measure_accuracy(const mapping::SemanticOcTree& truth, const std::vector<Eigen::Vector3f>& voxels,
+void measure_accuracy(const mapping::SemanticOcTree& map, const mapping::SemanticOcTree& truth,
                       const MapErrorOptions& options, MapError& error) {
   double sum = 0, sum2 = 0;
-  for (const Eigen::Vector3f& v : voxels) {
+  mapping::for_each_occupied_voxel(map, [&](const Eigen::Vector3f& v) {
     const Eigen::Vector3d point = options.T_truth_map * v.cast<double>();
     const double d = distance_to_occupied(truth, point, options.max_distance_m).value_or(options.max_distance_m);
     error.correct += d <= options.tolerance_m ? 1 : 0;
     sum += d;
     sum2 += d * d;
-  }
-  error.occupied = voxels.size();
-  if (voxels.empty()) return;
-  error.mean_m = sum / static_cast<double>(voxels.size());
-  error.rmse_m = std::sqrt(sum2 / static_cast<double>(voxels.size()));
+  });
+  if (error.occupied == 0) return;
+  error.mean_m = sum / static_cast<double>(error.occupied);
+  error.rmse_m = std::sqrt(sum2 / static_cast<double>(error.occupied));
 }
 
-void measure_completeness(const mapping::SemanticOcTree& map, const std::vector<Eigen::Vector3f>& voxels,
+void measure_completeness(const mapping::SemanticOcTree& map, const mapping::SemanticOcTree& truth,
                           const MapErrorOptions& options, MapError& error) {
   const SE3 T_map_truth = options.T_truth_map.inverse();
-  for (const Eigen::Vector3f& v : voxels) {
+  mapping::for_each_occupied_voxel(truth, [&](const Eigen::Vector3f& v) {
     const Eigen::Vector3d p = T_map_truth * v.cast<double>();
     if (distance_to_occupied(map, p, options.tolerance_m)) {
       ++error.found;
     } else {
       ++(map.search(p.x(), p.y(), p.z()) != nullptr ? error.contradicted : error.unseen);
     }
-  }
-  error.true_occupied = voxels.size();
+  });
 }
 
 }  // namespace
@@ -103,12 +101,14 @@ Result<MapError> map_error(const mapping::SemanticOcTree& map, const mapping::Se
   MapErrorOptions options = asked;
   if (options.tolerance_m <= 0) options.tolerance_m = std::sqrt(3.0) * map.getResolution();
   options.max_distance_m = std::max(options.max_distance_m, options.tolerance_m);
-  const auto voxels = mapping::occupied_voxel_centres(map), true_voxels = mapping::occupied_voxel_centres(truth);
+  const auto voxels = mapping::listable_voxels(map), true_voxels = mapping::listable_voxels(truth);
   if (!voxels) return voxels.error();
   if (!true_voxels) return true_voxels.error();
   MapError error;
-  measure_accuracy(truth, *voxels, options, error);
-  measure_completeness(map, *true_voxels, options, error);
+  error.occupied = *voxels;
+  error.true_occupied = *true_voxels;
+  measure_accuracy(map, truth, options, error);
+  measure_completeness(map, truth, options, error);
   return error;
 }
 

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace cairn::report {
 namespace {
@@ -149,6 +150,7 @@ class Projector {
   // the walls take up, and below which most of these columns are free (a terrace has no room below it).
   void cut_below_ceiling() {
     constexpr double kPerson_m = 1.8, kFloorShare = 0.02, kCeilingShare = 0.15, kRough_m = 0.15;
+    constexpr double kLookedAt = 6e7;  // cells and nodes: about two seconds; a crafted map has 65 536 such heights
     const std::vector<double> area = occupied_per_height();
     const double columns =
         static_cast<double>(std::count(picture_.free.begin(), picture_.free.end(), 1)) * per_cell_ * per_cell_;
@@ -162,8 +164,11 @@ class Projector {
     if (between.empty()) return;
     std::nth_element(between.begin(), between.begin() + static_cast<std::ptrdiff_t>(between.size() / 2), between.end());
     const double walls = between[between.size() / 2];
+    double looks_left = kLookedAt / (static_cast<double>(picture_.free.size()) + static_cast<double>(map_.size()));
     for (int z = lowest; z < kKeys - 1; ++z) {
-      if (both(z) - walls < kCeilingShare * columns || both(z) == 0 || !is_hollow_below(z)) continue;
+      if (both(z) - walls < kCeilingShare * columns || both(z) == 0) continue;
+      if (--looks_left < 0) return;
+      if (!is_hollow_below(z)) continue;
       heights_.high = z - 1 - static_cast<int>(kRough_m / picture_.voxel_m);
       picture_.cut_m = (heights_.high + 1 - kZeroKey) * picture_.voxel_m;
       return;
@@ -171,11 +176,13 @@ class Projector {
   }
 
   [[nodiscard]] std::vector<double> occupied_per_height() const {
-    std::vector<double> area(kKeys, 0.0);
+    std::vector<double> area(kKeys + 1, 0.0);  // first what begins and ends at a height; whole numbers, so exact
     for_each_cube(map_, heights_, [&](const Cube& c) {
-      for (int z = c.low[2]; c.occupied && z < c.low[2] + c.edge; ++z)
-        area[static_cast<std::size_t>(z)] += static_cast<double>(c.edge) * c.edge;
+      if (!c.occupied) return;
+      area[static_cast<std::size_t>(c.low[2])] += static_cast<double>(c.edge) * c.edge;
+      area[static_cast<std::size_t>(c.low[2] + c.edge)] -= static_cast<double>(c.edge) * c.edge;
     });
+    std::partial_sum(area.begin(), area.end(), area.begin());
     return area;
   }
 

@@ -1,16 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 // Any two maps and any pose: every matching method gives a result that can be used, or an error; so does merging.
 // Bytes: method, six 16-bit numbers of the pose (the largest is NaN), then shapes of 8 bytes: which map and what shape,
-// log-odds, three 16-bit keys. Keys span 12.8 m, or all of the tree when the method is 255. Few shapes and steps: what
-// matters is their combinations, and under sanitisers a voxel costs a hundred times what it costs otherwise.
+// log-odds, three 16-bit keys. Keys span 12.8 m, or all of the tree when the method is 255. A shape of kind 7 is one
+// cube of any size anywhere, as one leaf. Few shapes and steps: what matters is their combinations, and under
+// sanitisers a voxel costs a hundred times what it costs otherwise.
 #include <array>
 #include <limits>
 
 #include "fusion/matching/book/methods.hpp"
 #include "fusion/merging/merge.hpp"
 #include "hal/bytes.hpp"
+#include "onboard/mapping/files/point_file.hpp"
 #include "tests/fuzz/onboard/map_fuzz.hpp"
 #include "tests/fuzz/require.hpp"
+#include "tests/support/hostile_maps.hpp"
 
 namespace {
 
@@ -18,7 +21,8 @@ using namespace cairn;
 
 constexpr std::size_t kHeader = 13, kShape = 8, kMostShapes = 18;
 constexpr int kSteps = 3;
-constexpr unsigned kPlate = 8;
+constexpr unsigned kPlate = 8, kWholeCube = 7;
+constexpr std::uint64_t kMostVoxels = 10'000;
 
 /// A key near the middle of the tree, or anywhere in it.
 unsigned key_from(std::uint16_t raw, bool anywhere) { return anywhere ? raw : 32768 - 64 + raw % 128; }
@@ -35,8 +39,13 @@ std::array<unsigned, 3> shape_of(std::uint8_t byte) {
 }
 
 void put_shape(mapping::SemanticOcTree& map, std::span<const std::byte> bytes, std::size_t at, bool anywhere) {
-  const auto edges = shape_of(load_le<std::uint8_t>(bytes, at));
+  const auto shape = load_le<std::uint8_t>(bytes, at);
+  const auto edges = shape_of(shape);
   const float log_odds = 0.05F * static_cast<float>(load_le<std::int8_t>(bytes, at + 1));
+  if ((shape >> 1 & 7U) == kWholeCube) {
+    const auto raw = [&](std::size_t axis) -> unsigned { return load_le<std::uint16_t>(bytes, at + 2 + 2 * axis); };
+    return support::put_cube(map, {raw(0), raw(1), raw(2)}, 1U + (shape >> 4U), log_odds);
+  }
   const auto key = [&](std::size_t axis, unsigned offset) {
     return static_cast<octomap::key_type>(key_from(load_le<std::uint16_t>(bytes, at + 2 + 2 * axis), anywhere) +
                                           offset);
@@ -60,6 +69,8 @@ SE3 pose_of(std::span<const std::byte> bytes) {
 
 void check_match(const mapping::SemanticOcTree& a, const mapping::SemanticOcTree& b, std::string_view method,
                  const SE3& initial) {
+  for (const mapping::SemanticOcTree* map : {&a, &b})
+    if (mapping::count_occupied_voxels(*map) > kMostVoxels) return;
   const auto of_a = matching::MapFeatures::build(a), of_b = matching::MapFeatures::build(b);
   if (!of_a || !of_b) return;
   Budget budget = Budget::steps(kSteps);

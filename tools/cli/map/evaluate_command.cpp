@@ -95,6 +95,8 @@ int evaluate_map(const Options& options) {
   const auto map = mapping::load_map(file), truth = mapping::load_map(true_file);
   if (!map) return app::fail(at(file.string(), map.error()));
   if (!truth) return app::fail(at(true_file.string(), truth.error()));
+  if (const auto few = mapping::listable_voxels(**map); !few) return app::fail(at(file.string(), few.error()));
+  if (const auto few = mapping::listable_voxels(**truth); !few) return app::fail(at(true_file.string(), few.error()));
   const auto T = T_truth_map(options);
   if (!T) return app::fail(T.error());
   const auto error = report::map_error(**map, **truth, {*T, options.tolerance_m});

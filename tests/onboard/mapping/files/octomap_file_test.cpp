@@ -15,6 +15,7 @@
 #include "hal/files/file.hpp"
 #include "tests/onboard/mapping/random_maps.hpp"
 #include "tests/onboard/mapping/tree_compare.hpp"
+#include "tests/support/hostile_maps.hpp"
 #include "tests/support/recorded_data.hpp"
 
 namespace cairn::mapping {
@@ -70,6 +71,28 @@ std::string node(float value, unsigned char children) {
   std::memcpy(text.data(), &value, 4);
   text[4] = static_cast<char>(children);
   return text;
+}
+
+// The format begins with the children of the root, so one cube has no word of its own in it.
+TEST(BtFile, HoldsAMapThatIsOneCube) {
+  for (const float log_odds : {3.5F, -2.0F}) {
+    const auto cube = support::whole_tree(log_odds);
+    const auto back = decode_bt(encode_bt(*cube));
+    ASSERT_TRUE(back) << to_string(back.error());
+    EXPECT_EQ((*back)->size(), 1U);
+    EXPECT_EQ((*back)->isNodeOccupied((*back)->getRoot()), log_odds > 0);
+  }
+}
+
+TEST(MapFiles, OfHostileMapsAreReadBack) {
+  for (const auto& [name, map] : support::hostile_maps()) {
+    const auto ot = decode_ot(encode_ot(*map));
+    ASSERT_TRUE(ot) << name;
+    EXPECT_EQ(encode_ot(**ot), encode_ot(*map)) << name;
+    const auto bt = decode_bt(encode_bt(*map));
+    ASSERT_TRUE(bt) << name << to_string(bt.error());
+    EXPECT_EQ(encode_bt(**bt), encode_bt(*map)) << name;
+  }
 }
 
 class OctoMapFile : public testing::TestWithParam<unsigned> {

@@ -9,6 +9,7 @@
 #include <tuple>
 
 #include "tests/onboard/mapping/random_maps.hpp"
+#include "tests/support/hostile_maps.hpp"
 
 namespace cairn::mapping {
 namespace {
@@ -41,6 +42,19 @@ TEST(OccupiedVoxelCentres, AreWhatSearchFinds) {
 TEST(OccupiedVoxelCentres, AreBounded) {
   EXPECT_EQ(occupied_voxel_centres(*random_map<SemanticOcTree>(1, 10), 100).error().code, Errc::kLimit);
   EXPECT_TRUE(occupied_voxel_centres(SemanticOcTree(0.1))->empty());
+}
+
+TEST(OccupiedVoxelCentres, OfAFewNodesThatSpanTheTreeAreRefusedBeforeTheyAreListed) {
+  for (const auto& [name, map] : support::hostile_maps()) {
+    const auto points = occupied_voxel_centres(*map);
+    if (points) {
+      EXPECT_LE(points->size(), kSpareVoxels + kVoxelsPerNode * map->size()) << name;
+      EXPECT_EQ(points->size(), count_occupied_voxels(*map)) << name;
+    } else {
+      EXPECT_EQ(points.error().code, Errc::kLimit) << name;
+    }
+  }
+  EXPECT_EQ(count_occupied_voxels(*support::whole_tree(2.0F)), std::uint64_t{1} << 48);
 }
 
 TEST(PointFiles, CarryTheFloatsAfterAHeaderThatCountsThem) {

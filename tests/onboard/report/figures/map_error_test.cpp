@@ -8,6 +8,7 @@
 
 #include "onboard/mapping/files/point_file.hpp"
 #include "tests/onboard/report/random_map.hpp"
+#include "tests/support/hostile_maps.hpp"
 
 namespace cairn::report {
 namespace {
@@ -83,6 +84,14 @@ TEST(MapError, TellsWhatIsContradictedFromWhatWasNeverSeen) {
   EXPECT_EQ(e->unseen, 190U);
   EXPECT_EQ(e->recall(), 0.0);
   EXPECT_FALSE(e->precision().has_value());
+}
+
+TEST(MapError, OfMapsThatNoMemoryHoldsIsRefused) {
+  for (const auto& [name, map] : support::hostile_maps()) {
+    const auto e = map_error(*map, *wall(2.05F), {});
+    EXPECT_EQ(e.has_value(), mapping::listable_voxels(*map).has_value()) << name;
+    EXPECT_TRUE(e || e.error().code == Errc::kLimit) << name;
+  }
 }
 
 TEST(MapError, FarOutliersCountAsTheLimit) {

@@ -7,6 +7,7 @@
 #include "onboard/mapping/files/point_file.hpp"
 #include "tests/onboard/report/random_map.hpp"
 #include "tests/onboard/report/sample_report.hpp"
+#include "tests/support/hostile_maps.hpp"
 
 namespace cairn::report {
 namespace {
@@ -141,6 +142,31 @@ TEST(LookAt, SurvivesAHugePrunedCube) {
   ASSERT_TRUE(p.has_value());
   EXPECT_EQ(p->width, 256);
   EXPECT_EQ(std::count(p->free.begin(), p->free.end(), 1), 256 * 256);
+}
+
+TEST(LookAt, SurvivesCubesOfAllSizes) {
+  for (const auto& [name, map] : support::hostile_maps())
+    for (const MapView view : {MapView::kTop, MapView::kSide, MapView::kFront}) {
+      const auto p = look_at(*map, {view, {}, {}, 256});
+      ASSERT_TRUE(p.has_value()) << name;
+      EXPECT_LE(std::max(p->width, p->height), 256) << name;
+    }
+}
+
+/// Cubes above each other with no room below them: each height within them is as large as a ceiling.
+TEST(LookAt, GivesUpTheSearchForACeilingAmongTooManyHeights) {
+  constexpr unsigned kDepth = 10, kEdge = 64;
+  mapping::SemanticOcTree map(0.1);
+  for (octomap::key_type i = 0; i < 100; ++i) map.setNodeValue(octomap::OcTreeKey(i, 0, 0), 2.0F, true);
+  map.setNodeValue(octomap::OcTreeKey(65535, 65535, 0), 2.0F, true);
+  for (unsigned z = kEdge; z < 65536; z += 2 * kEdge) {
+    support::put_cube(map, {0, 0, z}, kDepth, 2.0F);
+    support::put_cube(map, {kEdge * 4, 0, z}, kDepth, -2.0F);
+  }
+  map.canonicalise();
+  const auto p = look_at(map, {MapView::kTop, {}, {}, 256});
+  ASSERT_TRUE(p.has_value());
+  EXPECT_FALSE(p->cut_m.has_value());
 }
 
 TEST(MapView, Names) {
