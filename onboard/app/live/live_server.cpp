@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/live/live_server.hpp"
 
+#include <linux/sockios.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cerrno>
 #include <cstring>
 #include <string>
@@ -59,7 +62,7 @@ LiveServer::LiveServer(LiveServer&& other) noexcept
       dropped_(other.dropped_) {}
 
 LiveServer::~LiveServer() {
-  for (const int client : clients_) ::close(client);
+  for (const Client& client : clients_) ::close(client.fd);
   if (fd_ >= 0) ::close(fd_);
   if (!path_.empty()) ::unlink(path_.c_str());
 }
@@ -68,24 +71,41 @@ void LiveServer::accept_clients() {
   for (std::size_t i = 0; i < kMaxClients; ++i) {
     const int client = ::accept4(fd_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
     if (client < 0) return;
-    if (clients_.size() < kMaxClients) {
-      clients_.push_back(client);
-    } else {
-      ::close(client);
-      ++dropped_;
-    }
+    take_in(client);
+  }
+}
+
+void LiveServer::take_in(int fd) {
+  (void)::setsockopt(fd, SOL_SOCKET, SO_SNDBUF, &kMaxWaiting, sizeof kMaxWaiting);
+  if (clients_.size() < kMaxClients) return clients_.push_back({fd, 0});
+  const auto idlest = std::ranges::max_element(clients_, {}, &Client::idle_lines);
+  ++dropped_;
+  if (idlest->idle_lines == 0) {
+    ::close(fd);
+    return;
+  }
+  ::close(idlest->fd);
+  *idlest = {fd, 0};
+}
+
+void LiveServer::note_idle() {
+  for (Client& client : clients_) {
+    int unread = 0;
+    const bool idle = ::ioctl(client.fd, SIOCOUTQ, &unread) == 0 && unread > 0;
+    client.idle_lines = idle ? client.idle_lines + 1 : 0;
   }
 }
 
 void LiveServer::publish(std::string_view line) {
+  note_idle();
   accept_clients();
   std::size_t kept = 0;
-  for (const int client : clients_) {
-    const ssize_t sent = ::send(client, line.data(), line.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  for (const Client& client : clients_) {
+    const ssize_t sent = ::send(client.fd, line.data(), line.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
     if (sent == static_cast<ssize_t>(line.size())) {
       clients_[kept++] = client;
     } else {
-      ::close(client);
+      ::close(client.fd);
       ++dropped_;
     }
   }

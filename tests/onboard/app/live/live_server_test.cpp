@@ -3,7 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
+#include <memory>
+#include <vector>
 
 #include "tests/support/local_socket.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -54,15 +57,35 @@ TEST_F(LiveServerTest, ClientsThatGoCostNothing) {
   EXPECT_LE(server.clients(), 1U);
 }
 
-TEST_F(LiveServerTest, MoreClientsThanAllowedAreTurnedAway) {
+TEST_F(LiveServerTest, MoreReadersThanAllowedAreTurnedAway) {
   auto server = LiveServer::open(path_).value();
   std::vector<std::unique_ptr<StreamClient>> clients;
   for (std::size_t i = 0; i < LiveServer::kMaxClients + 4; ++i) {
     clients.push_back(std::make_unique<StreamClient>(path_));
     server.publish("line\n");
+    for (std::size_t k = 0; k < std::min(clients.size(), LiveServer::kMaxClients); ++k)
+      EXPECT_EQ(clients[k]->read(), "line\n") << k << " of " << clients.size();
   }
   EXPECT_EQ(server.clients(), LiveServer::kMaxClients);
   EXPECT_EQ(server.dropped_clients(), 4U);
+}
+
+TEST_F(LiveServerTest, SilentClientsLockNobodyOut) {
+  auto server = LiveServer::open(path_).value();
+  StreamClient reader(path_);
+  std::vector<std::unique_ptr<StreamClient>> silent;
+  while (silent.size() < LiveServer::kMaxClients - 1) silent.push_back(std::make_unique<StreamClient>(path_));
+  server.publish("one\n");
+  EXPECT_EQ(reader.read(), "one\n");
+  server.publish("two\n");
+  EXPECT_EQ(reader.read(), "two\n");
+  StreamClient late(path_), later(path_);
+  server.publish("three\n");
+  EXPECT_EQ(late.read(), "three\n");
+  EXPECT_EQ(later.read(), "three\n");
+  EXPECT_EQ(reader.read(), "three\n") << "who reads keeps its place";
+  EXPECT_EQ(server.clients(), LiveServer::kMaxClients);
+  EXPECT_EQ(server.dropped_clients(), 2U);
 }
 
 TEST_F(LiveServerTest, ItTakesOverFromADeadCoreAndFromNoLivingOne) {
