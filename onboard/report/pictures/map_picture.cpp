@@ -150,7 +150,8 @@ class Projector {
   // the walls take up, and below which most of these columns are free (a terrace has no room below it).
   void cut_below_ceiling() {
     constexpr double kPerson_m = 1.8, kFloorShare = 0.02, kCeilingShare = 0.15, kRough_m = 0.15;
-    constexpr double kLookedAt = 6e7;  // cells and nodes: about two seconds; a crafted map has 65 536 such heights
+    // A crafted map has 65 536 heights to look at. In cells and nodes: a second or two.
+    constexpr double kMostLooks = 256, kLookedAt = 6e7;
     const std::vector<double> area = occupied_per_height();
     const double columns =
         static_cast<double>(std::count(picture_.free.begin(), picture_.free.end(), 1)) * per_cell_ * per_cell_;
@@ -164,7 +165,8 @@ class Projector {
     if (between.empty()) return;
     std::nth_element(between.begin(), between.begin() + static_cast<std::ptrdiff_t>(between.size() / 2), between.end());
     const double walls = between[between.size() / 2];
-    double looks_left = kLookedAt / (static_cast<double>(picture_.free.size()) + static_cast<double>(map_.size()));
+    const double cost = static_cast<double>(picture_.free.size()) + static_cast<double>(map_.size());
+    double looks_left = std::min(kMostLooks, kLookedAt / cost);
     for (int z = lowest; z < kKeys - 1; ++z) {
       if (both(z) - walls < kCeilingShare * columns || both(z) == 0) continue;
       if (--looks_left < 0) return;
