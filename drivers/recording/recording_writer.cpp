@@ -10,52 +10,26 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* kGroundTruth = "ground_truth.tum";
-
-/// The files that a recording with these sources owns in `dir`, as far as they exist.
-std::vector<fs::path> owned_files(const fs::path& dir, const Recording& recording) {
-  std::vector<fs::path> files;
+/// What is in the way of the new recording; empty: nothing.
+fs::path existing_file(const fs::path& dir, const Recording& recording) {
   std::error_code ignored;
-  for (const char* name : {kIndexFile, kGroundTruth})
-    if (fs::exists(fs::symlink_status(dir / name, ignored))) files.push_back(dir / name);
+  if (fs::exists(fs::symlink_status(dir / kIndexFile, ignored))) return dir / kIndexFile;
   for (const SourceEntry& source : recording.sources)
-    for (fs::path& file : existing_files(dir, source)) files.push_back(std::move(file));
-  return files;
-}
-
-Error io_error(std::string_view cause, const fs::path& path, const std::error_code& error) {
-  return Error{Errc::kIo, cause, path.string(), {}, error.message()};
-}
-
-/// Makes room for the new recording, or says what is in the way.
-Result<void> clear(const fs::path& dir, const Recording& recording, Overwrite overwrite) {
-  std::vector<fs::path> files = owned_files(dir, recording);
-  if (files.empty()) return {};
-  if (overwrite == Overwrite::kNo)
-    return Error{Errc::kIo,
-                 "there is a recording already",
-                 files.front().string(),
-                 {},
-                 "choose another folder or allow overwriting"};
-  if (const auto old = load_recording(dir))
-    for (fs::path& f : owned_files(dir, *old)) files.push_back(std::move(f));
-  for (const fs::path& file : files) {
-    std::error_code error;
-    fs::remove(file, error);
-    if (error) return io_error("cannot remove the old file", file, error);
-  }
+    if (const auto files = existing_files(dir, source); !files.empty()) return files.front();
   return {};
 }
 
 }  // namespace
 
-Result<RecordingWriter> RecordingWriter::create(const fs::path& dir, const Recording& recording, Overwrite overwrite) {
+Result<RecordingWriter> RecordingWriter::create(const fs::path& dir, const Recording& recording) {
   std::error_code error;
   fs::create_directories(dir, error);
-  if (error) return io_error("cannot create the folder", dir, error);
-  if (auto cleared = clear(dir, recording, overwrite); !cleared) return cleared.error();
-  if (auto saved = save_recording(dir, recording); !saved) return saved.error();
+  if (error) return Error{Errc::kIo, "cannot create the folder", dir.string(), {}, error.message()};
+  if (const fs::path file = existing_file(dir, recording); !file.empty())
+    return Error{Errc::kIo, "there is a recording already", file.string(), {}, "choose another folder"};
   RecordingWriter writer(dir, recording);
+  writer.recording_.unfinished = true;
+  if (auto saved = save_recording(dir, writer.recording_); !saved) return saved.error();
   if (auto opened = writer.open_outputs(); !opened) return opened.error();
   return writer;
 }
@@ -93,7 +67,9 @@ Result<void> RecordingWriter::close() {
   for (const auto& output : outputs_)
     if (auto closed = output->close(); !closed && first) first = closed;
   outputs_.clear();
-  return first;
+  if (!first) return first;
+  recording_.unfinished = false;
+  return save_recording(dir_, recording_);
 }
 
 }  // namespace cairn::recording

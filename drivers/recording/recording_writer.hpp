@@ -13,17 +13,13 @@
 
 namespace cairn::recording {
 
-/// What happens to an existing recording.
-enum class Overwrite : bool { kNo, kYes };
-
-/// Writes a recording folder. The index is written first, and the files grow by whole records. So a recording whose
-/// program was killed can be read up to its last flush().
+/// Writes a recording folder. The index is written first, as that of an unfinished recording, and the files grow by
+/// whole records. So a recording whose program was killed can be read up to its last flush(), and says what it is.
 class RecordingWriter {
  public:
   /// Makes the folder, recording.yaml and the files of all sources. An existing recording, or a file that would be
-  /// replaced, is refused (kIo). With Overwrite::kYes the files of the old recording are removed first.
-  [[nodiscard]] static Result<RecordingWriter> create(const std::filesystem::path& dir, const Recording& recording,
-                                                      Overwrite overwrite = Overwrite::kNo);
+  /// replaced, is refused (kIo).
+  [[nodiscard]] static Result<RecordingWriter> create(const std::filesystem::path& dir, const Recording& recording);
 
   /// Appends the packet to the file of its source: a datagram to the port in `channel`, a sweep with the ScanLayout in
   /// `channel`, a picture, a CAN frame, or an edge of a line. After an error the caller may go on with other sources;
@@ -31,7 +27,7 @@ class RecordingWriter {
   [[nodiscard]] Result<void> write(const Packet& packet);
   /// Hands everything buffered to the operating system; call it about once a second.
   [[nodiscard]] Result<void> flush();
-  /// Flushes, syncs and closes all files; the first error of any of them.
+  /// Flushes, syncs and closes all files; the first error of any of them. Without one, the recording is finished.
   [[nodiscard]] Result<void> close();
 
   /// How much was written.

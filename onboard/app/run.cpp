@@ -65,7 +65,8 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
   const bool live = options.live();
   if (live)
     if (const auto fits = check_schedule(*profile); !fits) return fits.error();
-  if (const auto ready = prepare_output(options.out); !ready) return ready.error();
+  auto results = prepare_output(options.out);
+  if (!results) return results.error();
   auto result = std::make_unique<RunResult>();
   declare_stages(profile->schedule, result->monitor);
   const LiveClock clock;
@@ -79,17 +80,22 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
   if (!live) previous.resumed = resumed_in_recording(options.recording, result->monitor);
 
   RobotTasks tasks(door->recording.sources, *profile, options, previous, result->monitor);
-  const RunContext context{
-      .door = *door, .profile = *profile, .options = options, .previous = previous, .monitor = result->monitor};
+  const RunContext context{.door = *door,
+                           .profile = *profile,
+                           .options = options,
+                           .previous = previous,
+                           .monitor = result->monitor,
+                           .results = results->path()};
   LiveRun live_run(tasks, context, clock);
   const auto ran = live ? live_run.run(state ? &state->generations : nullptr)  // packets → scans → poses and map
                         : replay_recording(tasks, context);
   if (!ran) return ran.error();
   if (state) state->starts.end();
 
-  auto report = write_output({options, *profile, tasks, *door, result->monitor});
-  if (!report) return report.error();
-  result->report = std::move(*report);
+  auto output = write_output({options, *profile, tasks, *door, result->monitor, *ran}, *results);
+  if (!output) return output.error();
+  result->report = std::move(output->report);
+  result->folder = std::move(output->folder);
   return result;
 }
 

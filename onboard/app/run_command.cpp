@@ -52,6 +52,12 @@ int show_tasks(const RunOptions& options) {
   return kDone;
 }
 
+/// What became of the results of an earlier run.
+std::string kept_results(const RunResult& result, const std::filesystem::path& out) {
+  if (result.folder == out) return {};
+  return "; the earlier results in " + out.string() + " are kept, those of this run are in " + result.folder.string();
+}
+
 int run_robot(Arguments a) {
   if (a.print_tasks) return show_tasks(a.run);
   std::vector<report::BudgetLimit> limits;
@@ -78,14 +84,12 @@ int run_robot(Arguments a) {
   if (a.json)
     print(report::to_json(report));
   else
-    print_summary(report, a.run.out);
+    print_summary(report, (*result)->folder);
+  if (report.interrupted) return fail(interrupted(report.source, "run it again for all of it"));
   if (report.scans != 0) return limits.empty() ? kDone : judge(limits, report);
-  return fail({Errc::kNotFound,
-               "not one scan came in",
-               report.source,
-               {},
-               report.live ? "see the events; `cairn doctor --config PROFILE` listens to the devices"
-                           : "see the events; `cairn inspect` says what a recording holds"});
+  const std::string remedy = report.live ? "see the events; `cairn doctor --config PROFILE` listens to the devices"
+                                         : "see the events; `cairn inspect` says what a recording holds";
+  return fail({Errc::kNotFound, "not one scan came in", report.source, {}, remedy + kept_results(**result, a.run.out)});
 }
 
 }  // namespace

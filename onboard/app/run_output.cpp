@@ -2,6 +2,7 @@
 #include "onboard/app/run_output.hpp"
 
 #include <fstream>
+#include <set>
 
 #include "drivers/recording/formats/recording.hpp"
 #include "drivers/recording/formats/trajectory_file.hpp"
@@ -21,6 +22,9 @@ namespace cairn::app {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr const char* kMap = "map.cairn";
+constexpr const char* kEpochMap = "map-epoch-";
 
 /// See Recording::time_shift_ns.
 Duration shift_of(const RunFacts& facts) { return Duration{facts.door.recording.time_shift_ns}; }
@@ -113,6 +117,7 @@ report::RunReport make_report(const RunFacts& facts) {
   report.live = facts.options.recording.empty();
   report.source = report.live ? "live" : facts.options.recording.string();
   report.version = CAIRN_VERSION;
+  report.interrupted = facts.end == RunEnd::kInterrupted;
   report.distance_m = length_m(track);
   add_input(facts, report);
   report.odometry = odometry_stats(track);
@@ -138,15 +143,12 @@ void add_ground_truth(const RunFacts& facts, report::RunReport& report) {
     for (const auto& p : *truth) report.ground_truth.push_back({p.stamp + shift_of(facts), p.pose});
 }
 
-/// One file for each epoch that ended during the run: their maps do not lie in the frame of map.cairn. Those of another
-/// run in the same folder go.
-Result<void> write_earlier_maps(const RunFacts& facts, report::RunReport& report, std::vector<fs::path>& hashed) {
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(facts.options.out, ignored))
-    if (entry.path().filename().string().starts_with("map-epoch-")) fs::remove(entry.path(), ignored);
+/// One file for each epoch that ended during the run: their maps do not lie in the frame of map.cairn.
+Result<void> write_earlier_maps(const RunFacts& facts, const fs::path& folder, report::RunReport& report,
+                                std::vector<fs::path>& hashed) {
   for (const EarlierMap& map : facts.tasks.robot.earlier_maps()) {
-    report.earlier_maps.push_back("map-epoch-" + std::to_string(map.epoch) + ".cairn");
-    hashed.push_back(facts.options.out / report.earlier_maps.back());
+    report.earlier_maps.push_back(kEpochMap + std::to_string(map.epoch) + ".cairn");
+    hashed.push_back(folder / report.earlier_maps.back());
     if (const auto r = mapping::save_cairn(*map.tree, hashed.back()); !r) return r.error();
   }
   report.dropped_maps = facts.tasks.robot.dropped_maps();
@@ -154,9 +156,10 @@ Result<void> write_earlier_maps(const RunFacts& facts, report::RunReport& report
 }
 
 /// What a team run leaves besides, as a part of what is to be repeated.
-Result<void> add_team_files(const RunFacts& facts, report::RunReport& report, std::vector<fs::path>& hashed) {
+Result<void> add_team_files(const RunFacts& facts, const fs::path& folder, report::RunReport& report,
+                            std::vector<fs::path>& hashed) {
   if (!facts.tasks.team || !facts.tasks.team->team().team()) return {};
-  const auto files = write_team(*facts.tasks.team->team().team(), facts.options.out);
+  const auto files = write_team(*facts.tasks.team->team().team(), folder);
   if (!files) return files.error();
   const auto hash = report::sha256_of_files(*files);
   if (!hash) return hash.error();
@@ -165,34 +168,69 @@ Result<void> add_team_files(const RunFacts& facts, report::RunReport& report, st
   return {};
 }
 
-}  // namespace
-
-Result<void> prepare_output(const fs::path& out) {
-  std::error_code error;
-  fs::create_directories(out, error);
-  if (error) return Error{Errc::kIo, "cannot make the output folder", out.string(), {}, error.message()};
-  // A run of an hour should not end with "permission denied".
-  return write_file_atomic(out / "config.yaml", "# the run has not ended\n");
-}
-
-Result<report::RunReport> write_output(const RunFacts& facts) {
-  const fs::path& out = facts.options.out;
+/// All files of a run.
+Result<report::RunReport> write_results(const RunFacts& facts, const fs::path& folder) {
   report::RunReport report = make_report(facts);
   add_ground_truth(facts, report);
-  std::vector<fs::path> hashed{out / "trajectory.tum", out / "map.cairn"};
-  if (const auto r = write_file_atomic(out / "config.yaml", report.effective_config); !r) return r.error();
+  std::vector<fs::path> hashed{folder / "trajectory.tum", folder / kMap};
+  if (const auto r = write_file_atomic(folder / "config.yaml", report.effective_config); !r) return r.error();
   if (const auto r = write_trajectory(hashed[0], facts.tasks.robot.track(), shift_of(facts)); !r) return r.error();
   if (const auto r = mapping::save_cairn(facts.tasks.robot.map(), hashed[1]); !r) return r.error();
-  if (const auto r = mapping::save_ot(facts.tasks.robot.map(), out / "map.ot"); !r) return r.error();
-  if (const auto r = write_earlier_maps(facts, report, hashed); !r) return r.error();
-  if (const auto r = add_team_files(facts, report, hashed); !r) return r.error();
+  if (const auto r = mapping::save_ot(facts.tasks.robot.map(), folder / "map.ot"); !r) return r.error();
+  if (const auto r = write_earlier_maps(facts, folder, report, hashed); !r) return r.error();
+  if (const auto r = add_team_files(facts, folder, report, hashed); !r) return r.error();
   const auto hash = report::sha256_of_files(hashed);
   if (!hash) return hash.error();
   report.output_sha256 = *hash;
   std::error_code ignored;
   report.map_file_bytes = fs::file_size(hashed[1], ignored);
-  if (const auto r = report::write_report(report, out); !r) return r.error();
+  if (const auto r = report::write_report(report, folder); !r) return r.error();
   return report;
+}
+
+std::set<fs::path> names_in(const fs::path& folder) {
+  std::set<fs::path> names;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored)) names.insert(entry.path().filename());
+  return names;
+}
+
+/// What an earlier run left in the same folder, and this one has not.
+void remove_stale(const fs::path& out, const std::set<fs::path>& fresh) {
+  std::error_code ignored;
+  if (fs::exists(out / recording::kIndexFile, ignored)) return;  // a recording's schedule.log is its own
+  for (const fs::path& name : names_in(out)) {
+    const bool not_in_every_run = name == kFailedRun || name == "schedule.log" || name == "team.cairn" ||
+                                  name == "team.tum" || name.string().starts_with(kEpochMap);
+    if (not_in_every_run && !fresh.contains(name)) fs::remove_all(out / name, ignored);
+  }
+}
+
+/// Returns where the results are.
+Result<fs::path> put_in_place(const RunFacts& facts, UnfinishedFolder& unfinished, std::uint64_t scans) {
+  const fs::path &out = facts.options.out, failed = out / kFailedRun;
+  std::error_code error;
+  if (scans == 0 && fs::exists(out / kMap, error)) {
+    fs::remove_all(failed, error);
+    if (const auto done = unfinished.become(failed); !done) return done.error();
+    return failed;
+  }
+  const auto fresh = names_in(unfinished.path());
+  if (const auto moved = unfinished.move_files_into(out, "report.json"); !moved) return moved.error();
+  remove_stale(out, fresh);
+  return out;
+}
+
+}  // namespace
+
+Result<UnfinishedFolder> prepare_output(const fs::path& out) { return UnfinishedFolder::inside(out); }
+
+Result<RunOutput> write_output(const RunFacts& facts, UnfinishedFolder& unfinished) {
+  auto report = write_results(facts, unfinished.path());
+  if (!report) return report.error();
+  auto folder = put_in_place(facts, unfinished, report->scans);
+  if (!folder) return folder.error();
+  return RunOutput{std::move(*report), std::move(*folder)};
 }
 
 }  // namespace cairn::app

@@ -3,16 +3,16 @@
 
 #include <filesystem>
 
+#include "hal/files/unfinished_folder.hpp"
 #include "hal/monitor.hpp"
 #include "hal/result.hpp"
 #include "onboard/app/profile/robot_profile.hpp"
+#include "onboard/app/runs/run_context.hpp"
 #include "onboard/report/figures/run_report.hpp"
 
 namespace cairn::app {
 
 class RobotTasks;
-struct Door;
-struct RunOptions;
 
 /// What the output of a run is made of.
 struct RunFacts {
@@ -21,11 +21,25 @@ struct RunFacts {
   const RobotTasks& tasks;
   const Door& door;  ///< where the packets came from
   const Monitor& monitor;
+  RunEnd end;
 };
 
-/// Makes the folder and a file in it, before the run: a run must not end with "permission denied". Error kIo.
-Result<void> prepare_output(const std::filesystem::path& out);
-/// Writes trajectory, maps, reports and configuration into options.out and returns the report. Error kIo.
-Result<report::RunReport> write_output(const RunFacts& facts);
+/// Makes the folder `out` and in it the folder where the results grow. It finds out before the run whether they can be
+/// written. Error kIo.
+Result<UnfinishedFolder> prepare_output(const std::filesystem::path& out);
+
+/// The results of a run and where they are.
+struct RunOutput {
+  report::RunReport report;
+  std::filesystem::path folder;
+};
+
+/// The folder in the output folder that gets the results of a run without a scan, where there are earlier ones.
+inline constexpr const char* kFailedRun = "failed-run";
+
+/// Writes trajectory, maps, reports and configuration into `unfinished` and then moves them into options.out, over the
+/// results of an earlier run. Results without a scan replace no map: they go into the folder kFailedRun. Error kIo;
+/// then the earlier results are still there.
+Result<RunOutput> write_output(const RunFacts& facts, UnfinishedFolder& unfinished);
 
 }  // namespace cairn::app

@@ -35,6 +35,8 @@ struct Row {
 [[nodiscard]] std::vector<Row> odometry_rows();
 [[nodiscard]] std::vector<Row> drive_rows();
 [[nodiscard]] std::vector<Row> computer_rows();
+/// Those of computer_rows() that are about a command's results.
+[[nodiscard]] std::vector<Row> output_rows();
 [[nodiscard]] std::vector<Row> peer_rows();
 /// Of the matrix, but not automated here.
 [[nodiscard]] std::vector<Row> rows_left_out();

@@ -259,7 +259,7 @@ std::vector<Row> process_rows() {
 
 std::vector<Row> computer_rows() {
   std::vector<Row> all;
-  for (auto& rows : {late_rows(), disk_rows(), process_rows()}) all.insert(all.end(), rows.begin(), rows.end());
+  for (auto& rows : {late_rows(), disk_rows(), process_rows(), output_rows()}) all.insert(all.end(), rows.begin(), rows.end());
   const auto number = [](const Row& row) { return std::stoi(row.id.substr(1)); };
   std::sort(all.begin(), all.end(), [&](const Row& a, const Row& b) { return number(a) < number(b); });
   return all;

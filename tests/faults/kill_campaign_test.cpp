@@ -2,10 +2,7 @@
 // Kills the real program at random instants while it maps and saves, again and again. CAIRN_KILLS: how often the slow
 // test does (10 without); CAIRN_RESTART_LIMIT_S: how long a restart may take until the first new pose is saved
 // (without: it is only said).
-#include <fcntl.h>
 #include <gtest/gtest.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <atomic>
@@ -22,8 +19,8 @@
 #include "hal/files/file.hpp"
 #include "hal/workers.hpp"
 #include "onboard/app/restart/generations.hpp"
+#include "tests/faults/cairn_child.hpp"
 #include "tests/support/loopback_lidar.hpp"
-#include "tests/support/places.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
 #include "tests/support/vlp16_drive.hpp"
@@ -50,44 +47,6 @@ class Lidar {
   support::Vlp16Drive drive_{standing(), SE3::from_xyz_rpy((Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished()), 5, 1};
 };
 
-/// `cairn run` as a child.
-class Core {
- public:
-  explicit Core(const std::filesystem::path& folder) : pid_(::fork()) {
-    if (pid_ != 0) return;
-    const std::string program = places::program("cairn"), config = folder / "robot.yaml", state = folder / "state",
-                      out = folder / "out";
-    const int said = ::open((folder / "said.txt").c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    ::dup2(said, STDOUT_FILENO);
-    ::dup2(said, STDERR_FILENO);
-    ::execl(program.c_str(), "cairn", "run", "--config", config.c_str(), "--state", state.c_str(), "--out", out.c_str(),
-            nullptr);
-    ::_exit(127);
-  }
-  Core(const Core&) = delete;
-  Core& operator=(const Core&) = delete;
-  ~Core() {
-    if (pid_ > 0) (void)kill();
-  }
-  /// Ends it in good order: it says what happened to it.
-  void stop() {
-    ::kill(pid_, SIGTERM);
-    ::waitpid(pid_, nullptr, 0);
-    pid_ = -1;
-  }
-  /// Whether it was still running until then.
-  bool kill() {
-    int status = 0;
-    ::kill(pid_, SIGKILL);
-    ::waitpid(pid_, &status, 0);
-    pid_ = -1;
-    return WIFSIGNALED(status) && WTERMSIG(status) == SIGKILL;
-  }
-
- private:
-  pid_t pid_;
-};
-
 long from_environment(const char* name, long otherwise) {
   const char* text = std::getenv(name);
   return text != nullptr ? std::strtol(text, nullptr, 10) : otherwise;
@@ -107,11 +66,6 @@ bool wait_for_change(const std::filesystem::path& file) {
   return false;
 }
 
-std::string said(const std::filesystem::path& folder) {
-  const auto bytes = bytes_of(folder / "said.txt");
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 void write_profile(const std::filesystem::path& file) {
   std::ofstream(file) << support::LoopbackLidar::profile("[0.2, 0, 0.6, 0, 0, 0]")
                       << "mapping:\n  reserve_mb: 16\nrestart:\n  save_map_every_s: 1\n";
@@ -121,17 +75,20 @@ void write_profile(const std::filesystem::path& file) {
 Duration kill_one(const std::filesystem::path& folder, std::mt19937_64& random) {
   const LiveClock clock;
   const Time begin = clock.now();
-  Core core(folder);
+  CairnChild core({"run", "--config", folder / "robot.yaml", "--state", folder / "state", "--out", folder / "out"},
+                  folder / "said.txt");
   const std::filesystem::path state = folder / "state", map = state / app::Generations::kMapFiles.front();
   const bool pose = wait_for_change(state / app::Generations::kStateFile);
   const Duration restart = clock.now() - begin;
   if (!pose || (!std::filesystem::exists(map) && !wait_for_change(map))) {
-    core.stop();
-    ADD_FAILURE() << "no pose or no map. " << said(folder);
+    core.signal(SIGTERM);  // it says what happened to it
+    (void)core.wait();
+    ADD_FAILURE() << "no pose or no map. " << core.said();
     return {};
   }
   LiveClock::wait_until(clock.now() + std::chrono::microseconds(random() % 1'200'000));
-  EXPECT_TRUE(core.kill()) << "it ended by itself: " << said(folder);
+  core.signal(SIGKILL);
+  EXPECT_EQ(core.wait(), -SIGKILL) << "it ended by itself: " << core.said();
   return restart;
 }
 

@@ -47,7 +47,7 @@ class TaskRig {
     scheduler::Executive executive(graph);
     const auto ran = executive.run_replay({.start = start, .length = end_ + kAfterwards});
     Measured m;
-    m.held = ran.has_value() && !executive.diverged() && safety.lost_changes() == 0;
+    m.held = ran.has_value() && !ran->diverged && safety.lost_changes() == 0;
     for (; const app::SafetyTask::Change* c = safety.changes().front(); safety.changes().pop())
       if (c->at - start >= kBegin) note(*c, c->at - start, fault, m);
     m.held = m.held && safety.decision().mode == safety::Mode::kNormal && safety.decision().active.empty();

@@ -93,9 +93,11 @@ class RobotRecorder {
     auto writer = recording::RecordingWriter::create(dir_, index_);
     if (!writer) return writer.error();
     for (std::size_t i = 0; i < index_.sources.size(); ++i) {
-      const Sink sink = [&writer, i, packet = Packet()](const Packet& p) mutable {
+      const Sink sink = [this, &writer, i, packet = Packet()](const Packet& p) mutable {
         packet = p;
         packet.source = SourceId{static_cast<std::uint16_t>(i)};
+        if (config_.stop && config_.stop())
+          return Result<void>(Error{Errc::kTruncated, "interrupted before the end", "simulate", {}, "nothing is left"});
         return writer->write(packet);
       };
       if (auto done = record_source(index_.sources[i].kind, sink); !done) return done.error();

@@ -4,6 +4,7 @@
 
 #include <sstream>
 
+#include "hal/files/unfinished_folder.hpp"
 #include "hal/workers.hpp"
 #include "tools/simulator/motion/flight.hpp"
 #include "tools/simulator/motion/route.hpp"
@@ -39,13 +40,6 @@ Result<void> refuse_used(const fs::path& out) {
   if (fs::exists(out, code) && !(fs::is_directory(out, code) && fs::is_empty(out, code))) {
     return Error{Errc::kIo, "already exists and is not an empty folder", out.string(), {}, "choose another --out"};
   }
-  return {};
-}
-
-Result<void> make(const fs::path& out) {
-  std::error_code code;
-  fs::create_directories(out, code);
-  if (code) return Error{Errc::kIo, "cannot make the folder", out.string(), {}, code.message()};
   return {};
 }
 
@@ -116,22 +110,20 @@ Result<std::vector<RobotSummary>> simulate(const SimulationConfig& config, const
   if (auto unused = refuse_used(config.out); !unused) return unused.error();
   const auto stage = set_up(config);
   if (!stage) return stage.error();
-  if (auto made = make(config.out); !made) return made.error();
+  auto folder = UnfinishedFolder::beside(config.out);
+  if (!folder) return folder.error();
   Workers workers(config.threads);
   std::vector<RobotSummary> summaries;
   for (std::size_t robot = 0; robot < stage->trajectories.size(); ++robot) {
-    const fs::path dir = config.out / ("robot_" + std::to_string(robot + 1));
+    const fs::path dir = folder->path() / ("robot_" + std::to_string(robot + 1));
     const auto share = [&](double done) {
       if (progress) progress((static_cast<double>(robot) + done) / config.robots);
     };
     auto summary = record_robot(config, *stage, robot, workers, dir, share);
-    if (!summary) {
-      std::error_code ignored;  // the first error is the one to tell
-      fs::remove_all(dir, ignored);
-      return summary.error();
-    }
+    if (!summary) return summary.error();
     summaries.push_back(std::move(*summary));
   }
+  if (auto finished = folder->become(config.out); !finished) return finished.error();
   return summaries;
 }
 

@@ -44,6 +44,7 @@ struct SimulationConfig {
   ThermalConfig thermal;
   DepthConfig depth;
   WheelConfig wheels;
+  std::function<bool()> stop;  ///< asked after every packet: whether to give up; empty: never
 
   [[nodiscard]] bool flies() const { return profile == "uav"; }
   /// Whether the classes of the LiDAR's returns are written, too: with the camera or with people.
@@ -84,7 +85,8 @@ inline constexpr double kMaxSeconds = 3600.0;
 /// FMA).
 ///
 /// Errors: kInvalidConfig for a scene, number or duration that cannot be; kIo when `out` exists and is not an empty
-/// folder, or when the disk refuses; then no half-made robot folder is left behind.
+/// folder, or when the disk refuses; kTruncated when `stop` ended it. `out` appears when all of it is written: after an
+/// error there is nothing.
 Result<std::vector<RobotSummary>> simulate(const SimulationConfig& config, const Progress& progress = {});
 
 }  // namespace cairn::simulator

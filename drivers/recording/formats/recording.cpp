@@ -51,6 +51,15 @@ Result<Recording> load_recording(const fs::path& dir) {
   return parse_recording({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, index.string(), check);
 }
 
+Error unfinished_recording(const fs::path& dir) {
+  return {
+      Errc::kTruncated,
+      "the recording was not closed: its program was killed, has no disk left, or still writes",
+      dir.string(),
+      {},
+      "its last second may be missing; make it again, or a closed copy: cairn faults " + dir.string() + " --out COPY"};
+}
+
 Result<void> save_recording(const fs::path& dir, const Recording& recording) {
   const fs::path index = dir / kIndexFile;
   if (recording.start_utc_ns < 0 || recording.start_utc_ns > kMaxUtcNs)

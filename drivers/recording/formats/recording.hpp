@@ -46,6 +46,7 @@ struct Recording {
   std::int64_t time_shift_ns = 0;       ///< how much later its times are than in the recording that was played for it
   std::vector<SourceEntry> sources;
   std::string notes;
+  bool unfinished = false;  ///< it is still written, or its program was killed: its end may be missing
 
   /// Nanoseconds since 1970.
   [[nodiscard]] std::int64_t utc_ns(Time t) const { return t.time_since_epoch().count() + realtime_offset_ns; }
@@ -60,6 +61,9 @@ inline constexpr std::int64_t kMaxUtcNs = (std::int64_t{1} << 61) - 1;
 /// or repeated keys, wrong kinds, missing files, paths that leave the folder) come in one Error, one line each:
 /// "file:line: key: cause".
 [[nodiscard]] Result<Recording> load_recording(const std::filesystem::path& dir);
+
+/// What is to be said of the unfinished recording in `dir`: the cause, and the remedy as `detail`.
+[[nodiscard]] Error unfinished_recording(const std::filesystem::path& dir);
 
 /// Writes `dir`/recording.yaml (atomically); `dir` must exist. Refuses what load_recording would refuse, except that
 /// the files of the sources need not exist yet.

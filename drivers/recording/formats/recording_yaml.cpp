@@ -201,6 +201,7 @@ void Checker::recording(const YAML::Node& node, Recording& r) {
           integer(-kMaxUtcNs, kMaxUtcNs, [&](std::int64_t v) { r.realtime_offset_ns = v; })},
       Key{"time_shift_ns", false, integer(-kMaxUtcNs, kMaxUtcNs, [&](std::int64_t v) { r.time_shift_ns = v; })},
       Key{"notes", false, text(r.notes, notes_fault)},
+      Key{"unfinished", false, flag(r.unfinished)},
       Key{"sources", true, [&](const YAML::Node& n, const std::string&) { sources(n, r.sources); }}};
   mapping(node, "", keys);
 }
@@ -257,7 +258,7 @@ std::string to_yaml(const Recording& r) {
          "\nstart_utc: " + to_iso_utc(r.start_utc_ns) +
          "\nrealtime_offset_ns: " + std::to_string(r.realtime_offset_ns) +
          (r.time_shift_ns != 0 ? "\ntime_shift_ns: " + std::to_string(r.time_shift_ns) : "") +
-         "\nnotes: " + quoted(r.notes) + "\nsources:\n";
+         "\nnotes: " + quoted(r.notes) + (r.unfinished ? "\nunfinished: true" : "") + "\nsources:\n";
   for (const SourceEntry& s : r.sources) out += source_text(s);
   return out;
 }

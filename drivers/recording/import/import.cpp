@@ -1,9 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/recording/import/import.hpp"
 
-#include <algorithm>
 #include <string>
-#include <system_error>
 
 namespace cairn::recording {
 
@@ -14,27 +12,33 @@ const std::vector<std::string>& import_kinds() {
 
 namespace {
 
-namespace fs = std::filesystem;
-
-/// Overwriting a recording with what is imported from it would delete the source before it is read.
-bool source_is_inside_out(const ImportOptions& options) {
-  std::error_code error;
-  const fs::path out = fs::weakly_canonical(options.out, error), source = fs::weakly_canonical(options.source, error);
-  return std::mismatch(out.begin(), out.end(), source.begin(), source.end()).first == out.end();
-}
-
-}  // namespace
-
-Result<ImportReport> import(std::string_view kind, const ImportOptions& options) {
-  if (source_is_inside_out(options))
-    return Error{Errc::kInvalidConfig, "the output folder must not hold the source", options.out.string(), {}, {}};
-  if (!(options.rate_hz > 0 && options.rate_hz <= 1000))
-    return Error{Errc::kInvalidConfig, "the rate must lie in 0 … 1000 Hz", "rate", {}, std::to_string(options.rate_hz)};
+Result<ImportReport> import_into(std::string_view kind, const ImportOptions& options) {
   if (kind == "velodyne-pcap") return import_velodyne_pcap(options);
   if (kind == "kitti-odometry") return import_kitti_odometry(options);
   if (kind == "kitti-raw") return import_kitti_raw(options);
   if (kind == "pcd-folder") return import_pcd_folder(options);
   return Error{Errc::kInvalidConfig, "unknown kind of data to import", std::string(kind), {}, {}};
+}
+
+}  // namespace
+
+Error import_interrupted(const ImportOptions& options) {
+  return {Errc::kTruncated, "interrupted before the end", options.source.string(), {}, "nothing was imported"};
+}
+
+Result<ImportReport> import(std::string_view kind, const ImportOptions& options) {
+  if (lies_in(options.source, options.out))
+    return Error{Errc::kInvalidConfig, "the output folder must not hold the source", options.out.string(), {}, {}};
+  if (!(options.rate_hz > 0 && options.rate_hz <= 1000))
+    return Error{Errc::kInvalidConfig, "the rate must lie in 0 … 1000 Hz", "rate", {}, std::to_string(options.rate_hz)};
+  auto recording = NewRecording::begin(options.out, options.overwrite);
+  if (!recording) return recording.error();
+  ImportOptions inside = options;
+  inside.out = recording->folder();
+  auto report = import_into(kind, inside);
+  if (!report) return report;
+  if (auto finished = recording->finish(); !finished) return finished.error();
+  return report;
 }
 
 }  // namespace cairn::recording

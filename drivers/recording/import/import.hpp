@@ -9,6 +9,7 @@
 #include <string_view>
 #include <vector>
 
+#include "drivers/recording/new_recording.hpp"
 #include "drivers/recording/recording_writer.hpp"
 #include "hal/result.hpp"
 #include "hal/time.hpp"
@@ -28,7 +29,11 @@ struct ImportOptions {
   std::uint16_t position_port = 8308;
   Overwrite overwrite = Overwrite::kNo;
   std::function<void(std::uint64_t items)> progress{};  ///< called after every packet or sweep
+  std::function<bool()> stop{};  ///< asked after every packet or sweep: whether to give up; empty: never
 };
+
+/// The error of an import that `stop` ended.
+[[nodiscard]] Error import_interrupted(const ImportOptions& options);
 
 /// The result of an import.
 struct ImportReport {
@@ -61,7 +66,8 @@ struct ImportReport {
 /// absolute, otherwise its name where all are times (nanoseconds, or seconds with a point), otherwise rate_hz.
 [[nodiscard]] Result<ImportReport> import_pcd_folder(const ImportOptions& options);
 
-/// `velodyne-pcap`, `kitti-odometry`, `kitti-raw` or `pcd-folder`.
+/// `velodyne-pcap`, `kitti-odometry`, `kitti-raw` or `pcd-folder`. The recording appears when it is whole: an error
+/// leaves nothing at `options.out`, and what was there stays. The functions above write into an empty folder instead.
 [[nodiscard]] Result<ImportReport> import(std::string_view kind, const ImportOptions& options);
 [[nodiscard]] const std::vector<std::string>& import_kinds();
 

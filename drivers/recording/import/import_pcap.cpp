@@ -74,7 +74,7 @@ Result<RecordingWriter> create_writer(const ImportOptions& options, const std::s
   lidar.data_port = options.data_port;
   lidar.position_port = options.position_port;
   recording.sources.push_back(std::move(lidar));
-  return RecordingWriter::create(options.out, recording, options.overwrite);
+  return RecordingWriter::create(options.out, recording);
 }
 
 Result<void> copy_packets(PcapSource& capture, RecordingWriter& writer, const ImportOptions& options,
@@ -93,6 +93,7 @@ Result<void> copy_packets(PcapSource& capture, RecordingWriter& writer, const Im
       report.last = packet.arrival;
       report.bytes += packet.bytes.size();
       if (options.progress) options.progress(report.items);
+      if (options.stop && options.stop()) return import_interrupted(options);
     }
   }
 }

@@ -2,7 +2,6 @@
 #include "drivers/recording/import/sweep_import.hpp"
 
 #include <string>
-#include <system_error>
 #include <utility>
 
 #include "drivers/recording/formats/scan_file.hpp"
@@ -21,7 +20,7 @@ Result<SweepImport> SweepImport::create(const ImportOptions& options, bool deske
   lidar.base_sensor_xyz_rpy = Vector6::Zero();
   lidar.deskewed = options.deskewed.value_or(deskewed);
   recording.sources.push_back(std::move(lidar));
-  auto writer = RecordingWriter::create(options.out, recording, options.overwrite);
+  auto writer = RecordingWriter::create(options.out, recording);
   if (!writer) return writer.error();
   SweepImport import(std::move(*writer), options);
   import.report_.model = options.model;
@@ -47,6 +46,7 @@ Result<void> SweepImport::add(Time end, const PointCloud& cloud, bool with_offse
   report_.last = end;
   report_.bytes += packet.bytes.size();
   if (options_.progress) options_.progress(report_.items);
+  if (options_.stop && options_.stop()) return import_interrupted(options_);
   return {};
 }
 
@@ -57,9 +57,6 @@ void SweepImport::damaged(Error error) {
 Result<ImportReport> SweepImport::finish() {
   if (auto closed = writer_.close(); !closed) return closed.error();
   if (report_.items > 0) return std::move(report_);
-  std::error_code ignored;  // nothing was imported: leave no recording in the way of the next attempt
-  for (const char* file : {kIndexFile, "data.csv", "ground_truth.tum"})
-    std::filesystem::remove(options_.out / file, ignored);
   const std::string first = report_.damage.empty() ? "" : to_string(report_.damage.front());
   return Error{Errc::kMalformed, "not one sweep could be read", options_.source.string(), {}, first};
 }

@@ -73,9 +73,10 @@ Result<Input> open_live(const RobotProfile& profile, const SourceEntry& entry, S
 }
 
 /// A recording's sources, without decoders.
-Result<Door> open_sources(const std::filesystem::path& folder, RobotProfile& profile) {
+Result<Door> open_sources(const std::filesystem::path& folder, RobotProfile& profile, Monitor& monitor) {
   auto recorded = recording::load_recording(folder);
   if (!recorded) return recorded.error();
+  if (recorded->unfinished) monitor.event({}, "recording", to_string(recording::unfinished_recording(folder)));
   profile.name = recorded->robot;
   Door door;
   for (std::size_t i = 0; i < recorded->sources.size(); ++i) {
@@ -126,7 +127,7 @@ Result<Door> open_devices(const RobotProfile& profile, Devices which, const Cloc
 }
 
 Result<Door> open_recording(const std::filesystem::path& folder, RobotProfile& profile, Monitor& monitor) {
-  auto door = open_sources(folder, profile);
+  auto door = open_sources(folder, profile, monitor);
   if (!door) return door;
   if (const auto decoded = add_decoders(*door, profile, monitor); !decoded) return decoded.error();
   if (const auto log = folder / "schedule.log"; std::filesystem::exists(log)) {
@@ -141,7 +142,7 @@ Result<Door> open_recording(const std::filesystem::path& folder, RobotProfile& p
 
 Result<Door> play_recording(const std::filesystem::path& folder, RobotProfile& profile, const Clock& clock,
                             Monitor& monitor) {
-  auto door = open_sources(folder, profile);
+  auto door = open_sources(folder, profile, monitor);
   if (!door) return door;
   constexpr Duration kStartIn = std::chrono::milliseconds(500);
   Time first = Time::max();

@@ -1,32 +1,42 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/live/stop_signal.hpp"
 
+#include <unistd.h>
+
+#include <atomic>
+#include <cerrno>
 #include <csignal>
+#include <string_view>
+#include <utility>
 
 #include "hal/clock.hpp"
 
 namespace cairn::app {
 namespace {
 
-volatile std::sig_atomic_t requested = 0;
-Time requested_at;  // this and the next: only the handler uses them once signals are caught
-Duration least_pause{};
+// timeout(1) and supervisors signal a program and then its whole group: that is one wish, not two.
+constexpr Duration kOneWish = std::chrono::seconds(1);
 
-void request(int number) {
-  const Time now = LiveClock().now();  // one system call, as a handler may make it
-  if (requested == 0) {
+std::atomic<bool> requested{false};
+static_assert(std::atomic<bool>::is_always_lock_free, "a handler may use nothing else");
+Time requested_at;  // only the handler uses it
+
+/// Makes nothing but system calls, as a handler must.
+void request(int /*number*/) {
+  const int error = errno;
+  const Time now = LiveClock().now();
+  if (!requested.exchange(true)) {
     requested_at = now;
-    requested = 1;
-  } else if (now - requested_at >= least_pause) {
-    (void)std::signal(number, SIG_DFL);
-    (void)std::raise(number);
+  } else if (now - requested_at >= kOneWish) {
+    constexpr std::string_view kHint = "\ncairn: is ending and writes its results; Ctrl-\\ kills it and loses them\n";
+    (void)!::write(STDERR_FILENO, kHint.data(), kHint.size());
   }
+  errno = error;
 }
 
 }  // namespace
 
-void catch_stop_signals(Duration patience) {
-  least_pause = patience;
+void catch_stop_signals() {
   struct sigaction action {};
   action.sa_handler = request;
   sigemptyset(&action.sa_mask);
@@ -37,6 +47,10 @@ void catch_stop_signals(Duration patience) {
   sigaction(SIGTERM, &action, nullptr);
 }
 
-bool stop_requested() { return requested != 0; }
+bool stop_requested() { return requested; }
+
+Error interrupted(std::string what, std::string remedy) {
+  return {Errc::kTruncated, "interrupted before the end", std::move(what), {}, std::move(remedy)};
+}
 
 }  // namespace cairn::app

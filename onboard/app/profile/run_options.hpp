@@ -31,7 +31,8 @@ struct RunOptions {
   bool reference = false;  ///< at real speed: run an empty task beside the control task, to know what the machine costs
   std::optional<int> threads;     ///< instead of the profile's
   std::optional<double> seconds;  ///< ends the run when so much of the robot's time has passed
-  std::function<bool()> stop;     ///< live: asked about every 20 ms whether the run is to end; empty: never
+  /// Asked whether the run is to end: live about every 20 ms, in a replay before every tick. Any thread; empty: never.
+  std::function<bool()> stop;
   std::function<void(Time, std::size_t scans)> progress;  ///< after every scan, on odometry's thread; may be empty
 
   /// True for live runs, and for recordings played among peers. They cannot be repeated by themselves; their recordings

@@ -27,7 +27,7 @@ LiveRun::LiveRun(RobotTasks& tasks, const RunContext& context, const Clock& cloc
       safety_events_(tasks.safety, context.monitor),
       schedule_faults_(tasks.graph, tasks.graph.scheduled(tasks.safety)) {}
 
-Result<void> LiveRun::run(Generations* generations) {
+Result<RunEnd> LiveRun::run(Generations* generations) {
   if (const auto opened = open_recorder(); !opened) return opened.error();
   if (const auto connected = connect_inputs(tasks_, context_, recorder_ ? &*recorder_ : nullptr); !connected)
     return connected.error();
@@ -37,7 +37,8 @@ Result<void> LiveRun::run(Generations* generations) {
   safety_events_.read();
   if (saving_) saving_->close(clock_.now(), tasks_.robot);
   report_unlogged_ticks();
-  return housekeeping_->close(clock_.now());
+  if (const auto closed = housekeeping_->close(clock_.now()); !closed) return closed.error();
+  return end();
 }
 
 Result<void> LiveRun::open_recorder() {
@@ -54,7 +55,8 @@ void LiveRun::add_live_only_tasks(Generations* generations) {
   const RunOptions& options = context_.options;
   const ScheduleProfile& schedule = context_.profile.schedule;
   Recorder* recorder = recorder_ ? &*recorder_ : nullptr;
-  housekeeping_.emplace(tasks_.graph, (recorder != nullptr ? options.record : options.out) / "schedule.log", recorder);
+  housekeeping_.emplace(tasks_.graph, (recorder != nullptr ? options.record : context_.results) / "schedule.log",
+                        recorder);
   const auto& keeping = add_live_only(schedule.housekeeping, *housekeeping_);
   std::vector<safety::Pulse> writers{
       {.task = keeping.spec.name, .limit = WatchTask::kDiskLimit, .beats = &keeping.stats.ticks}};
@@ -96,11 +98,21 @@ void LiveRun::execute() {
   scheduler::Executive(tasks_.graph, allocations_of_this_thread).run_live({start, ended}, clock_);
 }
 
-bool LiveRun::played_out(Time now) const {
-  if (context_.options.recording.empty() || context_.options.seconds) return false;
+Time LiveRun::played_until() const {
+  if (context_.options.recording.empty()) return Time::max();
   const auto ended_at = [&](const scheduler::Task& task) { return tasks_.graph.scheduled(task).ended_at(); };
-  const Time end = std::max({ended_at(tasks_.safety), ended_at(tasks_.drive), ended_at(tasks_.receive)});
+  return std::max({ended_at(tasks_.safety), ended_at(tasks_.drive), ended_at(tasks_.receive)});
+}
+
+bool LiveRun::played_out(Time now) const {
+  const Time end = context_.options.seconds ? Time::max() : played_until();
   return end != Time::max() && now > end + kLinger;
+}
+
+RunEnd LiveRun::end() const {
+  const RunOptions& options = context_.options;
+  const bool stopped = !options.recording.empty() && options.stop && options.stop();
+  return stopped && played_until() == Time::max() ? RunEnd::kInterrupted : RunEnd::kComplete;
 }
 
 void LiveRun::publish_status(Time now) {

@@ -25,9 +25,10 @@ class LiveRun {
   LiveRun(RobotTasks& tasks, const RunContext& context, const Clock& clock);
 
   /// Until the options' `stop`, their seconds are over, or a played recording has ended. Leaves schedule.log and, where
-  /// it is asked for, a recording. `generations`: where the map is saved; null: nowhere. Errors: an input cannot be
+  /// it is asked for, a recording. A stop is an interruption only while a recording is played. `generations`: where the
+  /// map is saved; null: nowhere. Errors: an input cannot be
   /// connected; the recording or the log cannot be written.
-  Result<void> run(Generations* generations);
+  Result<RunEnd> run(Generations* generations);
 
  private:
   Result<void> open_recorder();
@@ -35,7 +36,10 @@ class LiveRun {
   [[nodiscard]] safety::Pulse add_saving(Generations& generations);
   scheduler::ScheduledTask& add_live_only(const scheduler::TaskSpec& spec, scheduler::Task& task);
   void execute();
+  /// When the last packet of the played recording was used; Time::max(): it goes on, or none is played.
+  [[nodiscard]] Time played_until() const;
   [[nodiscard]] bool played_out(Time now) const;
+  [[nodiscard]] RunEnd end() const;
   void publish_status(Time now);
   [[nodiscard]] safety::FaultSet faults_of_machine() const;
   void report_unlogged_ticks();

@@ -9,7 +9,7 @@
 
 namespace cairn::app {
 
-Result<void> replay_recording(RobotTasks& tasks, const RunContext& context) {
+Result<RunEnd> replay_recording(RobotTasks& tasks, const RunContext& context) {
   if (const auto connected = connect_inputs(tasks, context, nullptr); !connected) return connected.error();
   const LiveClock clock;
   const Time first = first_arrival(tasks);
@@ -17,15 +17,17 @@ Result<void> replay_recording(RobotTasks& tasks, const RunContext& context) {
   replay.start = first == Time::max() ? Time{} : first;
   replay.log = context.door.schedule ? &*context.door.schedule : nullptr;
   replay.pace = context.options.pace == Pace::kRecorded ? &clock : nullptr;
+  replay.stop = context.options.stop;
   if (context.options.seconds) replay.length = from_seconds(*context.options.seconds);
   if (replay.pace != nullptr) (void)become_real_time(tasks.graph, context.monitor);
   scheduler::Executive executive(tasks.graph, allocations_of_this_thread);
-  if (const auto done = executive.run_replay(replay); !done) return done.error();
+  const auto end = executive.run_replay(replay);
+  if (!end) return end.error();
   SafetyEvents(tasks.safety, context.monitor).read();
-  if (executive.diverged() || missing_packets(tasks) > 0)
+  if (end->diverged || missing_packets(tasks) > 0)
     context.monitor.event(tasks.receive.figures().end, "schedule",
                           "the recording lacks packets that the live run had: not the same result");
-  return {};
+  return end->interrupted ? RunEnd::kInterrupted : RunEnd::kComplete;
 }
 
 }  // namespace cairn::app

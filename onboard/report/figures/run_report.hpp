@@ -76,6 +76,8 @@ struct RunReport {
   std::string version;  ///< of the program
   std::string started;  ///< UTC of the first packet as ISO 8601; metadata only. Empty: not known
 
+  bool interrupted = false;  ///< asked to end before the recording's end: all is of the part that was played
+
   std::optional<double> distance_m;  ///< length of the estimated trajectory; none without a pose
   std::optional<double> duration_s;  ///< on the robot's time line; none without a packet
   std::uint64_t scans = 0;

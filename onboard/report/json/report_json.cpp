@@ -251,6 +251,7 @@ Json to_json(const RunReport& report) {
           {"profile", report.profile},
           {"source", report.source},
           {"version", report.version},
+          {"interrupted", report.interrupted},
           {"started", report.started.empty() ? Json(nullptr) : Json(report.started)},
           {"notes", notes_json(report)},
           {"distance_m", or_null(report.distance_m)},

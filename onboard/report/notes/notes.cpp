@@ -13,6 +13,9 @@ std::string_view to_string(Severity severity) { return severity == Severity::kEr
 
 std::vector<Note> notes_of(const RunReport& report) {
   NoteList list;
+  if (report.interrupted)
+    list.error("The run was interrupted. All of this is of the part of the recording that was played.",
+               "Run it again for all of it.");
   note_inputs(list, report);
   note_odometry(list, report);
   note_accuracy(list, report);

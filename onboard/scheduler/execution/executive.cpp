@@ -12,15 +12,14 @@ void Executive::run_live(const LiveOptions& options, const Clock& clock) {
   drain(graph_, &clock);
 }
 
-Result<void> Executive::run_replay(const ReplayOptions& options) {
+Result<ReplayEnd> Executive::run_replay(const ReplayOptions& options) {
   const auto schedule = ReplaySchedule::prepare(graph_, options);
   if (!schedule) return schedule.error();
-  if (options.pace != nullptr)
-    replay_on_threads(*schedule, options.start, *options.pace, allocations_);
-  else
-    diverged_ = replay_serially(*schedule);
+  const ReplayEnd end = options.pace != nullptr
+                            ? replay_on_threads(*schedule, options.start, *options.pace, allocations_)
+                            : replay_serially(*schedule);
   drain(graph_, nullptr);
-  return {};
+  return end;
 }
 
 }  // namespace cairn::scheduler

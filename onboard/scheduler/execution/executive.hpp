@@ -23,14 +23,11 @@ class Executive {
   /// Returns after the last tick of every task and the final draining.
   void run_live(const LiveOptions& options, const Clock& clock);
   /// Error kInvalidConfig: the log knows other tasks.
-  Result<void> run_replay(const ReplayOptions& options);
-  /// The replay of a log came to a tick that took more than there was: the recording is not that of the log.
-  [[nodiscard]] bool diverged() const { return diverged_; }
+  Result<ReplayEnd> run_replay(const ReplayOptions& options);
 
  private:
   TaskGraph& graph_;
   CountAllocations allocations_;
-  bool diverged_ = false;
 };
 
 }  // namespace cairn::scheduler

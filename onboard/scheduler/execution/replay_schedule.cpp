@@ -32,7 +32,8 @@ Result<ReplaySchedule> ReplaySchedule::prepare(TaskGraph& graph, const ReplayOpt
                    "replay with the profile of the live run (its config.yaml)"};
   }
   const bool bounded = options.length < Time::max() - options.start;
-  return ReplaySchedule(graph, bounded ? options.start + options.length : Time::max(), options.log != nullptr);
+  const Time last = bounded ? options.start + options.length : Time::max();
+  return ReplaySchedule(graph, last, options.log != nullptr, options.stop);
 }
 
 bool ReplaySchedule::over(const ScheduledTask& task, Time release) const {

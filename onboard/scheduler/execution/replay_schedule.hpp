@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+
 #include "hal/clock.hpp"
 #include "hal/result.hpp"
 #include "onboard/scheduler/schedule_log.hpp"
@@ -14,6 +16,13 @@ struct ReplayOptions {
   const ScheduleLog* log = nullptr;   ///< must outlive the run; null: virtual time decides
   const Clock* pace = nullptr;        ///< every task on a thread of its own, at real speed; null: as fast as possible
   Duration length = Duration::max();  ///< no release later than so long after the start
+  std::function<bool()> stop{};  ///< asked before each tick, on its thread: whether the run ends there; empty: never
+};
+
+/// How a replay went.
+struct ReplayEnd {
+  bool diverged = false;     ///< a tick of the log took more than there was: the recording is not that of the log
+  bool interrupted = false;  ///< `stop` ended it before its last tick
 };
 
 /// Which releases a replay has, and what each tick gets: from the log of a live run or, without one, from virtual time.
@@ -26,18 +35,21 @@ class ReplaySchedule {
   [[nodiscard]] bool logged() const { return logged_; }
   /// Whether this release of the task is not served any more.
   [[nodiscard]] bool over(const ScheduledTask& task, Time release) const;
+  /// Whether the run is to end before its last tick.
+  [[nodiscard]] bool stopped() const { return stop_ && stop_(); }
   /// Whether every input has come so far.
   [[nodiscard]] bool inputs_reached(Time t) const;
   /// The next tick of the task. `gate`: of a replay on threads, which is opened. `clock`: at real speed, for figures.
   static void tick(ScheduledTask& task, Gate* gate, const Clock* clock);
 
  private:
-  ReplaySchedule(TaskGraph& graph, Time last_release, bool logged)
-      : graph_(&graph), last_release_(last_release), logged_(logged) {}
+  ReplaySchedule(TaskGraph& graph, Time last_release, bool logged, std::function<bool()> stop)
+      : graph_(&graph), last_release_(last_release), logged_(logged), stop_(std::move(stop)) {}
 
   TaskGraph* graph_;
   Time last_release_;
   bool logged_;
+  std::function<bool()> stop_;
 };
 
 }  // namespace cairn::scheduler

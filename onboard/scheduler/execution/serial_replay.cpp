@@ -26,16 +26,17 @@ ScheduledTask* next_task(const ReplaySchedule& schedule, bool only_ready) {
 
 }  // namespace
 
-bool replay_serially(const ReplaySchedule& schedule) {
-  bool diverged = false;
+ReplayEnd replay_serially(const ReplaySchedule& schedule) {
+  ReplayEnd end;
   for (;;) {
     ScheduledTask* task = next_task(schedule, schedule.logged());
     if (task == nullptr && schedule.logged()) {
       // None has what it took then. Going on shows how much is missing; stopping would hide it.
       task = next_task(schedule, false);
-      diverged = diverged || task != nullptr;
+      end.diverged = end.diverged || task != nullptr;
     }
-    if (task == nullptr) return diverged;
+    end.interrupted = task != nullptr && schedule.stopped();
+    if (task == nullptr || end.interrupted) return end;
     ReplaySchedule::tick(*task, nullptr, nullptr);
   }
 }

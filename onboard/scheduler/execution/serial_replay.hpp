@@ -5,8 +5,7 @@
 
 namespace cairn::scheduler {
 
-/// Replays on the calling thread, as fast as possible: tick after tick in the order of their releases. Returns true
-/// when the replay diverged: a tick of the log took more than there was, so the recording is not that of the log.
-[[nodiscard]] bool replay_serially(const ReplaySchedule& schedule);
+/// Replays on the calling thread, as fast as possible: tick after tick in the order of their releases.
+[[nodiscard]] ReplayEnd replay_serially(const ReplaySchedule& schedule);
 
 }  // namespace cairn::scheduler

@@ -8,7 +8,9 @@
 namespace cairn::scheduler {
 
 /// Replays at real speed, every task on a thread of its own. Tasks that are live only run beside it on the machine's
-/// clock. `start`: of virtual time, which begins now. The result is that of replay_serially().
-void replay_on_threads(const ReplaySchedule& schedule, Time start, const Clock& clock, CountAllocations allocations);
+/// clock. `start`: of virtual time, which begins now. The result is that of replay_serially(), unless it is
+/// interrupted. It never diverges.
+[[nodiscard]] ReplayEnd replay_on_threads(const ReplaySchedule& schedule, Time start, const Clock& clock,
+                                          CountAllocations allocations);
 
 }  // namespace cairn::scheduler

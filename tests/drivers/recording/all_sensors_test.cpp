@@ -7,6 +7,7 @@
 #include "drivers/camera/frame.hpp"
 #include "drivers/drive/can/can_frame.hpp"
 #include "drivers/gpio/line_event.hpp"
+#include "drivers/recording/new_recording.hpp"
 #include "drivers/recording/recording_reader.hpp"
 #include "drivers/recording/recording_writer.hpp"
 #include "tests/drivers/recording/files.hpp"
@@ -69,8 +70,8 @@ std::vector<Packet> packets_of_every_sensor() {
   return packets;
 }
 
-void write_all(const fs::path& dir, const std::vector<Packet>& packets, Overwrite overwrite = Overwrite::kNo) {
-  auto writer = RecordingWriter::create(dir, every_sensor(), overwrite);
+void write_all(const fs::path& dir, const std::vector<Packet>& packets) {
+  auto writer = RecordingWriter::create(dir, every_sensor());
   ASSERT_TRUE(writer) << to_string(writer.error());
   for (const Packet& p : packets) {
     const auto written = writer->write(p);
@@ -104,7 +105,9 @@ TEST(AllSensors, OverwritingLeavesNoOldPictures) {
   const TemporaryFolder folder;
   const auto packets = packets_of_every_sensor();
   write_all(folder / "r", packets);
-  write_all(folder / "r", {packets.begin(), packets.begin() + 3}, Overwrite::kYes);
+  auto again = NewRecording::begin(folder / "r", Overwrite::kYes).value();
+  write_all(again.folder(), {packets.begin(), packets.begin() + 3});
+  ASSERT_TRUE(again.finish());
   const auto pictures = fs::directory_iterator(folder / "r" / "camera" / "data");
   EXPECT_EQ(std::distance(begin(pictures), end(pictures)), 1);
 }

@@ -52,8 +52,8 @@ std::vector<Packet> random_packets(std::size_t n) {
   return packets;
 }
 
-void write_all(const fs::path& dir, const std::vector<Packet>& packets, Overwrite overwrite = Overwrite::kNo) {
-  auto writer = RecordingWriter::create(dir, two_lidars_and_sweeps(), overwrite);
+void write_all(const fs::path& dir, const std::vector<Packet>& packets) {
+  auto writer = RecordingWriter::create(dir, two_lidars_and_sweeps());
   ASSERT_TRUE(writer) << to_string(writer.error());
   for (const Packet& p : packets) ASSERT_TRUE(writer->write(p));
   EXPECT_EQ(writer->packets(), packets.size());
@@ -124,27 +124,16 @@ TEST(RecordingFolder, RecordingAReplayGivesTheSameRecording) {
   EXPECT_EQ(contents(folder / "a"), contents(folder / "b"));
 }
 
-TEST(RecordingFolder, AnExistingRecordingIsNotOverwrittenUnlessTold) {
+TEST(RecordingFolder, AnExistingRecordingIsNotOverwritten) {
   const TemporaryFolder folder;
-  const auto packets = random_packets(300);
-  write_all(folder.path(), packets);
-  test::spit(folder / "ground_truth.tum", "0 0 0 0 0 0 0 1\n");
-  test::spit(folder / "notes.txt", "mine");
+  write_all(folder.path(), random_packets(30));
   const std::string before = contents(folder.path());
   const auto refused = RecordingWriter::create(folder.path(), two_lidars_and_sweeps());
   ASSERT_FALSE(refused);
   EXPECT_THAT(to_string(refused.error()), HasSubstr("there is a recording already"));
   EXPECT_EQ(contents(folder.path()), before);
-
-  write_all(folder.path(), {packets.begin(), packets.begin() + 10}, Overwrite::kYes);
-  EXPECT_EQ(read_all(folder.path()).packets.size(), 10U);
-  EXPECT_FALSE(fs::exists(folder / "ground_truth.tum")) << "it belonged to the old recording";
-  EXPECT_EQ(test::slurp(folder / "notes.txt"), "mine");
-  write_all(folder / "fresh", {packets.begin(), packets.begin() + 10});
-  fs::remove(folder / "notes.txt");
-  const std::string fresh = contents(folder / "fresh");
-  fs::remove_all(folder / "fresh");
-  EXPECT_EQ(contents(folder.path()), fresh) << "nothing of the old sweeps is left";
+  fs::remove(folder / "recording.yaml");
+  EXPECT_FALSE(RecordingWriter::create(folder.path(), two_lidars_and_sweeps())) << "lidar.pcap would be lost";
 }
 
 TEST(RecordingFolder, WhatWasFlushedCanBeReadAfterAKill) {
@@ -155,6 +144,9 @@ TEST(RecordingFolder, WhatWasFlushedCanBeReadAfterAKill) {
   ASSERT_TRUE(writer->flush());
   fs::copy(folder / "r", folder / "killed", fs::copy_options::recursive);
   EXPECT_EQ(read_all(folder / "killed").packets.size(), 60U);
+  EXPECT_TRUE(load_recording(folder / "killed")->unfinished);
+  ASSERT_TRUE(writer->close());
+  EXPECT_FALSE(load_recording(folder / "r")->unfinished);
 }
 
 TEST(RecordingFolder, AnUnknownSourceIsAnError) {

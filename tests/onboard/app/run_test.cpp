@@ -208,6 +208,51 @@ TEST_F(RunTest, EndsWhenTheSecondsAreOver) {
   EXPECT_EQ((*result)->report.scans, 4U) << "what arrived by then";
 }
 
+TEST_F(RunTest, ARunWithoutAScanKeepsTheEarlierResults) {
+  RunOptions o = options("kept");
+  const auto good = run(o);
+  ASSERT_TRUE(good);
+  EXPECT_EQ((*good)->folder, o.out);
+  o.stop = [] { return true; };
+  const auto empty = run(o);
+  ASSERT_TRUE(empty) << to_string(empty.error());
+  EXPECT_EQ((*empty)->report.scans, 0U);
+  EXPECT_EQ((*empty)->folder, o.out / "failed-run");
+  EXPECT_TRUE(fs::exists(o.out / "failed-run" / "report.html"));
+  EXPECT_EQ(recording::read_tum(o.out / "trajectory.tum")->size(), static_cast<std::size_t>(kScans));
+  EXPECT_FALSE(fs::exists(o.out / "unfinished"));
+  o.recording = *folder_ / "nowhere";
+  EXPECT_FALSE(run(o));
+  EXPECT_EQ(recording::read_tum(o.out / "trajectory.tum")->size(), static_cast<std::size_t>(kScans));
+  ASSERT_TRUE(run(options("kept")));
+  EXPECT_FALSE(fs::exists(o.out / "failed-run")) << "it was about an earlier run";
+}
+
+TEST_F(RunTest, AnInterruptedRunLeavesItsFilesAndSaysSo) {
+  RunOptions o = options("interrupted");
+  std::size_t scans = 0;
+  o.progress = [&](Time, std::size_t n) { scans = n; };
+  o.stop = [&] { return scans >= 3; };
+  const auto result = run(o);
+  ASSERT_TRUE(result) << to_string(result.error());
+  EXPECT_TRUE((*result)->report.interrupted);
+  EXPECT_LT((*result)->report.scans, static_cast<std::uint64_t>(kScans));
+  EXPECT_GE(recording::read_tum(o.out / "trajectory.tum")->size(), 3U);
+  std::ifstream in(o.out / "report.json");
+  EXPECT_EQ(nlohmann::json::parse(in)["interrupted"], true);
+}
+
+TEST_F(RunTest, AnUnfinishedRecordingIsAnEvent) {
+  fs::copy(*folder_ / "recording", *folder_ / "unfinished", fs::copy_options::recursive);
+  std::ofstream(*folder_ / "unfinished" / "recording.yaml", std::ios::app) << "unfinished: true\n";
+  RunOptions o = options("of_unfinished");
+  o.recording = *folder_ / "unfinished";
+  const auto result = run(o);
+  ASSERT_TRUE(result) << to_string(result.error());
+  ASSERT_FALSE((*result)->monitor.events().empty());
+  EXPECT_EQ((*result)->monitor.events()[0].stage, "recording");
+}
+
 TEST_F(RunTest, WhatCannotWorkIsSaidBeforeAnythingRuns) {
   RunOptions missing = options("never");
   missing.recording = *folder_ / "nowhere";

@@ -88,10 +88,15 @@ Findings examine_recording(const std::filesystem::path& folder) {
   if (!found->contains("sources"))
     return {
         {Level::kProblem, "recording: " + folder.string() + " is no recording", "name a folder with recording.yaml"}};
+  if (found->value("unfinished", false))
+    findings.push_back(problem("recording", recording::unfinished_recording(folder)));
   for (const report::Json& source : (*found)["sources"]) findings.push_back(examine_source(source));
-  for (const report::Json& damage : (*found)["damage"])
+  const std::string said = to_string(recording::unfinished_recording(folder));
+  for (const report::Json& damage : (*found)["damage"]) {
+    if (damage == said) continue;
     findings.push_back(
         {Level::kProblem, "recording: " + damage.get<std::string>(), "what lies before and behind the damage is used"});
+  }
   return findings;
 }
 

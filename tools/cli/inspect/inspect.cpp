@@ -101,11 +101,16 @@ Result<report::Json> inspect_recording(const InspectOptions& options) {
                     {"profile", recording.profile},
                     {"start_utc", recording::to_iso_utc(recording.start_utc_ns)},
                     {"realtime_offset_ns", recording.realtime_offset_ns},
+                    {"unfinished", recording.unfinished},
                     {"notes", recording.notes}};
   std::error_code ignored;
   const fs::path truth = options.path / "ground_truth.tum";
   json["ground_truth"] = fs::exists(truth, ignored) ? describe_trajectory(truth) : report::Json(nullptr);
-  return inspect_stream(options, recording, **reader, std::move(json));
+  auto found = inspect_stream(options, recording, **reader, std::move(json));
+  if (!found || !recording.unfinished) return found;
+  (*found)["damaged"] = (*found)["damaged"].get<std::uint64_t>() + 1;
+  (*found)["damage"].push_back(to_string(recording::unfinished_recording(options.path)));
+  return found;
 }
 
 /// Ports and model, from the first datagrams of the sensors' sizes.

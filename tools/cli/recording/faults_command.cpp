@@ -13,8 +13,10 @@
 #include <vector>
 
 #include "drivers/recording/faulty_source.hpp"
+#include "drivers/recording/new_recording.hpp"
 #include "drivers/recording/recording_reader.hpp"
 #include "drivers/recording/recording_writer.hpp"
+#include "onboard/app/live/stop_signal.hpp"
 #include "onboard/report/json/report_json.hpp"
 #include "onboard/safety/fault.hpp"
 
@@ -25,6 +27,7 @@ namespace fs = std::filesystem;
 using recording::FaultySource;
 using recording::Recording;
 
+constexpr const char* kGroundTruth = "ground_truth.tum";
 // In the order of recording::Spell.
 const std::vector<std::string> kSpells{"silence", "disconnect", "stuck", "burst"};
 
@@ -63,7 +66,7 @@ Result<recording::Faults> faults_of(const FaultArguments& options, const Recordi
   return Error{Errc::kInvalidConfig, "the recording has no such source", options.source, {}, "it has " + known};
 }
 
-Copied copy(Source& source, recording::RecordingWriter& writer) {
+Result<Copied> copy(Source& source, recording::RecordingWriter& writer, const fs::path& of) {
   Copied copied;
   Packet packet;
   for (auto poll = source.next(packet, {}); !poll || *poll != Poll::kEnd; poll = source.next(packet, {})) {
@@ -71,6 +74,7 @@ Copied copy(Source& source, recording::RecordingWriter& writer) {
     const bool written = writer.write(packet).has_value();
     copied.written += written ? 1 : 0;
     copied.refused += written ? 0 : 1;
+    if (app::stop_requested()) return app::interrupted(of.string(), "nothing was written");
   }
   return copied;
 }
@@ -90,8 +94,26 @@ void print_table(const report::Json& json) {
       std::cout << fmt::format("{:<15} {}\n", key, value.is_string() ? value.get<std::string>() : value.dump());
 }
 
+/// The faulty recording, whole, in `folder`.
+Result<Copied> write_faulty(Source& from, const FaultArguments& options, const recording::Faults& faults,
+                            const Recording& recording, const fs::path& folder) {
+  auto writer = recording::RecordingWriter::create(folder, recording);
+  if (!writer) return writer.error();
+  FaultySource source(from, faults);
+  auto copied = copy(source, *writer, options.recording);
+  if (!copied) return copied;
+  if (const auto closed = writer->close(); !closed) return closed.error();
+  copied->faults = source.counters();
+  std::error_code error;
+  const fs::path truth = options.recording / kGroundTruth;
+  if (fs::exists(truth, error)) fs::copy_file(truth, folder / kGroundTruth, error);
+  if (error) return Error{Errc::kIo, "cannot copy the ground truth", truth.string(), {}, error.message()};
+  return copied;
+}
+
 int inject(const FaultArguments& options) {
   if (options.out.empty()) return app::fail({Errc::kInvalidConfig, "--out is missing: where the new recording goes"});
+  if (const auto kept = keep_input(options.recording, options.out); !kept) return app::fail(kept.error());
   auto reader = recording::RecordingReader::open(options.recording);
   if (!reader) return app::fail(reader.error());
   Recording recording = (*reader)->recording();
@@ -100,18 +122,14 @@ int inject(const FaultArguments& options) {
   recording.notes +=
       (recording.notes.empty() ? "" : "\n") + std::string("with injected faults, seed ") + std::to_string(faults->seed);
   const auto overwrite = options.overwrite ? recording::Overwrite::kYes : recording::Overwrite::kNo;
-  auto writer = recording::RecordingWriter::create(options.out, recording, overwrite);
-  if (!writer) return app::fail(writer.error());
-  FaultySource source(**reader, *faults);
-  Copied copied = copy(source, *writer);
-  if (const auto closed = writer->close(); !closed) return app::fail(closed.error());
-  copied.faults = source.counters();
-  std::error_code ignored;
-  const fs::path truth = options.recording / "ground_truth.tum";
-  if (fs::exists(truth, ignored))
-    fs::copy_file(truth, options.out / "ground_truth.tum", fs::copy_options::overwrite_existing, ignored);
-  if (options.json) return app::print(to_json(options, copied));
-  print_table(to_json(options, copied));
+  auto place = recording::NewRecording::begin(options.out, overwrite);
+  if (!place) return app::fail(place.error());
+  app::catch_stop_signals();
+  const auto copied = write_faulty(**reader, options, *faults, recording, place->folder());
+  if (!copied) return app::fail(copied.error());
+  if (const auto finished = place->finish(); !finished) return app::fail(finished.error());
+  if (options.json) return app::print(to_json(options, *copied));
+  print_table(to_json(options, *copied));
   return app::kDone;
 }
 

@@ -11,6 +11,7 @@
 #include <string>
 
 #include "drivers/recording/import/import.hpp"
+#include "onboard/app/live/stop_signal.hpp"
 #include "onboard/report/json/report_json.hpp"
 
 namespace cairn::cli {
@@ -59,6 +60,8 @@ int import_data(ImportArguments options) {
     options.import.progress = [](std::uint64_t items) {
       if (items % 10 == 0) std::fprintf(stderr, "\r%llu imported ", static_cast<unsigned long long>(items));
     };
+  app::catch_stop_signals();
+  options.import.stop = app::stop_requested;
   const auto report = recording::import(options.kind, options.import);
   if (terminal) std::fputs("\r", stderr);
   if (!report) return app::fail(report.error());

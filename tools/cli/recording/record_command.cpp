@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "drivers/recording/new_recording.hpp"
 #include "drivers/recording/record.hpp"
 #include "onboard/app/door/devices.hpp"
 #include "onboard/app/door/live_sources.hpp"
@@ -130,6 +131,13 @@ Result<RecordReport> record_all(const RecordArguments& options, const std::vecto
   return recorded;
 }
 
+/// What a full disk has of a drive cannot be recorded again.
+int fail_and_keep(recording::NewRecording& place, Error error) {
+  error.detail += (error.detail.empty() ? "" : "; ") + ("what was recorded is in " + place.folder().string());
+  place.leave();
+  return app::fail(error);
+}
+
 int record(const RecordArguments& options) {
   const auto profile = app::load_profile(options.config);
   if (!profile) return app::fail(profile.error());
@@ -144,14 +152,18 @@ int record(const RecordArguments& options) {
                       "name one: camera.capture.device, drive.interface, …"});
   Recording description = describe(options, *profile, clock);
   const auto overwrite = options.overwrite ? recording::Overwrite::kYes : recording::Overwrite::kNo;
-  auto writer = RecordingWriter::create(options.out, description, overwrite);
+  auto place = recording::NewRecording::begin(options.out, overwrite);
+  if (!place) return app::fail(place.error());
+  auto writer = RecordingWriter::create(place->folder(), description);
   if (!writer) return app::fail(writer.error());
 
   const auto recorded = record_all(options, *devices, clock, *writer);
-  if (!recorded) return app::fail(recorded.error());
+  if (!recorded) return fail_and_keep(*place, recorded.error());
   const report::Json json = summary(options, *devices, *writer, *recorded);
   description.notes = "recorded live; sensors: " + json["sensors"].dump();
-  if (const auto saved = recording::save_recording(options.out, description); !saved) return app::fail(saved.error());
+  if (const auto saved = recording::save_recording(place->folder(), description); !saved)
+    return fail_and_keep(*place, saved.error());
+  if (const auto finished = place->finish(); !finished) return app::fail(finished.error());
   if (options.json)
     app::print(json);
   else

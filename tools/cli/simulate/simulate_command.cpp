@@ -13,6 +13,7 @@
 #include <utility>
 #include <vector>
 
+#include "onboard/app/live/stop_signal.hpp"
 #include "tools/simulator/simulate.hpp"
 
 namespace cairn::cli {
@@ -100,6 +101,8 @@ int run(Options options) {
   if (options.simulation.flies()) make_uav(options.simulation);
   options.simulation.motion = simulator::style_of(simulator::motion_of(options.motion));
   if (!options.sensors.empty()) options.simulation.sensors = sensors(options.sensors);
+  app::catch_stop_signals();
+  options.simulation.stop = app::stop_requested;
   const auto robots = simulator::simulate(options.simulation, progress_line());
   if (!robots) return app::fail(robots.error());
   if (options.json) return app::print(to_json(options, *robots));

@@ -22,7 +22,7 @@ struct ReplayRunTest : ::testing::Test {
     input.source = std::make_unique<NoPackets>();
     door.recording.sources.push_back(input.entry);
   }
-  Result<void> replay() {
+  Result<RunEnd> replay() {
     tasks.emplace(door.recording.sources, profile, options, previous, monitor);
     return replay_recording(*tasks, {door, profile, options, previous, monitor});
   }
@@ -45,7 +45,8 @@ struct ReplayRunTest : ::testing::Test {
 };
 
 TEST_F(ReplayRunTest, AnEmptyRecordingEndsByItself) {
-  EXPECT_TRUE(replay());
+  const auto end = replay();
+  EXPECT_TRUE(end && *end == RunEnd::kComplete);
   for (const Event& event : monitor.events()) EXPECT_NE(event.stage, "schedule");
 }
 
@@ -54,6 +55,12 @@ TEST_F(ReplayRunTest, APacketThatTheLogKnowsAndTheRecordingLacksIsAnEvent) {
   EXPECT_TRUE(replay());
   ASSERT_FALSE(monitor.events().empty());
   EXPECT_EQ(monitor.events().back().stage, "schedule");
+}
+
+TEST_F(ReplayRunTest, AStopBeforeTheEndIsAnInterruption) {
+  options.stop = [] { return true; };
+  const auto end = replay();
+  EXPECT_TRUE(end && *end == RunEnd::kInterrupted);
 }
 
 TEST_F(ReplayRunTest, TheLogOfAnotherScheduleIsRefused) {

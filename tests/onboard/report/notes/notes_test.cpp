@@ -24,6 +24,13 @@ std::vector<std::string> lines(const RunReport& report) {
 
 TEST(Notes, ThereAreNoneOfAnUneventfulRun) { EXPECT_THAT(lines(uneventful()), ElementsAre()); }
 
+TEST(Notes, AnInterruptedRunIsAnError) {
+  RunReport report = uneventful();
+  report.interrupted = true;
+  EXPECT_THAT(lines(report), ElementsAre(HasSubstr("error: The run was interrupted")));
+  EXPECT_EQ(to_json(report)["interrupted"], true);
+}
+
 TEST(Notes, ARunWithoutAScanIsAnErrorWithARemedy) {
   RunReport report;
   ASSERT_THAT(lines(report), ElementsAre(HasSubstr("error: No scan arrived")));

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+
 #include "tests/onboard/scheduler/execution/pipeline.hpp"
 #include "tests/onboard/scheduler/list_source.hpp"
 
@@ -22,8 +24,8 @@ Value replay(const std::vector<Time>& list, const ScheduleLog* log, bool threads
   Executive executive(p.graph);
   const LiveClock clock;
   const ReplayOptions options{.start = p.reader.feed.first_arrival(), .log = log, .pace = threads ? &clock : nullptr};
-  EXPECT_TRUE(executive.run_replay(options));
-  EXPECT_FALSE(executive.diverged());
+  const auto end = executive.run_replay(options);
+  EXPECT_TRUE(end && !end->diverged && !end->interrupted);
   EXPECT_GT(p.dropped(), 0U) << "the test is to cover that, too";
   return p.result();
 }
@@ -63,14 +65,31 @@ TEST(Executive, AForeignRecordingIsNoticedAndARunStillEnds) {
   ListSource other({list.begin(), list.begin() + 3});
   Pipeline p(other);
   Executive executive(p.graph);
-  EXPECT_TRUE(executive.run_replay({.log = &log}));
-  EXPECT_TRUE(executive.diverged());
+  const auto end = executive.run_replay({.log = &log});
+  EXPECT_TRUE(end && end->diverged);
   EXPECT_GT(p.reader.feed.missing(), 0U);
 
   ListSource again(list);
   Pipeline q(again);
   q.working.spec.rate_hz = 50;
   EXPECT_FALSE(Executive(q.graph).run_replay({.log = &log})) << "another schedule than the log's";
+}
+
+TEST(Executive, AReplayStopsBeforeTheTickThatItIsAskedFor) {
+  for (const bool threads : {false, true}) {
+    ListSource source(arrivals(Time{1s}));
+    Pipeline p(source, 64);
+    std::atomic<int> asked = 0;
+    const LiveClock clock;
+    const auto end = Executive(p.graph).run_replay(
+        {.start = Time{1s}, .pace = threads ? &clock : nullptr, .stop = [&] { return ++asked > 40; }});
+    ASSERT_TRUE(end);
+    EXPECT_TRUE(end->interrupted);
+    std::uint64_t ticks = 0;
+    for (const ScheduledTask& task : p.graph.tasks()) ticks += task.stats.ticks;
+    EXPECT_LE(ticks, 40U);
+    EXPECT_GT(p.sink.state, 0U) << "what was begun is brought to its end";
+  }
 }
 
 }  // namespace

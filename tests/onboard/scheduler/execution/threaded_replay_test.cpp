@@ -25,7 +25,7 @@ struct ThreadedReplayTest : ::testing::Test {
     const auto schedule = ReplaySchedule::prepare(pipeline.graph, {.start = Time{1s}});
     ASSERT_TRUE(schedule);
     const LiveClock clock;
-    replay_on_threads(*schedule, Time{1s}, clock, nullptr);
+    EXPECT_FALSE(replay_on_threads(*schedule, Time{1s}, clock, nullptr).interrupted);
   }
   test::ListSource source{test::arrivals(Time{1s})};
   test::Pipeline pipeline{source};

@@ -117,6 +117,22 @@ TEST(DoctorCommand, DamageOfARecordingIsNamed) {
   EXPECT_EQ(doctor({"--recording", folder / "nowhere"}).exit_code, app::kFailed);
 }
 
+TEST(DoctorCommand, AnUnfinishedRecordingIsAProblemWithARemedy) {
+  const TemporaryFolder folder;
+  recording::Recording r;
+  r.robot = "robot_1";
+  r.sources = {{"gpio", recording::kGpio, "gpio.csv", "base_link", ""}};
+  auto writer = recording::RecordingWriter::create(folder / "r", r).value();
+  ASSERT_TRUE(writer.flush());
+  const Outcome o = doctor({"--recording", folder / "r"});
+  EXPECT_EQ(o.exit_code, app::kFailed);
+  EXPECT_THAT(o.out, HasSubstr("the recording was not closed"));
+  EXPECT_THAT(o.out, HasSubstr("→ its last second may be missing"));
+  EXPECT_EQ(o.out.find("was not closed"), o.out.rfind("was not closed")) << "said once";
+  ASSERT_TRUE(writer.close());
+  EXPECT_EQ(doctor({"--recording", folder / "r"}).exit_code, app::kDone);
+}
+
 TEST(DoctorCommand, SaysWhyAPeerHasNotMergedByWhatARunLeft) {
   const TemporaryFolder folder;
   put(folder / "report.json", R"json({"peers": {

@@ -70,6 +70,17 @@ TEST(InspectCommand, ARecordingOfSweeps) {
   EXPECT_NEAR(source["scans"]["period_ms"]["max"].get<double>(), 200, 1e-6);
 }
 
+TEST(InspectCommand, AnUnfinishedRecordingIsNotUndamaged) {
+  const TemporaryFolder folder;
+  write_sweeps(folder / "r");
+  EXPECT_EQ(inspect({folder / "r", "--json"}).json()["unfinished"], false);
+  std::ofstream(folder / "r/recording.yaml", std::ios::app) << "unfinished: true\n";
+  const auto json = inspect({folder / "r", "--json"}).json();
+  EXPECT_EQ(json["unfinished"], true);
+  EXPECT_EQ(json["damaged"], 1);
+  EXPECT_THAT(json["damage"][0].get<std::string>(), HasSubstr("was not closed"));
+}
+
 TEST(InspectCommand, PlainTextSaysTheSame) {
   const TemporaryFolder folder;
   write_sweeps(folder / "r");

@@ -72,6 +72,29 @@ TEST(FaultsCommand, WrongSourcesAndFoldersAreNamed) {
   EXPECT_EQ(faults({folder / "good", "--out", folder / "bad"}).exit_code, app::kFailed) << "an old recording is kept";
 }
 
+TEST(FaultsCommand, AnOutputThatWouldReplaceItsInputIsRefused) {
+  const TemporaryFolder folder;
+  write_recording(folder / "good");
+  std::filesystem::create_directory_symlink(folder / "good", folder / "link");
+  for (const std::string out :
+       {folder / "good", folder / "good/", folder / "link", folder / "good/inner", folder.path()}) {
+    const Outcome o = faults({folder / "good", "--out", out, "--overwrite"});
+    EXPECT_EQ(o.exit_code, app::kWrongArguments) << out;
+    EXPECT_THAT(o.err, HasSubstr("would replace its own input"));
+  }
+  EXPECT_EQ(packets_in(folder / "good"), 1001U);
+  EXPECT_TRUE(std::filesystem::exists(folder / "good/ground_truth.tum"));
+}
+
+TEST(FaultsCommand, AClosedCopyOfAnUnfinishedRecording) {
+  const TemporaryFolder folder;
+  write_recording(folder / "good.unfinished");
+  std::ofstream(folder / "good.unfinished/recording.yaml", std::ios::app) << "unfinished: true\n";
+  ASSERT_EQ(faults({folder / "good.unfinished", "--out", folder / "good"}).exit_code, app::kDone);
+  EXPECT_FALSE(recording::load_recording(folder / "good")->unfinished);
+  EXPECT_EQ(packets_in(folder / "good.unfinished"), 1001U) << "the source stays, whatever its name";
+}
+
 TEST(FaultsCommand, ListsWhatCountsAsAFault) {
   const Outcome o = faults({"list"});
   EXPECT_EQ(o.exit_code, app::kDone);

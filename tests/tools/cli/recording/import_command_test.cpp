@@ -59,6 +59,20 @@ TEST(ImportCommand, ASecondImportMustBeToldToOverwrite) {
   EXPECT_EQ(import(told).exit_code, app::kDone);
 }
 
+TEST(ImportCommand, WhatCannotBeImportedLeavesTheOldRecordingAndNothingElse) {
+  const TemporaryFolder folder;
+  std::filesystem::create_directory(folder / "in");
+  write_cloud(folder / "in/a.pcd");
+  ASSERT_EQ(import({"pcd-folder", folder / "in", "--out", folder / "r"}).exit_code, app::kDone);
+  std::ofstream(folder / "in/a.pcd") << "broken";
+  const Outcome o = import({"pcd-folder", folder / "in", "--out", folder / "r", "--overwrite"});
+  EXPECT_EQ(o.exit_code, app::kFailed);
+  EXPECT_TRUE(recording::load_recording(folder / "r")) << "the old one";
+  EXPECT_FALSE(std::filesystem::exists(folder / "r.unfinished"));
+  EXPECT_EQ(import({"pcd-folder", folder / "in", "--out", folder / "new"}).exit_code, app::kFailed);
+  EXPECT_FALSE(std::filesystem::exists(folder / "new"));
+}
+
 TEST(ImportCommand, WrongArguments) {
   const TemporaryFolder folder;
   EXPECT_EQ(import({"tapes", folder.path(), "--out", folder / "r"}).exit_code, app::kWrongArguments);

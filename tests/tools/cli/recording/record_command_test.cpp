@@ -58,6 +58,19 @@ TEST(RecordCommand, SaysInATableWhatCameInAndKeepsAnOldRecording) {
   EXPECT_THAT(record(arguments).err, HasSubstr("there is a recording already"));
 }
 
+TEST(RecordCommand, OverwritingWithASilentSensorLeavesNoOldBytes) {
+  const TemporaryFolder folder;
+  const std::vector<std::string> arguments{"--config", quiet_profile(folder), "--out", folder / "r", "--seconds",
+                                           "0.05",     "--overwrite"};
+  (void)record(arguments);
+  std::ofstream(folder / "r/lidar.pcap", std::ios::app) << std::string(2000, 'x');
+  std::ofstream(folder / "r/schedule.log") << "of the old one";
+  EXPECT_EQ(record(arguments).exit_code, app::kFailed);
+  EXPECT_LT(std::filesystem::file_size(folder / "r/lidar.pcap"), 100U) << "a header alone";
+  EXPECT_FALSE(std::filesystem::exists(folder / "r/schedule.log"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "r.unfinished"));
+}
+
 TEST(RecordCommand, AFaultyProfileIsAWrongArgument) {
   const TemporaryFolder folder;
   std::ofstream(folder / "robot.yaml") << "lidar: {modle: VLP-16}\n";

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/recording/new_recording.hpp"
+
+#include <array>
+#include <string>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "drivers/recording/formats/recording.hpp"
+#include "drivers/recording/source_writer.hpp"
+#include "hal/files/file.hpp"
+
+namespace cairn::recording {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What a recording may hold besides the files of its sources.
+constexpr std::array kOwnNames{kIndexFile, "ground_truth.tum", "profile.yaml", "schedule.log", "resume",
+                               "labels",   "lidar_labels.bin", "people.csv",   "world.ot"};
+
+Error in_the_way(const fs::path& file) {
+  return {Errc::kIo, "there is a recording already", file.string(), {}, "choose another folder or allow overwriting"};
+}
+
+/// The sources that the index names, though their files may be missing.
+std::vector<SourceEntry> sources_of(const fs::path& old) {
+  constexpr std::uint64_t kMaxIndexBytes = 256 * 1024;
+  const auto bytes = read_file(old / kIndexFile, kMaxIndexBytes);
+  if (!bytes) return {};
+  auto recording = parse_recording({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, kIndexFile);
+  return recording ? std::move(recording->sources) : std::vector<SourceEntry>();
+}
+
+/// Removes the files of a source that lie in `old`, whatever links say.
+void remove_files(const fs::path& old, const SourceEntry& source) {
+  std::error_code ignored;
+  for (const fs::path& file : existing_files(old, source))
+    if (lies_in(file.parent_path(), old)) fs::remove(file, ignored);
+}
+
+/// Removes folders that hold nothing. True: `folder` is gone.
+bool prune(const fs::path& folder) {
+  std::error_code error;
+  bool empty = true;
+  for (const auto& entry : fs::directory_iterator(folder, error))
+    empty = !entry.is_symlink(error) && entry.is_directory(error) && prune(entry.path()) && empty;
+  return empty && fs::remove(folder, error);
+}
+
+}  // namespace
+
+Result<NewRecording> NewRecording::begin(const fs::path& place, Overwrite overwrite) {
+  std::error_code ignored;
+  if (overwrite == Overwrite::kNo && fs::exists(fs::symlink_status(place / kIndexFile, ignored)))
+    return in_the_way(place / kIndexFile);
+  auto folder = UnfinishedFolder::beside(place);
+  if (!folder) return folder.error();
+  return NewRecording(std::move(*folder), place, overwrite);
+}
+
+Result<void> NewRecording::finish() {
+  Result<void> done = put_in_place();
+  if (done) return done;
+  Error error = done.error();
+  error.detail += (error.detail.empty() ? "" : "; ") + ("the recording is in " + folder().string());
+  leave();
+  return error;
+}
+
+Result<void> NewRecording::put_in_place() {
+  std::error_code error;
+  if (!fs::exists(place_, error) || fs::is_empty(place_, error)) return folder_.become(place_);
+  if (auto free = check_names(); !free) return free;
+  if (auto swapped = folder_.swap_with(place_); !swapped) return swapped;
+  keep_what_is_not_the_recordings();
+  return {};
+}
+
+Result<void> NewRecording::check_names() const {
+  if (overwrite_ == Overwrite::kYes) return {};
+  std::error_code error;
+  for (const auto& entry : fs::directory_iterator(folder(), error))
+    if (const fs::path old = place_ / entry.path().filename(); fs::exists(fs::symlink_status(old, error)))
+      return in_the_way(old);
+  return {};
+}
+
+/// After the swap, folder() is what was there before.
+void NewRecording::keep_what_is_not_the_recordings() {
+  const fs::path& old = folder();
+  std::error_code error;
+  for (const SourceEntry& source : sources_of(old)) remove_files(old, source);
+  for (const char* name : kOwnNames) fs::remove_all(old / name, error);
+  (void)prune(old);
+  std::vector<fs::path> rest;
+  for (const auto& entry : fs::directory_iterator(old, error)) rest.push_back(entry.path().filename());
+  for (const fs::path& name : rest)
+    if (!fs::exists(fs::symlink_status(place_ / name, error))) fs::rename(old / name, place_ / name, error);
+}
+
+}  // namespace cairn::recording
