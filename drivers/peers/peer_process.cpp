@@ -6,19 +6,17 @@
 
 #include <CLI/CLI.hpp>
 #include <array>
-#include <csignal>
 #include <cstdio>
 #include <string>
 #include <vector>
 
+#include "drivers/peers/bounded_end.hpp"
 #include "drivers/peers/dds_team.hpp"
 #include "drivers/peers/local_link.hpp"
 #include "drivers/peers/udp_limiter.hpp"
 
 namespace cairn::peer_link {
 namespace {
-
-volatile std::sig_atomic_t g_stop = 0;
 
 struct Options {
   DdsConfig dds;
@@ -58,7 +56,7 @@ int run(const Options& options) {
   LocalLink link = LocalLink::connect(options.socket);
   std::vector<std::byte> memory;
   std::vector<DdsTeam::Received> received;
-  while (g_stop == 0) {
+  while (!end_requested()) {
     constexpr int kRetryMs = 200, kRoomMs = 10;  // a core that is not there yet, or not any more; a cap that is reached
     link.join();
     const bool room = udp_room(kWholeDatagram);
@@ -100,7 +98,6 @@ int main(int argc, char** argv) {
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
   }
-  std::signal(SIGINT, [](int) { g_stop = 1; });
-  std::signal(SIGTERM, [](int) { g_stop = 1; });
+  catch_end_signals();
   return run(options);
 }

@@ -197,6 +197,9 @@ std::vector<Row> peer_rows() {
       shown_by("P18", "a profile with a wrong start pose",
                "The maps contradict it, and it is taken back. `cairn doctor --peer` says so.",
                "team/TeamDeployment.AnExactButWrongOneIsTakenBack"),
+      shown_by("P24", "SIGTERM to the peer process at a cap of 60 B/s, or in a flood of discovery",
+               "It ends within 2 s, without waiting for the network's threads.",
+               "peer_process/PeerProcess.EndsWhenItIsToldToThoughItsCapIsTiny"),
   };
 }
 

@@ -44,5 +44,12 @@ TEST_F(PeerProcess, WhatARobotSaysToAllDoesNotComeBackToIt) {
   for (const auto& bytes : heard) EXPECT_EQ(bytes.size(), 50U) << "its own";
 }
 
+/// Cyclone DDS would wait for a thread that waits for the cap.
+TEST_F(PeerProcess, EndsWhenItIsToldToThoughItsCapIsTiny) {
+  Peer one(1, folder.path(), domain(), "60");
+  while (!one.link.join()) (void)one.received(10);
+  EXPECT_EQ(one.stop(SIGTERM), 0);
+}
+
 }  // namespace
 }  // namespace cairn::peer_link
