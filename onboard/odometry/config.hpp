@@ -132,8 +132,10 @@ struct OdometryConfig {
   double max_angular_speed = 6.0;      ///< rad/s. A faster turn is not believed. About one turn a second.
 
   // When a scan is lost
-  double min_inlier_ratio = 0.4;    ///< at least this share of the points near patches must lie on them
-  int min_matches = 60;             ///< at least so many points must lie near patches: ten per degree of freedom
+  double min_inlier_ratio = 0.4;  ///< at least this share of the points near patches must lie on them
+  /// At least so many points must lie near patches: ten for each of the six directions. Where the
+  /// surroundings determine fewer directions, fewer are enough.
+  int min_matches = 60;
   double min_facing_points = 10.0;  ///< a direction is degenerate if fewer points look at a surface that faces it
   /// Lost scans in a row until a new map begins, where wheels tell how it lies to the one before, or where there was
   /// hardly one: one second at 10 Hz.

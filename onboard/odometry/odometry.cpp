@@ -62,10 +62,14 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget, c
   if (tracking_.is_fragment_after_gap(tracking_.seconds_since_last(prepared.stamp), prepared.duration_s))
     return Error{Errc::kTruncated, "the first scan after a gap is less than a revolution"};
   const double dt_s = relocaliser_.moving_time_s(tracking_.seconds_since_followed(prepared.stamp));
-  tracking_.advance(prepared.stamp, prepared.duration_s);
-
-  T_odom_previous_ = filter_.state().T_odom_base;
+  const MotionFilter before = filter_;
   Fit fit = align(selected, dt_s, budget);
+  if (tracking_.is_fragment(prepared.duration_s) && !tracking_.fits(fit)) {
+    filter_ = before;
+    return Error{Errc::kTruncated, "a piece of a revolution does not fit the map of the recent past: it is left out"};
+  }
+  tracking_.advance(prepared.stamp, prepared.duration_s);
+  T_odom_previous_ = before.state().T_odom_base;
   if (first_) fit = straighten_first(selected, fit, dt_s, budget);
   const Relocalisation place = relocaliser_.judge(fit, selected.keypoints.size());
   if (place == Relocalisation::kElsewhere) return begin(prepared, selected);
@@ -212,15 +216,6 @@ OdometryUpdate LidarOdometry::begin(const PreparedScan& scan, const Selection& s
   return update;
 }
 
-void LidarOdometry::begin_map() {
-  start_search_.begin_map();
-  second_look_.reset();
-  twist_check_.reset();
-  prior_.reset();
-  filter_.forget_gap();
-  map_.begin(filter_.state().T_odom_base, filter_.odom_covariance());
-}
-
 MotionState LidarOdometry::start_hypothesis(const Selection& selected, double dt_s) {
   const StartSearch::Score score = [&](const MotionState& hypothesis, double gate_m) {
     return registration_.inliers(selected, map_.patches(), hypothesis, gate_m);
@@ -239,8 +234,14 @@ void LidarOdometry::correct(const Fit& fit, double dt_s) {
   wheels_.followed();
 }
 
+/// A new map begins at the filter's pose.
 void LidarOdometry::reinitialise() {
-  begin_map();
+  start_search_.begin_map();
+  second_look_.reset();
+  twist_check_.reset();
+  prior_.reset();
+  filter_.forget_gap();
+  map_.begin(filter_.state().T_odom_base, filter_.odom_covariance());
   followed_ = filter_;
   wheels_.followed();
 }

@@ -77,7 +77,7 @@ class LidarOdometry {
   /// Errors (the state is left as it was):
   ///   - kMalformed: the scan is not later than the last one, or has points without a firing time
   ///   - kLimit: too many points
-  ///   - kTruncated: the first scan after a gap is less than a revolution
+  ///   - kTruncated: the scan is a piece of a revolution, and follows a gap or does not fit
   Result<OdometryUpdate> update(const Scan& scan, Budget& budget, const DriveState* wheels = nullptr);
 
   /// Goes on from where a previous run ended. To be called before the first scan. `scans` are the
@@ -98,7 +98,6 @@ class LidarOdometry {
  private:
   [[nodiscard]] Result<void> check(const Scan& scan) const;
   OdometryUpdate begin(const PreparedScan& scan, const Selection& selected);
-  void begin_map();
   [[nodiscard]] MotionState start_hypothesis(const Selection& selected, double dt_s);
   [[nodiscard]] Fit align(const Selection& selected, double dt_s, Budget& budget);
   [[nodiscard]] std::optional<Fit> look_farther(const Selection& selected, const Fit& first, double dt_s,

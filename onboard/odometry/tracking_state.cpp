@@ -15,6 +15,9 @@ constexpr double kWholeScan = 0.6;
 // Per scan. A motor may turn faster from now on: the longest revolution that counts halves within
 // seven scans.
 constexpr double kRevolutionDecay = 0.9;
+constexpr int kDirections = 6;  // in which a robot moves
+// Of min_matches: fewer say nothing, however few directions they are asked about.
+constexpr double kFewestShare = 1.0 / 3.0;
 
 }  // namespace
 
@@ -42,8 +45,10 @@ void TrackingState::begin(Time stamp) {
 }
 
 bool TrackingState::is_fragment_after_gap(double dt_s, double duration_s) const {
-  return dt_s > kGap * revolution_s_ && duration_s < kWholeScan * revolution_s_;
+  return dt_s > kGap * revolution_s_ && is_fragment(duration_s);
 }
+
+bool TrackingState::is_fragment(double duration_s) const { return duration_s < kWholeScan * revolution_s_; }
 
 void TrackingState::advance(Time stamp, double duration_s) {
   revolution_s_ = std::max(duration_s, kRevolutionDecay * revolution_s_);
@@ -61,7 +66,8 @@ Track TrackingState::judge(const Fit& fit, const SE3& motion, double dt_s, const
 
 bool TrackingState::fits(const Fit& fit) const {
   const NormalEquations& n = fit.equations;
-  return n.matched >= min_matches_ && n.inliers >= min_inlier_ratio_ * n.matched;
+  const double asked = std::max(kFewestShare, 1.0 - static_cast<double>(fit.degeneracy.count) / kDirections);
+  return n.matched >= asked * min_matches_ && n.inliers >= min_inlier_ratio_ * n.matched;
 }
 
 bool TrackingState::plausible(const Fit& fit, const SE3& motion, double dt_s) const {

@@ -41,6 +41,8 @@ class TrackingState {
   /// The scan follows a gap and shows less than 0.6 of a revolution: too little to find the way
   /// back with.
   [[nodiscard]] bool is_fragment_after_gap(double dt_s, double duration_s) const;
+  /// The scan shows less than 0.6 of a revolution.
+  [[nodiscard]] bool is_fragment(double duration_s) const;
   /// Takes note of a scan that is used.
   void advance(Time stamp, double duration_s);
 
@@ -49,7 +51,7 @@ class TrackingState {
   [[nodiscard]] Track judge(const Fit& fit, const SE3& motion, double dt_s, const PatchMap& map, bool sure,
                             int patience);
 
-  /// Enough keypoints match, and enough of them fit.
+  /// Enough keypoints match, and enough of them fit. For fewer directions fewer matches are enough.
   [[nodiscard]] bool fits(const Fit& fit) const;
 
  private:

@@ -171,7 +171,7 @@ TEST(Odometry, NoiseIsRefusedAndTheRideGoesOnAfterwards) {
   Ride ride(support::lobby().world, drive);
   for (int i = 0; i < 15; ++i) ride.step();
   Scan noise;
-  noise.valid = {Time{from_seconds(1.5)}, Time{from_seconds(1.55)}};
+  noise.valid = {Time{from_seconds(1.5)}, Time{from_seconds(1.59)}};
   std::mt19937 random(1);
   std::uniform_real_distribution<float> at(-20, 20);
   for (int i = 0; i < 20000; ++i)

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Real HDL-64E sweeps from a moving car.
+// Real HDL-64E sweeps from a moving car, and short captures of other sensors.
 #include <gtest/gtest.h>
 
+#include <cmath>
+
+#include "drivers/velodyne/lidar.hpp"
+#include "drivers/velodyne/transport/pcap_source.hpp"
 #include "onboard/odometry/odometry.hpp"
 #include "tests/support/kitti.hpp"
 #include "tests/support/recorded_data.hpp"
@@ -62,6 +66,49 @@ TEST_F(OdometryRecordings, Odometry00IsDrivenAsFastAsItsSweepsSay) {
   EXPECT_GT(drive.least_inliers, 0.7);
   EXPECT_GE(drive.length_m() / 15, 0.67);
   EXPECT_LE(drive.length_m() / 15, 0.82);
+}
+
+/// All scans of a capture, the piece at its end included.
+std::vector<Scan> scans_of(const std::filesystem::path& capture, const std::string& model) {
+  Monitor monitor;
+  velodyne::Config config;
+  config.model = model;
+  const auto lidar = velodyne::Lidar::create(config, SourceId{}, monitor).value();
+  const auto source = velodyne::PcapSource::open(capture, {}).value();
+  std::vector<Scan> scans;
+  for (Packet packet; source->next(packet, {}).value() == Poll::kPacket;) {
+    const auto scan = lidar->decode(packet);
+    if (scan && *scan != nullptr) scans.push_back(**scan);
+  }
+  if (const Scan* rest = lidar->flush()) scans.push_back(*rest);
+  return scans;
+}
+
+// The first capture shows a hundred points of a field, and begins and ends within a revolution.
+TEST_F(OdometryRecordings, CapturesAreFollowedFromTheFirstScanToTheLast) {
+  const std::filesystem::path folder = support::recorded_data("velodyne");
+  if (!std::filesystem::exists(folder)) GTEST_SKIP() << "no recordings in " << folder;
+  for (const auto& [file, model] :
+       {std::pair("vlp16_gps_single_return.pcap", "VLP-16"), std::pair("vlp16_dual_return.pcap", "VLP-16"),
+        std::pair("hdl32_single_return.pcap", "HDL-32E")}) {
+    Workers workers(1);
+    LidarOdometry odometry({}, {}, workers);
+    int followed = 0;
+    for (const Scan& scan : scans_of(folder / file, model)) {
+      Budget budget = Budget::steps(most_steps({}));
+      const auto update = odometry.update(scan, budget);
+      if (!update) {
+        EXPECT_EQ(update.error().code, Errc::kTruncated) << file;
+        continue;
+      }
+      EXPECT_FALSE(update->lost) << file << ", scan " << followed;
+      const auto& [T_odom_base, covariance] = update->T_odom_base;
+      for (int k = 0; std::string_view(model) == "VLP-16" && k < 3; ++k)  // whether the other one stands is not known
+        EXPECT_LE(std::abs(T_odom_base.translation()[k]), 0.01 + 3 * std::sqrt(covariance(k, k))) << file << k;
+      ++followed;
+    }
+    EXPECT_GE(followed, 4) << file;
+  }
 }
 
 }  // namespace

@@ -67,6 +67,8 @@ TEST_F(Tracking, AFragmentAfterAGapIsToldFromAWholeScan) {
   EXPECT_TRUE(state_.is_fragment_after_gap(0.19, 0.05));
   EXPECT_FALSE(state_.is_fragment_after_gap(0.19, 0.07)) << "most of a revolution";
   EXPECT_FALSE(state_.is_fragment_after_gap(0.12, 0.05)) << "no gap";
+  EXPECT_TRUE(state_.is_fragment(0.05));
+  EXPECT_FALSE(state_.is_fragment(0.07));
 }
 
 TEST_F(Tracking, AMotorMayTurnFasterFromNowOn) {
@@ -81,6 +83,19 @@ TEST_F(Tracking, AFitIsFollowedIfEnoughPointsMatchAndFit) {
   EXPECT_EQ(judge(fit_of(60, 24)), Track::kFollowed);
   EXPECT_EQ(judge(fit_of(59, 59)), Track::kLost) << "too few matches";
   EXPECT_EQ(judge(fit_of(100, 39)), Track::kLost) << "too few of them fit";
+}
+
+TEST_F(Tracking, WhereFewDirectionsAreSeenFewMatchesAreEnough) {
+  Fit fit = fit_of(30, 30);
+  for (const int degenerate : {0, 1, 2}) {
+    fit.degeneracy.count = degenerate;
+    EXPECT_EQ(judge(fit), Track::kLost) << degenerate;
+  }
+  fit.degeneracy.count = 3;
+  EXPECT_EQ(judge(fit), Track::kFollowed);
+  fit = fit_of(19, 19);
+  fit.degeneracy.count = 6;
+  EXPECT_EQ(judge(fit), Track::kLost) << "too few to say anything";
 }
 
 TEST_F(Tracking, AMotionThatNoRobotMakesIsNotFollowed) {
