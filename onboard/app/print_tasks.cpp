@@ -5,6 +5,7 @@
 
 #include "hal/monitor.hpp"
 #include "onboard/app/door/devices.hpp"
+#include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
 #include "onboard/app/team/join_team.hpp"
 
@@ -37,13 +38,14 @@ void add_live_only_tasks(const RunOptions& options, const ScheduleProfile& sched
 }  // namespace
 
 Result<std::string> print_tasks(const RunOptions& options) {
-  const auto profile = load_profile(options.config);
-  if (!profile) return profile.error();
-  const auto sources = sources_of(options, *profile);
+  const auto chosen = choose_profile(options.config, options.recording);
+  if (!chosen) return chosen.error();
+  const RobotProfile& profile = chosen->profile;
+  const auto sources = sources_of(options, profile);
   if (!sources) return sources.error();
   Monitor monitor;
-  RobotTasks tasks(*sources, *profile, options, {}, monitor);
-  if (options.live()) add_live_only_tasks(options, profile->schedule, tasks);
+  RobotTasks tasks(*sources, profile, options, {}, monitor);
+  if (options.live()) add_live_only_tasks(options, profile.schedule, tasks);
   return tasks.graph.to_text();
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <thread>
 
+#include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/app/restart/restart.hpp"
 #include "onboard/app/restart/start_log.hpp"
 #include "onboard/app/run_output.hpp"
@@ -59,8 +60,9 @@ PreviousRun find_previous_run(StateFolder& state, const RobotProfile& profile, T
 }  // namespace
 
 Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
-  auto profile = load_profile(options.config);  // every fault at once, or valid
-  if (!profile) return profile.error();
+  auto chosen = choose_profile(options.config, options.recording);  // every fault at once, or valid
+  if (!chosen) return chosen.error();
+  RobotProfile* const profile = &chosen->profile;
   if (options.threads) profile->threads = *options.threads;
   const bool live = options.live();
   if (live)
@@ -68,6 +70,7 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
   auto results = prepare_output(options.out);
   if (!results) return results.error();
   auto result = std::make_unique<RunResult>();
+  for (const std::string& note : chosen->notes) result->monitor.event({}, "profile", note);
   declare_stages(profile->schedule, result->monitor);
   const LiveClock clock;
   auto door = open_door(options, *profile, clock, result->monitor);  // live devices, or a recording
@@ -92,7 +95,7 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
   if (!ran) return ran.error();
   if (state) state->starts.end();
 
-  auto output = write_output({options, *profile, tasks, *door, result->monitor, *ran}, *results);
+  auto output = write_output({options, *profile, chosen->file, tasks, *door, result->monitor, *ran}, *results);
   if (!output) return output.error();
   result->report = std::move(output->report);
   result->folder = std::move(output->folder);

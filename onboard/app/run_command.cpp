@@ -100,7 +100,8 @@ void add_run_command(Commands& commands) {
 
 void add_run_options(CLI::App& app, Commands& commands) {
   auto a = std::make_shared<Arguments>();
-  app.add_option("--config", a->run.config, "robot profile, such as config/husky.yaml; without it: the defaults");
+  app.add_option("--config", a->run.config,
+                 "robot profile, such as config/husky.yaml; without it: that of the recording, or the defaults");
   app.add_option("--recording", a->run.recording, "folder of a recording; without it: live hardware");
   app.add_option("--out", a->run.out, "folder for the results")->default_val("cairn-out");
   app.add_option("--record", a->run.record,

@@ -113,7 +113,7 @@ report::RunReport make_report(const RunFacts& facts) {
   const auto& track = facts.tasks.robot.track();
   report::RunReport report;
   report.robot = facts.profile.name;
-  report.profile = facts.options.config.string();
+  report.profile = facts.profile_file.string();
   report.live = facts.options.recording.empty();
   report.source = report.live ? "live" : facts.options.recording.string();
   report.version = CAIRN_VERSION;

@@ -18,6 +18,7 @@ class RobotTasks;
 struct RunFacts {
   const RunOptions& options;
   const RobotProfile& profile;
+  const std::filesystem::path& profile_file;  ///< empty: the defaults
   const RobotTasks& tasks;
   const Door& door;  ///< where the packets came from
   const Monitor& monitor;

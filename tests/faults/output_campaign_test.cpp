@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "drivers/recording/formats/trajectory_file.hpp"
+#include "drivers/recording/recording_reader.hpp"
 #include "drivers/recording/recording_writer.hpp"
 #include "hal/clock.hpp"
 #include "onboard/app/profile/robot_profile.hpp"
@@ -111,6 +112,7 @@ class OutputCampaign : public ::testing::Test {
 
   static void interrupt_again_and_again(long interrupts);
   static void kill_again_and_again(long kills);
+  static void kill_copies_again_and_again(long kills);
 
   static inline std::optional<support::TemporaryFolder> folder_;
   static inline double whole_s_ = 0;  // a whole run as fast as possible
@@ -159,11 +161,46 @@ void OutputCampaign::kill_again_and_again(long kills) {
   EXPECT_EQ(names_in(out), files) << "what the killed ones left is removed";
 }
 
+std::uint64_t packets_in(const fs::path& recording) {
+  auto reader = recording::RecordingReader::open(recording);
+  EXPECT_TRUE(reader) << to_string(reader.error());
+  std::uint64_t packets = 0;
+  Packet packet;
+  while (reader && (*reader)->next(packet, {}).value_or(Poll::kEnd) != Poll::kEnd) ++packets;
+  return packets;
+}
+
+/// Whatever was killed: what does not say that it is unfinished is whole, and only that lies in the copy's place.
+void OutputCampaign::kill_copies_again_and_again(long kills) {
+  const fs::path original = *folder_ / "recording", place = *folder_ / "copies" / "copy";
+  const std::vector<std::string> words{"faults", original, "--out", place, "--overwrite"};
+  const LiveClock clock;
+  const Time begin = clock.now();
+  ASSERT_EQ(CairnChild(words, *folder_ / "said.txt").wait(), 0);
+  const auto span_us = static_cast<std::uint64_t>(1.2e6 * to_seconds(clock.now() - begin));
+  for (long i = 0; i < kills; ++i) {
+    CairnChild copying(words, *folder_ / "said.txt");
+    LiveClock::wait_until(clock.now() + std::chrono::microseconds(random_() % span_us));
+    copying.signal(SIGKILL);
+    (void)copying.wait();
+  }
+  const auto copy = recording::load_recording(place);
+  EXPECT_TRUE(copy && !copy->unfinished);
+  for (const auto& entry : fs::directory_iterator(place.parent_path())) {
+    EXPECT_TRUE(entry.path().filename().string().starts_with("copy")) << entry.path();
+    const auto index = recording::load_recording(entry.path());
+    if (!index || index->unfinished) continue;
+    EXPECT_EQ(packets_in(entry.path()), packets_in(original)) << entry.path();
+  }
+}
+
 class FullOutputCampaign : public OutputCampaign {};
 
 TEST_F(OutputCampaign, AnInterruptedReplayLeavesAllItsFilesMarked) { interrupt_again_and_again(kFew); }
 TEST_F(FullOutputCampaign, AnInterruptedReplayLeavesAllItsFilesMarked) { interrupt_again_and_again(interrupts()); }
 TEST_F(OutputCampaign, AKilledReplayLeavesTheEarlierResults) { kill_again_and_again(kFew); }
+TEST_F(OutputCampaign, AKilledCopyIsNoHalfRecording) { kill_copies_again_and_again(4 * kFew); }
+TEST_F(FullOutputCampaign, AKilledCopyIsNoHalfRecording) { kill_copies_again_and_again(interrupts()); }
 TEST_F(FullOutputCampaign, AKilledReplayLeavesTheEarlierResults) { kill_again_and_again(interrupts()); }
 
 }  // namespace

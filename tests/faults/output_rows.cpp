@@ -23,7 +23,7 @@ std::vector<Row> output_rows() {
           "cli_recording/FaultsCommand.AnOutputThatWouldReplaceItsInputIsRefused"),
       row("C28", "a run without a scan into the folder of an earlier run",
           "The earlier map stays. The new report goes into a folder of its own.",
-          "app/RunTest.ARunWithoutAScanKeepsTheEarlierResults"),
+          "app/RunOutputTest.ARunWithoutAScanKeepsTheEarlierResults"),
   };
 }
 

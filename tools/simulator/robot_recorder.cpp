@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "drivers/recording/recording_writer.hpp"
-#include "hal/files/file.hpp"
+#include "onboard/app/profile/recorded_profile.hpp"
 #include "tools/simulator/ground_truth.hpp"
 #include "tools/simulator/sensor_recorder.hpp"
 #include "tools/simulator/simulated_profile.hpp"
@@ -104,10 +104,9 @@ class RobotRecorder {
     }
     if (auto closed = writer->close(); !closed) return closed.error();
     if (auto written = truth_.write(run_.trajectory); !written) return written.error();
-    if (index_.sources.size() > 1 || config_.flies()) {
-      const std::string profile = app::to_yaml(simulated_profile(config_));
-      if (auto written = write_file_atomic(dir_ / "robot.yaml", profile); !written) return written.error();
-    }
+    app::RobotProfile profile = simulated_profile(config_);
+    profile.name = index_.robot;
+    if (auto kept = app::keep_profile(dir_, profile); !kept) return kept.error();
     if (progress_) progress_(1.0);
     return summary_;
   }

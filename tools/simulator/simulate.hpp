@@ -72,8 +72,8 @@ inline constexpr int kMaxRobots = 16, kMaxPeople = 50;
 inline constexpr double kMaxSeconds = 3600.0;
 
 /// Writes out/robot_1 … out/robot_N, each a recording with the files of its sensors: recording.yaml, lidar.pcap,
-/// camera/, thermal/ and depth/ (data.csv and data/*.png), drive.log, gpio.csv; robot.yaml, the profile that decodes
-/// them, where there is more than the LiDAR; and the truth:
+/// camera/, thermal/ and depth/ (data.csv and data/*.png), drive.log, gpio.csv; profile.yaml, the profile that
+/// decodes them; and the truth:
 ///   ground_truth.tum   T_world_base at 100 Hz on the recording's time line
 ///   world.ot           see Voxels; without people
 ///   people.csv         with people; see Crowd::to_csv

@@ -10,7 +10,7 @@
 #include "drivers/recording/formats/recording.hpp"
 #include "hal/clock.hpp"
 #include "hal/files/file.hpp"
-#include "onboard/app/profile/robot_profile.hpp"
+#include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/json/report_json.hpp"
 #include "tools/team/figures/team_figures.hpp"
@@ -47,15 +47,15 @@ Result<void> make_folder(const fs::path& folder) {
 
 /// Writes each robot's profile into its folder.
 Result<void> write_profiles(const TeamOptions& options, const Plan& plan) {
-  auto profile = app::load_profile(options.config);
-  if (!profile) return profile.error();
-  if (options.resolution_m > 0) profile->mapping.resolution_m = options.resolution_m;
   for (Index i = 0; i < plan.recordings.size(); ++i) {
-    profile->name = plan.recordings[i].name;
-    profile->team.id = static_cast<int>(i) + 1;
-    profile->team.socket = kCoreSocket;
-    if (auto written = write_file_atomic(plan.folders[i] / "profile.yaml", app::to_yaml(*profile)); !written)
-      return written;
+    auto chosen = app::choose_profile(options.config, plan.recordings[i].folder);
+    if (!chosen) return chosen.error();
+    app::RobotProfile& profile = chosen->profile;
+    if (options.resolution_m > 0) profile.mapping.resolution_m = options.resolution_m;
+    profile.name = plan.recordings[i].name;
+    profile.team.id = static_cast<int>(i) + 1;
+    profile.team.socket = kCoreSocket;
+    if (auto kept = app::keep_profile(plan.folders[i], profile); !kept) return kept;
   }
   return {};
 }

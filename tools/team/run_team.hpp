@@ -14,7 +14,7 @@ namespace cairn::team_run {
 
 struct TeamOptions {
   std::vector<std::filesystem::path> recordings;
-  std::filesystem::path config;  ///< profile of every robot; defaults without one
+  std::filesystem::path config;  ///< profile of every robot; without one: those of the recordings, or the defaults
   std::filesystem::path out;     ///< gets a folder for each robot, team.json and team.png
   LinkConfig link;
   double resolution_m = 0;            ///< of the maps; 0: the profile's

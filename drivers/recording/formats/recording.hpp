@@ -53,6 +53,8 @@ struct Recording {
 };
 
 inline constexpr const char* kIndexFile = "recording.yaml";
+/// The profile of the robot that made it, beside the index; a recording may lack it.
+inline constexpr const char* kProfileFile = "profile.yaml";
 inline constexpr std::size_t kMaxSources = 64;
 /// UTC stamps, offsets and times are at most this far from zero (the year 2043), so that sums of two cannot overflow.
 inline constexpr std::int64_t kMaxUtcNs = (std::int64_t{1} << 61) - 1;

@@ -22,13 +22,10 @@ Result<std::unique_ptr<ScanDecoder>> velodyne_decoder(const velodyne::Config& co
   return std::unique_ptr<ScanDecoder>(std::move(*lidar));
 }
 
-/// The recording goes before the profile: it knows which sensor was mounted that day.
+/// The recording goes before the profile: it knows how its sensors sent.
 void take_over(const SourceEntry& entry, LidarProfile& lidar) {
   lidar.driver.data_port = entry.data_port;
   lidar.driver.position_port = entry.position_port;
-  if (!entry.base_sensor_xyz_rpy) return;
-  const Vector6& v = *entry.base_sensor_xyz_rpy;
-  lidar.base_xyz_rpy.assign(v.begin(), v.end());
 }
 
 /// Null for a source that holds no scans.

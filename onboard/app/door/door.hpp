@@ -44,7 +44,7 @@ enum class Devices : bool { kUsed, kAll };
 /// Opens the devices of the profile; they listen from now on. Decoders report events to `monitor`. `monitor` and
 /// `clock` must outlive the door. Errors: kInvalidConfig (the robot has no LiDAR), those of a driver.
 Result<Door> open_devices(const RobotProfile& profile, Devices which, const Clock& clock, Monitor& monitor);
-/// Opens a recording. Its name, models, ports and mounts replace those of `profile`. An unfinished one is an event. A
+/// Opens a recording. Its name, models and ports replace those of `profile`. An unfinished one is an event. A
 /// source whose file cannot be opened returns that error once, and then ends. `monitor` must outlive the door. Errors:
 /// those of the index.
 Result<Door> open_recording(const std::filesystem::path& folder, RobotProfile& profile, Monitor& monitor);

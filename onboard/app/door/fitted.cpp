@@ -36,9 +36,10 @@ std::optional<safety::Watched> watched_as(recording::SensorKind kind) {
 
 safety::Fitted fitted_with(std::span<const recording::SourceEntry> sources, const RobotProfile& profile) {
   safety::Fitted fitted;
+  fitted.drive = has_kind(sources, recording::kDrive) && profile.drive.exists();
   for (const recording::SourceEntry& entry : sources)
-    if (const auto watched = watched_as(entry.kind)) fitted.watched[static_cast<std::size_t>(*watched)] = true;
-  fitted.drive = has_kind(sources, recording::kDrive);
+    if (const auto watched = watched_as(entry.kind); watched && (entry.kind != recording::kDrive || fitted.drive))
+      fitted.watched[static_cast<std::size_t>(*watched)] = true;
   fitted.estop = has_kind(sources, recording::kGpio) && !profile.gpio.driver.estop_line.empty();
   return fitted;
 }

@@ -16,7 +16,7 @@ namespace cairn::app {
 [[nodiscard]] std::optional<safety::Watched> watched_as(recording::SensorKind kind);
 
 /// What the robot carries, as far as the failsafe watches it. An e-stop counts when the profile names its line: a GPIO
-/// chip may serve the camera trigger alone.
+/// chip may serve the camera trigger alone. A drive counts when the profile says how to read it.
 [[nodiscard]] safety::Fitted fitted_with(std::span<const recording::SourceEntry> sources, const RobotProfile& profile);
 
 }  // namespace cairn::app

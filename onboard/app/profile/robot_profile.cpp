@@ -34,8 +34,7 @@ void declare(config::Section& s, RobotProfile& p) {
   s.group("team", p.team, "the robot's place in a team; cairn run --peers takes part in it");
 }
 
-Result<RobotProfile> load_profile(const std::filesystem::path& path) {
-  RobotProfile profile;
+Result<RobotProfile> load_profile(const std::filesystem::path& path, RobotProfile profile) {
   if (path.empty()) return profile;
   config::Section section;
   declare(section, profile);

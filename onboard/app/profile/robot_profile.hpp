@@ -40,8 +40,8 @@ struct RobotProfile {
 
 void declare(config::Section& section, RobotProfile& profile);
 
-/// Defaults where `path` is empty; otherwise the file, with every fault reported at once.
-Result<RobotProfile> load_profile(const std::filesystem::path& path);
+/// `defaults` where `path` is empty; otherwise the file over them, with every fault reported at once.
+Result<RobotProfile> load_profile(const std::filesystem::path& path, RobotProfile defaults = {});
 /// The effective values as YAML, as they are kept with every run.
 [[nodiscard]] std::string to_yaml(RobotProfile profile);
 

@@ -19,7 +19,7 @@ enum class Pace {
 
 /// What the command line says of one run.
 struct RunOptions {
-  std::filesystem::path config;     ///< empty: the defaults
+  std::filesystem::path config;     ///< empty: the recording's own, or the defaults
   std::filesystem::path recording;  ///< empty: live hardware
   std::filesystem::path out;
   std::filesystem::path record;     ///< live: where to keep the packets and the schedule; empty: nowhere

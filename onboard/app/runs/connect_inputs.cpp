@@ -15,6 +15,10 @@ scheduler::Feed::Tap tap(Recorder* recorder, std::size_t packets, std::size_t by
 
 Result<void> connect_drive(RobotTasks& tasks, const RunContext& context, Input& input, SourceId id,
                            Recorder* recorder) {
+  if (!context.profile.drive.exists()) {
+    context.monitor.event({}, "drive", "left out: no profile says how to read it; name one with --config");
+    return {};
+  }
   const auto attached = tasks.drive.attach(context.profile.drive.driver, *input.source, id, input.can,
                                            tap(recorder, kWaitingPackets, scheduler::Feed::kSmall));
   if (attached && !tasks.drive.drive()->reads_wheels())

@@ -8,9 +8,9 @@
 namespace cairn::app {
 
 /// Gives every input of the door to the task that reads it: the e-stop to safety, the CAN bus to drive, peers to the
-/// team, and all others to receive. An input beyond ReceiveTask::kMaxInputs is left out, with an event. `recorder` gets
-/// every packet before it is used; null: nothing is recorded. Both must outlive the tasks. Error kInvalidConfig: the
-/// drive cannot be set up.
+/// team, and all others to receive. An input beyond ReceiveTask::kMaxInputs is left out, with an event, and so is a CAN
+/// bus of which the profile knows no drive. `recorder` gets every packet before it is used; null: nothing is recorded.
+/// Both must outlive the tasks. Error kInvalidConfig: the drive cannot be set up.
 Result<void> connect_inputs(RobotTasks& tasks, const RunContext& context, Recorder* recorder);
 
 /// The arrival of the first packet of all inputs; Time::max(): there is none. After connect_inputs().

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/app/runs/connect_inputs.hpp"
 #include "onboard/app/runs/real_time.hpp"
 #include "onboard/app/tasks/allocations.hpp"
@@ -46,6 +47,7 @@ Result<void> LiveRun::open_recorder() {
   if (folder.empty()) return {};
   auto writer = recording::RecordingWriter::create(folder, context_.door.recording);
   if (!writer) return writer.error();
+  if (const auto kept = keep_profile(folder, context_.profile); !kept) return kept.error();
   recorder_.emplace(std::move(*writer), context_.monitor);
   if (!context_.previous.resumed) return {};
   return keep_with_recording(folder, *context_.previous.resumed, context_.monitor);

@@ -19,6 +19,7 @@
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/json/budgets.hpp"
 #include "onboard/report/json/report_json.hpp"
+#include "tests/onboard/app/room_run.hpp"
 #include "tests/support/box_world.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -28,63 +29,12 @@ namespace cairn::app {
 namespace {
 
 namespace fs = std::filesystem;
+using test::kMount;
+using test::kScans;
+using test::path;
 using ::testing::HasSubstr;
 
-constexpr int kScans = 8;
-const Vector6 kMount = (Vector6() << 0.2, 0, 0.6, 0, 0, 0.1).finished();
-
-SE3 path(double t) {
-  const double yaw = 0.1 * t;
-  return SE3::from_xyz_rpy((Vector6() << 0.8 * t, 0.1 * std::sin(t), 0, 0, 0, yaw).finished());
-}
-
-support::World room() {
-  support::World world;
-  world.box({-4, -3, 0}, {6, 4, 3}).box({2, 2, 0}, {3, 3, 1.5}).box({-2, -2.5, 0}, {-1, -1.5, 1});
-  return world;
-}
-
-void record(const fs::path& folder, bool with_gpio = false) {
-  recording::Recording index;
-  index.robot = "husky_1";
-  index.sources.push_back({"lidar", recording::kScans, "data.csv", "lidar", "VLP-16", kMount});
-  if (with_gpio) index.sources.push_back({"gpio", recording::kGpio, "gpio.csv", "base_link", ""});
-  auto writer = recording::RecordingWriter::create(folder, index);
-  ASSERT_TRUE(writer) << to_string(writer.error());
-  support::Vlp16 lidar(SE3::from_xyz_rpy(kMount), 0.02, 1);
-  const support::World world = room();
-  for (int i = 0; i < kScans; ++i) {
-    const Scan scan = lidar.scan(world, path, 0.1 * i);
-    Packet packet;
-    packet.channel = static_cast<std::uint16_t>(recording::ScanLayout::kXyziOffset);
-    packet.arrival = scan.valid.end;
-    packet.bytes = recording::encode_scan(scan.cloud, true);
-    ASSERT_TRUE(writer->write(packet));
-  }
-  ASSERT_TRUE(writer->close());
-}
-
-class RunTest : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    folder_.emplace();
-    record(*folder_ / "recording");
-  }
-  static void TearDownTestSuite() { folder_.reset(); }
-
-  static RunOptions options(const std::string& out) {
-    RunOptions o;
-    o.recording = *folder_ / "recording";
-    o.out = *folder_ / out;
-    o.pace = Pace::kMaximum;
-    return o;
-  }
-  static fs::path write(const std::string& name, const std::string& text) {
-    std::ofstream(*folder_ / name) << text;
-    return *folder_ / name;
-  }
-  static inline std::optional<support::TemporaryFolder> folder_;
-};
+class RunTest : public test::RoomRun {};
 
 TEST_F(RunTest, LeavesTrajectoryMapAndReportThatAgreeWithTheTruth) {
   const auto result = run(options("truth"));
@@ -189,7 +139,7 @@ TEST_F(RunTest, ADamagedScanIsAnEventAndTheRestIsUsed) {
 }
 
 TEST_F(RunTest, AnEStopThatTheProfileDoesNotNameStopsNobody) {
-  record(*folder_ / "with_gpio", true);
+  test::record_room(*folder_ / "with_gpio", true);
   RunOptions o = options("no_estop");
   o.recording = *folder_ / "with_gpio";
   for (const auto& [line, mode] : {std::pair{"", "normal"}, std::pair{"gpio:\n  estop_line: estop\n", "stop"}}) {
@@ -206,51 +156,6 @@ TEST_F(RunTest, EndsWhenTheSecondsAreOver) {
   const auto result = run(o);
   ASSERT_TRUE(result);
   EXPECT_EQ((*result)->report.scans, 4U) << "what arrived by then";
-}
-
-TEST_F(RunTest, ARunWithoutAScanKeepsTheEarlierResults) {
-  RunOptions o = options("kept");
-  const auto good = run(o);
-  ASSERT_TRUE(good);
-  EXPECT_EQ((*good)->folder, o.out);
-  o.stop = [] { return true; };
-  const auto empty = run(o);
-  ASSERT_TRUE(empty) << to_string(empty.error());
-  EXPECT_EQ((*empty)->report.scans, 0U);
-  EXPECT_EQ((*empty)->folder, o.out / "failed-run");
-  EXPECT_TRUE(fs::exists(o.out / "failed-run" / "report.html"));
-  EXPECT_EQ(recording::read_tum(o.out / "trajectory.tum")->size(), static_cast<std::size_t>(kScans));
-  EXPECT_FALSE(fs::exists(o.out / "unfinished"));
-  o.recording = *folder_ / "nowhere";
-  EXPECT_FALSE(run(o));
-  EXPECT_EQ(recording::read_tum(o.out / "trajectory.tum")->size(), static_cast<std::size_t>(kScans));
-  ASSERT_TRUE(run(options("kept")));
-  EXPECT_FALSE(fs::exists(o.out / "failed-run")) << "it was about an earlier run";
-}
-
-TEST_F(RunTest, AnInterruptedRunLeavesItsFilesAndSaysSo) {
-  RunOptions o = options("interrupted");
-  std::size_t scans = 0;
-  o.progress = [&](Time, std::size_t n) { scans = n; };
-  o.stop = [&] { return scans >= 3; };
-  const auto result = run(o);
-  ASSERT_TRUE(result) << to_string(result.error());
-  EXPECT_TRUE((*result)->report.interrupted);
-  EXPECT_LT((*result)->report.scans, static_cast<std::uint64_t>(kScans));
-  EXPECT_GE(recording::read_tum(o.out / "trajectory.tum")->size(), 3U);
-  std::ifstream in(o.out / "report.json");
-  EXPECT_EQ(nlohmann::json::parse(in)["interrupted"], true);
-}
-
-TEST_F(RunTest, AnUnfinishedRecordingIsAnEvent) {
-  fs::copy(*folder_ / "recording", *folder_ / "unfinished", fs::copy_options::recursive);
-  std::ofstream(*folder_ / "unfinished" / "recording.yaml", std::ios::app) << "unfinished: true\n";
-  RunOptions o = options("of_unfinished");
-  o.recording = *folder_ / "unfinished";
-  const auto result = run(o);
-  ASSERT_TRUE(result) << to_string(result.error());
-  ASSERT_FALSE((*result)->monitor.events().empty());
-  EXPECT_EQ((*result)->monitor.events()[0].stage, "recording");
 }
 
 TEST_F(RunTest, WhatCannotWorkIsSaidBeforeAnythingRuns) {

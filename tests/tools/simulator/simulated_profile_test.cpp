@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "hal/files/file.hpp"
+#include "onboard/app/run.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace cairn::simulator {
@@ -26,6 +27,41 @@ TEST(SimulatedProfile, IsReadBackAsItWasWritten) {
     EXPECT_EQ(read->depth.driver.fx, config.depth.lens.fx);
     EXPECT_EQ(read->camera.base_xyz_rpy[4], config.stereo.base_camera_xyz_rpy[4]);
   }
+}
+
+/// A drive and an e-stop cannot be read without the profile.
+TEST(SimulatedProfile, ARecordingRunsWithTheProfileThatItKeeps) {
+  const support::TemporaryFolder folder;
+  SimulationConfig config;
+  config.scene = "lobby";
+  config.seconds = 1;
+  config.out = folder / "sim";
+  config.sensors.drive = config.sensors.gpio = true;
+  const auto robots = simulate(config);
+  ASSERT_TRUE(robots) << to_string(robots.error());
+  EXPECT_FALSE(std::filesystem::exists(folder / "sim.unfinished"));
+  app::RunOptions options;
+  options.recording = folder / "sim" / "robot_1";
+  options.out = folder / "out";
+  options.pace = app::Pace::kMaximum;
+  const auto result = app::run(options);
+  ASSERT_TRUE(result) << to_string(result.error());
+  EXPECT_GT((*result)->report.scans, 5U);
+  EXPECT_EQ((*result)->report.robot, "robot_1");
+  for (const Event& e : (*result)->monitor.events()) EXPECT_TRUE(e.stage != "profile" && e.stage != "drive") << e.what;
+}
+
+TEST(SimulatedProfile, AnInterruptedSimulationLeavesNothing) {
+  const support::TemporaryFolder folder;
+  SimulationConfig config;
+  config.scene = "lobby";
+  config.seconds = 1;
+  config.robots = 2;
+  config.out = folder / "sim";
+  int asked = 0;
+  config.stop = [&] { return ++asked > 1000; };
+  EXPECT_FALSE(simulate(config));
+  EXPECT_TRUE(std::filesystem::is_empty(folder.path()));
 }
 
 }  // namespace

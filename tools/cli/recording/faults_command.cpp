@@ -104,10 +104,12 @@ Result<Copied> write_faulty(Source& from, const FaultArguments& options, const r
   if (!copied) return copied;
   if (const auto closed = writer->close(); !closed) return closed.error();
   copied->faults = source.counters();
-  std::error_code error;
-  const fs::path truth = options.recording / kGroundTruth;
-  if (fs::exists(truth, error)) fs::copy_file(truth, folder / kGroundTruth, error);
-  if (error) return Error{Errc::kIo, "cannot copy the ground truth", truth.string(), {}, error.message()};
+  for (const char* name : {kGroundTruth, recording::kProfileFile}) {
+    std::error_code error;
+    const fs::path file = options.recording / name;
+    if (fs::exists(file, error)) fs::copy_file(file, folder / name, error);
+    if (error) return Error{Errc::kIo, "cannot copy the file", file.string(), {}, error.message()};
+  }
   return copied;
 }
 

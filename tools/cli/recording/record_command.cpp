@@ -17,7 +17,7 @@
 #include "onboard/app/door/devices.hpp"
 #include "onboard/app/door/live_sources.hpp"
 #include "onboard/app/live/stop_signal.hpp"
-#include "onboard/app/profile/robot_profile.hpp"
+#include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/report/json/report_json.hpp"
 
 namespace cairn::cli {
@@ -156,6 +156,7 @@ int record(const RecordArguments& options) {
   if (!place) return app::fail(place.error());
   auto writer = RecordingWriter::create(place->folder(), description);
   if (!writer) return app::fail(writer.error());
+  if (const auto kept = app::keep_profile(place->folder(), *profile); !kept) return app::fail(kept.error());
 
   const auto recorded = record_all(options, *devices, clock, *writer);
   if (!recorded) return fail_and_keep(*place, recorded.error());

@@ -75,7 +75,8 @@ void add_team_command(app::Commands& commands) {
   sub->add_option("--out", team.out, "new folder: gets one folder per robot, team.json and team.png")->required();
   sub->add_option("--link", options->link, "the radio: a link.yaml, radio (2 Mbit/s, 20 % loss) or clean")
       ->capture_default_str();
-  sub->add_option("--config", team.config, "profile of every robot; default values if not given");
+  sub->add_option("--config", team.config,
+                  "profile of every robot; without it: those of the recordings, or the defaults");
   sub->add_option("--resolution", team.resolution_m, "edge of the maps' voxels, m; default: as the profile says")
       ->check(CLI::Range(0.01, 5.0));
   sub->add_option("--settle", team.settle_s, "time that robots go on after the longest recording, s")

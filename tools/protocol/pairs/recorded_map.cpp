@@ -57,7 +57,7 @@ Result<std::unique_ptr<ScanDecoder>> decoder_of(const fs::path& dir, const recor
     if (!lidar) return lidar.error();
     return std::unique_ptr<ScanDecoder>(*std::move(lidar));
   }
-  const auto profile = app::load_profile(dir / "robot.yaml");
+  const auto profile = app::load_profile(dir / recording::kProfileFile);
   if (!profile) return profile.error();
   auto camera = depth::DepthCamera::create(profile->depth.driver);
   if (!camera) return camera.error();

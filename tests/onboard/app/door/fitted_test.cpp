@@ -12,6 +12,12 @@ safety::Fitted with(recording::SensorKind kind, const RobotProfile& profile = {}
   return fitted_with(sources, profile);
 }
 
+RobotProfile driven() {
+  RobotProfile profile;
+  profile.drive.driver.interface = "can0";
+  return profile;
+}
+
 bool watches(const safety::Fitted& fitted, safety::Watched what) {
   return fitted.watched[static_cast<std::size_t>(what)];
 }
@@ -22,12 +28,14 @@ TEST(Fitted, EverySensorIsWatchedForSilence) {
   EXPECT_TRUE(watches(with(recording::kCamera), safety::Watched::kCamera));
   EXPECT_TRUE(watches(with(recording::kThermal), safety::Watched::kThermal));
   EXPECT_TRUE(watches(with(recording::kDepth), safety::Watched::kDepth));
-  EXPECT_TRUE(watches(with(recording::kDrive), safety::Watched::kFeedback));
+  EXPECT_TRUE(watches(with(recording::kDrive, driven()), safety::Watched::kFeedback));
   EXPECT_FALSE(watches(with(recording::kCamera), safety::Watched::kLidar));
 }
 
 TEST(Fitted, ADriveIsOneThatCanBeStopped) {
-  EXPECT_TRUE(with(recording::kDrive).drive);
+  EXPECT_TRUE(with(recording::kDrive, driven()).drive);
+  EXPECT_FALSE(with(recording::kDrive).drive) << "of a recording whose profile is not known";
+  EXPECT_FALSE(watches(with(recording::kDrive), safety::Watched::kFeedback));
   EXPECT_FALSE(with(recording::kVelodyne).drive);
 }
 

@@ -62,6 +62,13 @@ TEST_F(ConnectInputsTest, WheelsThatCannotBeReadAreSaid) {
   EXPECT_TRUE(quiet.events().empty());
 }
 
+TEST_F(ConnectInputsTest, ADriveThatNoProfileKnowsIsLeftOut) {
+  add(recording::kDrive, Time{2s});
+  connect();
+  ASSERT_EQ(monitor.events().size(), 1U);
+  EXPECT_THAT(monitor.events().front().what, ::testing::HasSubstr("no profile says how to read it"));
+}
+
 TEST_F(ConnectInputsTest, EveryInputGoesToTheTaskThatReadsIt) {
   profile = load_profile(places::source() / "config/husky.yaml").value();
   add(recording::kScans, Time{4s});

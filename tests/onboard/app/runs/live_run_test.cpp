@@ -72,6 +72,7 @@ TEST(LiveRun, IsRepeatedToTheBitFromWhatItRecorded) {
 
   for (const int threads : {1, 2, 4}) {
     RunOptions again = live;
+    if (threads != 4) again.config.clear();  // the recording has it
     again.recording = live.record;
     again.record.clear();
     again.pace = threads == 2 ? Pace::kRecorded : Pace::kMaximum;
@@ -81,7 +82,8 @@ TEST(LiveRun, IsRepeatedToTheBitFromWhatItRecorded) {
     ASSERT_TRUE(repeated) << to_string(repeated.error());
     EXPECT_EQ((*repeated)->report.output_sha256, ran.output_sha256) << threads << " threads";
     EXPECT_EQ((*repeated)->report.started, ran.started);
-    for (const Event& e : (*repeated)->monitor.events()) EXPECT_NE(e.stage, "schedule") << e.what;
+    for (const Event& e : (*repeated)->monitor.events())
+      EXPECT_TRUE(e.stage != "schedule" && e.stage != "profile") << e.what;
   }
 }
 

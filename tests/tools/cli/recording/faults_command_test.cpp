@@ -30,6 +30,7 @@ void write_recording(const std::string& dir) {
   for (int i = 0; i < 1000; ++i) drive << "(" << 1 + i / 100 << "." << 100000 + i % 100 * 1000 << ") can0 181#0102\n";
   std::ofstream(dir + "/gpio.csv") << "stamp_ns,line,level\n5000000000,estop,0\n";
   std::ofstream(dir + "/ground_truth.tum") << "0 0 0 0 0 0 0 1\n";
+  std::ofstream(dir + "/profile.yaml") << "drive: {interface: can0}\n";
 }
 
 std::uint64_t packets_in(const std::string& dir) {
@@ -52,6 +53,7 @@ TEST(FaultsCommand, LeavesARecordingWithTheFaultsThatWereAskedFor) {
   EXPECT_EQ(packets_in(folder / "bad"), json["written"].get<std::uint64_t>());
   EXPECT_EQ(json["written"].get<int>() + json["dropped"].get<int>(), 1001);
   EXPECT_TRUE(std::filesystem::exists(folder / "bad/ground_truth.tum"));
+  EXPECT_TRUE(std::filesystem::exists(folder / "bad/profile.yaml"));
 }
 
 TEST(FaultsCommand, WithoutFaultsItCopies) {

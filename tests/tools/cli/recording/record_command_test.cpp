@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include "drivers/recording/formats/recording.hpp"
+#include "onboard/app/profile/robot_profile.hpp"
 #include "tests/support/own_address.hpp"
 #include "tests/tools/cli/run_command.hpp"
 
@@ -46,6 +47,9 @@ TEST(RecordCommand, SilenceIsAFailureThatNamesItsRemedy) {
   EXPECT_EQ((*r->sources[0].base_sensor_xyz_rpy)[5], 1.5);
   EXPECT_GT(r->start_utc_ns, 1'700'000'000'000'000'000);
   EXPECT_THAT(r->notes, HasSubstr("kernel_drops"));
+  const auto profile = app::load_profile(folder / "r/profile.yaml");
+  ASSERT_TRUE(profile) << to_string(profile.error());
+  EXPECT_EQ(profile->lidar.driver.model, "HDL-32E");
 }
 
 TEST(RecordCommand, SaysInATableWhatCameInAndKeepsAnOldRecording) {
