@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fusion/matching/features/levelling.hpp"
 #include "fusion/matching/features/sample.hpp"
 #include "fusion/matching/search/global_search.hpp"
 #include "fusion/matching/search/stand_up.hpp"
@@ -47,22 +48,50 @@ DefaultMatcher::DefaultMatcher(const MapFeatures& a, const MapFeatures& b, const
       modes_(a, b, config.coarse_search),
       coarse_a_(a.coarse()),
       coarse_sample_b_(sample(b.coarse(), config.refinement.coarse_points)),
+      climbing_sample_b_(sample(b.coarse(), config.global_search.climb_points)),
+      T_level_a_(straightening(a.fine())),
+      T_level_b_(straightening(b.fine())),
       coarse_m_(std::max(a.coarse_m(), b.coarse_m())),
       near_coarse_(a.coarse(), coarse_m_, kCoarseReach_cells * coarse_m_) {}
 
+std::vector<SE3> DefaultMatcher::swept(Budget& budget) const {
+  const GlobalSearchConfig& config = config_.global_search;
+  const auto surfels_a = turned(judge_.a().surfels, T_level_a_), surfels_b = turned(judge_.b().surfels, T_level_b_);
+  const PlanView a(surfels_a, map_a_, T_level_a_), b(surfels_b, map_b_, T_level_b_);
+  const auto placements = sweep(a, b, config, budget);
+  const auto voters = sample(std::span<const Surfel>(surfels_b), config.height_votes);
+  std::vector<SE3> poses = stand_up(placements, a, b, voters);
+  for (SE3& T : poses) T = T_level_a_.inverse() * T * T_level_b_;
+  return poses;
+}
+
+std::vector<DefaultMatcher::Candidate> DefaultMatcher::climbed(const std::vector<SE3>& poses, Budget& budget) const {
+  std::vector<Candidate> best_first;
+  for (const SE3& T : poses) best_first.push_back({T, judge_.first_impression(T)});
+  std::stable_sort(best_first.begin(), best_first.end(), better<Candidate>);
+  best_first.resize(std::min(best_first.size(), config_.global_search.climbers));
+  for (Candidate& c : best_first) {
+    if (!budget.one_more()) break;
+    c.T_a_b = refine(coarse_a_, near_coarse_, climbing_sample_b_, c.T_a_b,
+                     config_.refinement.climb.in_metres(coarse_m_), budget)
+                  .T_target_source;
+    c.score = judge_.first_impression(c.T_a_b);
+  }
+  std::stable_sort(best_first.begin(), best_first.end(), better<Candidate>);
+  return best_first;
+}
+
 std::vector<SE3> DefaultMatcher::starts_anywhere(Budget& budget) const {
   const GlobalSearchConfig& config = config_.global_search;
-  const PlanView a(judge_.a().surfels, map_a_), b(judge_.b().surfels, map_b_);
-  const auto placements = sweep(a, b, config, budget);
-  const auto voters = sample(std::span<const Surfel>(judge_.b().surfels), config.height_votes);
-  const auto poses = stand_up(placements, a, b, voters, config.height_range_m);
-  std::vector<Candidate> impressions;
-  for (const SE3& T : poses) impressions.push_back({T, judge_.first_impression(T)});
-  std::stable_sort(impressions.begin(), impressions.end(), better<Candidate>);
-  std::vector<SE3> starts(poses.begin(),
-                          poses.begin() + static_cast<std::ptrdiff_t>(std::min(poses.size(), config.best_swept)));
-  for (const Candidate& c : impressions)
-    if (starts.size() < config.starts) starts.push_back(c.T_a_b);
+  const auto poses = swept(budget);
+  std::vector<SE3> starts;
+  for (const Candidate& c : climbed(poses, budget)) {
+    const auto again = [&](const SE3& T) { return one_way(T, c.T_a_b, config_.refinement); };
+    if (starts.size() + config.best_swept < config.starts && std::none_of(starts.begin(), starts.end(), again))
+      starts.push_back(c.T_a_b);
+  }
+  const std::size_t as_they_are = std::min(poses.size(), config.best_swept);
+  starts.insert(starts.end(), poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(as_they_are));
   return starts;
 }
 
@@ -77,7 +106,7 @@ SE3 DefaultMatcher::on_fine(const SE3& T, const RefinementStage& stage, Budget& 
 
 bool DefaultMatcher::leans(const SE3& T) const {
   const double most_rad = config_.refinement.most_lean_sigmas * std::sqrt(anywhere().covariance(3, 3));
-  return T.rotation()(2, 2) < std::cos(most_rad);
+  return (T_level_a_ * T * T_level_b_.inverse()).rotation()(2, 2) < std::cos(most_rad);
 }
 
 std::vector<DefaultMatcher::Candidate> DefaultMatcher::verified(const std::vector<SE3>& starts, Budget& budget) const {

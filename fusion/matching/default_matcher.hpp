@@ -49,6 +49,11 @@ class DefaultMatcher : public Matcher {
   [[nodiscard]] std::vector<Candidate> modes(const std::optional<UncertainPose>& initial, Budget& budget) const;
   /// Starts for refinement without a prior.
   [[nodiscard]] std::vector<SE3> starts_anywhere(Budget& budget) const;
+  /// The best poses of a sweep over all headings and distances, at their heights. Both maps are
+  /// straightened first.
+  [[nodiscard]] std::vector<SE3> swept(Budget& budget) const;
+  /// The most promising of the poses, each after a short climb, best first.
+  [[nodiscard]] std::vector<Candidate> climbed(const std::vector<SE3>& poses, Budget& budget) const;
   /// Refines each start on the coarse surfels and scores it, best first. Starts that soon lead the
   /// same way give one candidate.
   [[nodiscard]] std::vector<Candidate> verified(const std::vector<SE3>& starts, Budget& budget) const;
@@ -56,7 +61,7 @@ class DefaultMatcher : public Matcher {
   void look_closer(std::vector<Candidate>& best_first, Budget& budget) const;
   [[nodiscard]] SE3 on_coarse(const SE3& T, const RefinementStage& stage, Budget& budget) const;
   [[nodiscard]] SE3 on_fine(const SE3& T, const RefinementStage& stage, Budget& budget) const;
-  /// Whether a pose leans more than gravity allows.
+  /// Whether a pose leans more than gravity allows, after straightening.
   [[nodiscard]] bool leans(const SE3& T) const;
 
   MatcherConfig config_;
@@ -65,7 +70,8 @@ class DefaultMatcher : public Matcher {
   Judge judge_;
   PriorModes modes_;
   std::span<const Surfel> coarse_a_;
-  std::vector<Surfel> coarse_sample_b_;
+  std::vector<Surfel> coarse_sample_b_, climbing_sample_b_;
+  SE3 T_level_a_, T_level_b_;
   float coarse_m_;
   NearestGrid near_coarse_;
 };

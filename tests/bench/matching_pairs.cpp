@@ -147,11 +147,11 @@ void town(std::uint64_t seed) {
   std::array<Stops, 2> stops;
   for (const Eigen::Vector2d& p : ground.world.places)
     for (int i = 0; i < 2; ++i)
-      if (random.uniform() < 0.75)
+      if (random.uniform() < 0.4)
         stops[static_cast<std::size_t>(i)].push_back(p + Eigen::Vector2d(random.uniform(-2, 2), random.uniform(-2, 2)));
   std::array<Chart, 2> charts;
   for (std::size_t i = 0; i < 2; ++i) {
-    Survey how{.T_map_world = frame(random, 5, 1, {200, 200, 0}), .voxel_m = 0.2, .range_m = 30, .seed = seed + i};
+    Survey how{.T_map_world = frame(random, 5, 1, {200, 200, 0}), .voxel_m = 0.2, .range_m = 14, .seed = seed + i};
     charts[i] = chart(ground, stops[i], how);
     charts[i].features.reset();
   }

@@ -5,6 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include "fusion/matching/features/cell_index.hpp"
 
 namespace cairn::matching {
 namespace {
@@ -12,6 +17,9 @@ namespace {
 // Where free space is looked for before and behind a surfel: just beyond its own cell, and one
 // voxel on for walls that fill more than a cell. Chosen by hand, not tuned.
 constexpr std::array kLookAhead_cells{1.25F, 2.0F};
+constexpr float kPlace_m = 1.6F;  // edge of a column; chosen by hand, not tuned
+// Score of two maps that do not meet: below that of every pose at which they do.
+constexpr double kApart = -100;
 
 struct Moved {
   explicit Moved(const SE3& T) : R(T.rotation().cast<float>()), t(T.translation().cast<float>()) {}
@@ -59,7 +67,27 @@ struct Meetings {
   // In free space, but near a surface that may be its own.
   int beside = 0;
   Eigen::Matrix2d normals = Eigen::Matrix2d::Zero();  // Σ n nᵀ, horizontal part, of what agrees
+  // Where something met, as packed columns: with 1 for what agrees, −1 for what is contradicted.
+  std::vector<std::pair<std::uint64_t, int>> places;
 };
+
+/// How many places met, and in how many of them more is contradicted than agrees.
+struct Places {
+  int all = 0, contradicted = 0;
+};
+
+Places places_of(std::vector<std::pair<std::uint64_t, int>> met) {
+  std::sort(met.begin(), met.end());
+  Places out;
+  for (auto from = met.begin(); from != met.end();) {
+    int balance = 0;
+    const std::uint64_t place = from->first;
+    for (; from != met.end() && from->first == place; ++from) balance += from->second;
+    ++out.all;
+    out.contradicted += balance < 0 ? 1 : 0;
+  }
+  return out;
+}
 
 Meetings meet(const Party& target, const NearestGrid& nearest, const Party& source, std::span<const Surfel> structure,
               const SE3& T, const EvidenceConfig& config) {
@@ -67,18 +95,28 @@ Meetings meet(const Party& target, const NearestGrid& nearest, const Party& sour
   const auto cell = static_cast<float>(std::max(target.cell_m, source.cell_m));
   const float agree_m = config.agree_cells * cell;
   Meetings m;
+  const auto note = [&](const Eigen::Vector3f& q, int vote) {
+    const Eigen::Vector2i column = (q.head<2>() / kPlace_m).array().floor().cast<int>();
+    m.places.emplace_back(pack({column.x(), column.y(), 0}), vote);
+  };
   for (const Surfel& s : structure) {
     const Eigen::Vector3f q = move(s.point);
     const int i = nearest.nearest(q, config.pair_cells * cell);
     if (i == NearestGrid::kNone) {
-      m.in_free += target.free.contains(q) ? 1 : 0;
+      if (!target.free.contains(q)) continue;
+      ++m.in_free;
+      note(q, -1);
       continue;
     }
     const Surfel& r = target.surfels[static_cast<std::size_t>(i)];
     const bool near = (q - r.point).squaredNorm() < agree_m * agree_m;
-    m.beside += !near && target.free.contains(q) ? 1 : 0;
+    if (!near && target.free.contains(q)) {
+      ++m.beside;
+      note(q, -1);
+    }
     if (near && same_side(r, s, move.R * s.normal, config.same_normal)) {
       ++m.agree;
+      note(q, 1);
       const Eigen::Vector2d n = r.normal.head<2>().cast<double>();
       m.normals += n * n.transpose();
     } else {
@@ -92,6 +130,7 @@ double score_of(const Party& target, const NearestGrid& nearest, const Party& so
                 std::span<const Surfel> of_source, const SE3& T, const EvidenceConfig& config) {
   const Meetings m = meet(target, nearest, source, of_source, T, config);
   const auto n = static_cast<double>(of_source.size());
+  if (m.agree < config.least_agreeing * n) return kApart;
   const double reverse =
       share(in_free_space(source.free, of_target, T.inverse()), static_cast<double>(of_target.size()));
   // The target's conflicts count by their number, as the source's do.
@@ -151,6 +190,8 @@ Evidence weigh(const Indexed& target, const Indexed& source, const SE3& T, const
   out.structure_inliers = share(m.agree, m.agree + m.differ);
   out.conflict = share(m.in_free, m.all());
   out.reverse_conflict = share(reverse.in_free + reverse.beside, reverse.all());
+  const Places there = places_of(m.places), back = places_of(reverse.places);
+  out.spread_conflict = share(there.contradicted + back.contradicted, there.all + back.all);
   if (m.agree > 0)
     out.weakest_translation =
         std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(m.normals / m.agree).eigenvalues()[0]);

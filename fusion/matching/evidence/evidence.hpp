@@ -35,6 +35,9 @@ struct EvidenceConfig {
   /// A score falls by this times the share of conflicts, down to least_credit. It came in with
   /// GlobalSearchConfig::best_swept: of 42 pairs without a prior, 38 instead of 30 were found.
   double discredit = 3, least_credit = 0.15;
+  /// Share of the source's structure that must agree for a score. Maps that hardly touch contradict
+  /// nothing, and would come before the truth where the scene changed or the overlap is small.
+  double least_agreeing = 0.01;
 };
 
 /// One map in a comparison.
@@ -63,6 +66,10 @@ struct Evidence {
   /// The same of target structure in the source's free space. Structure there that lies more than a
   /// cell beside its partner counts as well.
   double reverse_conflict = 0;
+  /// Share of the places with structure, both ways, in which more is contradicted than agrees; 0…1.
+  /// A place is a column of 1.6 m. Things that were moved contradict much in few places. A wrong pose
+  /// contradicts in many.
+  double spread_conflict = 0;
   /// Smallest eigenvalue of the mean n nᵀ (x, y) of what agrees, 0…½.
   double weakest_translation = 0;
   double score = 0;       ///< see score()
@@ -75,7 +82,8 @@ struct Evidence {
 /// - −conflict_weight if it stands in the target's free space.
 ///
 /// Target structure in the source's free space counts −conflict_weight, too. The mean over the
-/// source's surfels is then discounted by `discredit` for the share of conflicts.
+/// source's surfels is then discounted by `discredit` for the share of conflicts. Where less than
+/// `least_agreeing` agrees, the score is below every other.
 [[nodiscard]] double score(const Party& target, const NearestGrid& nearest, const Party& source,
                            const SE3& T_target_source, const EvidenceConfig& config = {});
 

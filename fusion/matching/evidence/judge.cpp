@@ -13,8 +13,7 @@ namespace cairn::matching {
 namespace {
 
 // Standard deviations of a pose without a guess. All chosen by hand, not tuned.
-constexpr double kAnywhere_m = 100;         // along x and y: wider than what is matched
-constexpr double kAnywhereHeight_m = 3;     // a storey
+constexpr double kAnywhere_m = 100;         // along x, y and z: frames begin where robots start
 constexpr double kAnywhereTilt_rad = 0.03;  // 1.7°: how well a LiDAR's mapping holds gravity
 constexpr double kAnywhereHeading_rad = M_PI;
 
@@ -23,7 +22,7 @@ constexpr double kAnywhereHeading_rad = M_PI;
 UncertainPose anywhere() {
   UncertainPose pose;
   Vector6 sigma;
-  sigma << kAnywhere_m, kAnywhere_m, kAnywhereHeight_m, kAnywhereTilt_rad, kAnywhereTilt_rad, kAnywhereHeading_rad;
+  sigma << kAnywhere_m, kAnywhere_m, kAnywhere_m, kAnywhereTilt_rad, kAnywhereTilt_rad, kAnywhereHeading_rad;
   pose.covariance = sigma.cwiseAbs2().asDiagonal();
   return pose;
 }

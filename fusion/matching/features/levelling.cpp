@@ -19,6 +19,10 @@ constexpr double kApart = std::numbers::sqrt2 / 2;  // cosine of 45°, between t
 constexpr int kHalfSphere = 600;
 // Of the extent, a twentieth is cut off at either end.
 constexpr std::ptrdiff_t kOutermost = 20;
+// Cosines of 30°, 20° and 15°: normals that are averaged for the direction of gravity. Narrow gates
+// would find the grid's z: between the steps of its voxels, a leaning floor looks level.
+constexpr double kLevelGates[] = {0.866, 0.940, 0.966};
+constexpr double kLeastLean_cosine = 0.99863;  // of 3°
 
 using Vectors = std::vector<Eigen::Vector3d>;
 
@@ -96,6 +100,30 @@ std::vector<SE3> levellings(std::span<const Surfel> surfels) {
   for (const Eigen::Vector3d& direction : directions) turns.push_back(upwards(direction));
   if (turns.empty()) turns.emplace_back();
   return turns;
+}
+
+SE3 straightening(std::span<const Surfel> surfels) {
+  Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
+  for (const double gate : kLevelGates) {
+    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+    for (const Surfel& s : surfels) {
+      const Eigen::Vector3d n = s.normal.cast<double>();
+      if (const double along = n.dot(up); s.flat() && std::abs(along) > gate) sum += std::copysign(1.0, along) * n;
+    }
+    if (sum.norm() > 0) up = sum.normalized();
+  }
+  return up.z() > kLeastLean_cosine ? SE3() : upwards(up);
+}
+
+std::vector<Surfel> turned(std::span<const Surfel> surfels, const SE3& turn) {
+  const Eigen::Matrix3f R = turn.rotation().cast<float>();
+  const Eigen::Vector3f t = turn.translation().cast<float>();
+  std::vector<Surfel> all(surfels.begin(), surfels.end());
+  for (Surfel& s : all) {
+    s.point = R * s.point + t;
+    s.normal = R * s.normal;
+  }
+  return all;
 }
 
 }  // namespace cairn::matching

@@ -16,4 +16,12 @@ namespace cairn::matching {
 /// Gives the identity alone where nothing is flat.
 [[nodiscard]] std::vector<SE3> levellings(std::span<const Surfel> surfels);
 
+/// The turn of a map (T_level_map, without translation) whose z is upwards within some degrees.
+/// It brings the mean of its floors and ceilings level. Gives the identity where they lean by less
+/// than 3°: a search does not mind, and ground may slope as much.
+[[nodiscard]] SE3 straightening(std::span<const Surfel> surfels);
+
+/// The surfels, turned.
+[[nodiscard]] std::vector<Surfel> turned(std::span<const Surfel> surfels, const SE3& turn);
+
 }  // namespace cairn::matching

@@ -12,10 +12,12 @@ constexpr double kRoundingSlack = 0.01;
 // Powers of two: 4 voxels for a fine cell, a tile's 8 for a coarse one.
 constexpr double kMostLevels = 2;
 
-/// 1, 2 or 4: a tile of 8 voxels then holds whole cells of both sizes.
-int voxels_per_fine_cell(double fine_cell_m, double resolution_m) {
-  const double levels = std::floor(std::log2(fine_cell_m / resolution_m) + kRoundingSlack);
-  return 1 << static_cast<int>(std::clamp(levels, 0.0, kMostLevels));
+/// 1, 2 or 4: a tile of 8 voxels then holds whole cells of both sizes. A cell of a surface has the
+/// square of its edge in voxels.
+int voxels_per_fine_cell(const FeatureConfig& config, double resolution_m, std::size_t voxels) {
+  const double levels = std::floor(std::log2(config.fine_cell_m / resolution_m) + kRoundingSlack);
+  const double crowded = 0.5 * std::log2(static_cast<double>(voxels) / static_cast<double>(config.most_cells));
+  return 1 << static_cast<int>(std::clamp(std::max(levels, std::ceil(crowded)), 0.0, kMostLevels));
 }
 
 template <class Entropy>
@@ -37,7 +39,8 @@ MapFeatures::MapFeatures(const mapping::SemanticOcTree& map, int voxels_per_fine
 Result<MapFeatures> MapFeatures::build(const mapping::SemanticOcTree& map, const FeatureConfig& config) {
   const auto voxels = occupied_voxels(map);
   if (!voxels) return voxels.error();
-  MapFeatures features(map, voxels_per_fine_cell(config.fine_cell_m, map.getResolution()), config.min_normal_voxels);
+  MapFeatures features(map, voxels_per_fine_cell(config, map.getResolution(), voxels->size()),
+                       config.min_normal_voxels);
   for (auto from = voxels->begin(); from != voxels->end();) {
     const mapping::TileKey tile = tile_of(*from);
     const auto to = std::find_if(from, voxels->end(), [&](const Voxel& v) { return tile_of(v) != tile; });

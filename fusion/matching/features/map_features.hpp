@@ -18,6 +18,9 @@ struct FeatureConfig {
   double fine_cell_m = 0.2;
   /// Voxels in the 27 cells around a cell that a normal needs. Chosen by hand, not tuned.
   int min_normal_voxels = 5;
+  /// Fine cells of a map, at most, as far as cells of 4 voxels go: a bound on memory and time. The
+  /// cells of a larger map are 2 or 4 voxels. update() leaves their size as it is.
+  std::size_t most_cells = 250'000;
 };
 
 /// The features of one map: surfels at two cell sizes, about 0.2 and 0.4 m.
@@ -34,6 +37,7 @@ class MapFeatures {
 
   [[nodiscard]] const mapping::SemanticOcTree& map() const { return *map_; }
   [[nodiscard]] double resolution() const { return map_->getResolution(); }
+  /// Edges of the cells, m.
   [[nodiscard]] float fine_m() const { return fine_grid_.cell_m(); }
   [[nodiscard]] float coarse_m() const { return coarse_grid_.cell_m(); }
   /// Sorted by cell: x, then y, then z.

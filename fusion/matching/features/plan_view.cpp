@@ -23,7 +23,8 @@ constexpr float kFar_m = 1e9F;  // beyond every map
 
 }  // namespace
 
-PlanView::PlanView(std::span<const Surfel> surfels, const mapping::SemanticOcTree& map) {
+PlanView::PlanView(std::span<const Surfel> surfels, const mapping::SemanticOcTree& map, const SE3& turn)
+    : turn_(turn.rotation().cast<float>()) {
   lay_out(surfels);
   std::vector<Walls> walls = walls_of(surfels);
   if (map.getRoot() != nullptr)
@@ -84,7 +85,8 @@ void PlanView::add_room(const mapping::SemanticNode* node, const Eigen::Vector3i
   if (node->getLogOdds() >= map.getOccupancyThresLog()) return;
   const auto voxel = static_cast<float>(map.getResolution());
   const float width = static_cast<float>(edge) * voxel;
-  const Eigen::Vector2f corner = first.head<2>().cast<float>() * voxel;
+  const Eigen::Vector3f centre = (first.cast<float>().array() + 0.5F * static_cast<float>(edge)) * voxel;
+  const Eigen::Vector2f corner = (turn_ * centre).head<2>() - Eigen::Vector2f::Constant(0.5F * width);
   const Eigen::Vector2f inner = Eigen::Vector2f::Constant(0.5F * std::min(width, voxel));
   const Eigen::Vector2i from = cell_of(corner + inner).cwiseMax(0);
   const Eigen::Vector2i to = cell_of(corner - inner + Eigen::Vector2f::Constant(width))
@@ -103,7 +105,12 @@ void PlanView::stack_heights(std::span<const Surfel> surfels) {
   for (std::size_t i = 1; i < starts_.size(); ++i) starts_[i] += starts_[i - 1];
   heights_.resize(surfels.size());
   std::vector<std::size_t> next(starts_.begin(), starts_.end() - 1);
-  for (const Surfel& s : surfels) heights_[next[slot(cell_of(s.point.head<2>()))]++] = {s.point.z(), s.level()};
+  if (!surfels.empty()) bottom_ = top_ = surfels.front().point.z();
+  for (const Surfel& s : surfels) {
+    heights_[next[slot(cell_of(s.point.head<2>()))]++] = {s.point.z(), s.level()};
+    bottom_ = std::min(bottom_, s.point.z());
+    top_ = std::max(top_, s.point.z());
+  }
 }
 
 std::span<const PlanView::Height> PlanView::heights(const Eigen::Vector2f& at) const {

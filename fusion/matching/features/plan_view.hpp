@@ -8,6 +8,7 @@
 
 #include "fusion/matching/features/map_voxels.hpp"
 #include "fusion/matching/features/surfel_grid.hpp"
+#include "hal/se3.hpp"
 
 namespace cairn::matching {
 
@@ -36,8 +37,10 @@ class PlanView {
     bool level;  ///< of a floor, a ceiling or a table
   };
 
-  /// `surfels`: the fine ones, with facing_free_space() applied.
-  PlanView(std::span<const Surfel> surfels, const mapping::SemanticOcTree& map);
+  /// `surfels`: the fine ones, with facing_free_space() applied. `turn`: of the plan's frame against
+  /// the map's (T_plan_map, without translation), by some degrees at most. The surfels are turned
+  /// already.
+  PlanView(std::span<const Surfel> surfels, const mapping::SemanticOcTree& map, const SE3& turn = {});
 
   /// The columns with walls or room, row by row.
   [[nodiscard]] const std::vector<Column>& columns() const { return columns_; }
@@ -50,6 +53,9 @@ class PlanView {
   [[nodiscard]] float radius() const { return radius_; }
   /// The heights of the surfels in the column at a place (m); empty outside of the plan.
   [[nodiscard]] std::span<const Height> heights(const Eigen::Vector2f& at) const;
+  /// Lowest and highest of all heights, m; 0 where there are none.
+  [[nodiscard]] float bottom() const { return bottom_; }
+  [[nodiscard]] float top() const { return top_; }
   /// How many upright surfels face along each degree of the half circle, smoothed.
   [[nodiscard]] const std::vector<float>& directions() const { return directions_; }
 
@@ -74,6 +80,7 @@ class PlanView {
            static_cast<std::size_t>(cell.x());
   }
 
+  Eigen::Matrix3f turn_;  // of the plan's frame against the map's
   float cell_m_ = kColumn_m;
   Eigen::Vector2f corner_ = Eigen::Vector2f::Zero();
   Eigen::Vector2i size_ = Eigen::Vector2i::Ones();
@@ -82,7 +89,7 @@ class PlanView {
   std::vector<Height> heights_;
   std::vector<float> directions_;
   Eigen::Vector2f low_ = Eigen::Vector2f::Zero(), high_ = low_, middle_ = low_;
-  float radius_ = 0;
+  float radius_ = 0, bottom_ = 0, top_ = 0;
 };
 
 }  // namespace cairn::matching

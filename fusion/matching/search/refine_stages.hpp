@@ -35,6 +35,13 @@ struct RefinementStage {
 /// of 0.4 m, then 0.8 to 0.4 m on cells of 0.2 m.
 struct RefinementConfig {
   std::size_t coarse_points = 2000;  ///< coarse surfels of b, at most; a prototype had 3000
+  /// Without a prior, poses climb on few coarse surfels before they are ranked.
+  RefinementStage climb{.gate_cells = 3.0F,
+                        .last_gate_cells = 1.25F,
+                        .gate_decay = 0.75F,
+                        .max_iterations = 5,
+                        .stop_m = 0.02,
+                        .stop_rad = 2e-3};
   /// Each start begins with three iterations on the coarse surfels, ...
   RefinementStage begin{.gate_cells = 3.0F,
                         .last_gate_cells = 1.25F,
@@ -72,9 +79,9 @@ struct RefinementConfig {
                        .stop_m = 1e-4,
                        .stop_rad = 1e-5};
   /// Without a prior, a pose leans if it is off gravity by more than this many of anywhere()'s
-  /// standard deviations: 6.9°. Refinement may lose gravity where one map has no floor. Chosen by
+  /// standard deviations: 12° after straightening. Refinement may lose gravity where one map has no floor. Chosen by
   /// hand, not tuned.
-  double most_lean_sigmas = 4;
+  double most_lean_sigmas = 7;
 };
 
 }  // namespace cairn::matching

@@ -18,44 +18,63 @@ constexpr int kMean_bins = 1;
 // On either side of the highest bin, before the next height is looked for.
 constexpr int kCleared_bins = 2;
 
-/// Votes for b's height in a, from −range_m to range_m.
-std::vector<float> votes(const Placement& p, const PlanView& a, const PlanView& b, std::span<const Surfel> sample,
-                         float range_m) {
-  const int bins = 2 * static_cast<int>(range_m / kBin_m) + 1;
-  std::vector<float> all(static_cast<std::size_t>(bins), 0.0F);
+// A bound on time and memory: 1 200 m.
+constexpr int kMost_bins = 8000;
+
+/// A histogram of heights of b in a, from `low_m` on: all at which the two maps can meet.
+struct Histogram {
+  Histogram(const PlanView& a, std::span<const Surfel> sample) {
+    float bottom = 0, top = 0;
+    if (!sample.empty()) bottom = top = sample.front().point.z();
+    for (const Surfel& s : sample) {
+      bottom = std::min(bottom, s.point.z());
+      top = std::max(top, s.point.z());
+    }
+    const float span_m = a.top() - a.bottom() + top - bottom;
+    const int bins = static_cast<int>(std::min(static_cast<float>(kMost_bins), span_m / kBin_m + 2));
+    low_m = 0.5F * (a.bottom() + a.top() - bottom - top) - 0.5F * kBin_m * static_cast<float>(bins - 1);
+    votes.resize(static_cast<std::size_t>(bins));
+  }
+
+  float low_m;
+  std::vector<float> votes;
+};
+
+void vote(const Placement& p, const PlanView& a, const PlanView& b, std::span<const Surfel> sample, Histogram& all) {
+  std::fill(all.votes.begin(), all.votes.end(), 0.0F);
   const Eigen::Rotation2Df turn(static_cast<float>(p.yaw_rad));
   const Eigen::Vector2f at(static_cast<float>(p.x_m), static_cast<float>(p.y_m));
+  const auto last = static_cast<float>(all.votes.size() - 1);
   for (const Surfel& s : sample) {
     const bool level = s.level();
     for (const PlanView::Height& h : a.heights(turn * (s.point.head<2>() - b.middle()) + at)) {
       if (h.level != level) continue;
-      const float bin = (h.z - s.point.z() + range_m) / kBin_m;
-      if (!(bin >= 0 && bin < static_cast<float>(bins - 1))) continue;
+      const float bin = (h.z - s.point.z() - all.low_m) / kBin_m;
+      if (!(bin >= 0 && bin < last)) continue;
       const auto i = static_cast<std::size_t>(bin);
       const float part = bin - static_cast<float>(i), weight = level ? 1 : kUprightVote;
-      all[i] += weight * (1 - part);
-      all[i + 1] += weight * part;
+      all.votes[i] += weight * (1 - part);
+      all.votes[i + 1] += weight * part;
     }
   }
-  return all;
 }
 
-/// The heights of b in a with the most votes, m.
-std::vector<double> heights_of(std::vector<float> all, float range_m) {
-  const int last = static_cast<int>(all.size()) - 1;
+/// The heights of b in a with the most votes, m. Takes the votes out.
+std::vector<double> heights_of(Histogram& all) {
+  const int last = static_cast<int>(all.votes.size()) - 1;
   std::vector<double> best;
   for (int k = 0; k < kHeights; ++k) {
-    const auto top = std::max_element(all.begin(), all.end());
+    const auto top = std::max_element(all.votes.begin(), all.votes.end());
     if (*top <= 0) break;
-    const auto i = static_cast<int>(top - all.begin());
+    const auto i = static_cast<int>(top - all.votes.begin());
     float sum = 0, moment = 0;
     for (int j = std::max(0, i - kMean_bins); j <= std::min(last, i + kMean_bins); ++j) {
-      sum += all[static_cast<std::size_t>(j)];
-      moment += all[static_cast<std::size_t>(j)] * static_cast<float>(j);
+      sum += all.votes[static_cast<std::size_t>(j)];
+      moment += all.votes[static_cast<std::size_t>(j)] * static_cast<float>(j);
     }
-    best.push_back(static_cast<double>(moment / sum * kBin_m - range_m));
+    best.push_back(static_cast<double>(moment / sum * kBin_m + all.low_m));
     for (int j = std::max(0, i - kCleared_bins); j <= std::min(last, i + kCleared_bins); ++j)
-      all[static_cast<std::size_t>(j)] = 0;
+      all.votes[static_cast<std::size_t>(j)] = 0;
   }
   return best;
 }
@@ -63,13 +82,14 @@ std::vector<double> heights_of(std::vector<float> all, float range_m) {
 }  // namespace
 
 std::vector<SE3> stand_up(std::span<const Placement> placements, const PlanView& a, const PlanView& b,
-                          std::span<const Surfel> sample, float height_range_m) {
+                          std::span<const Surfel> sample) {
   std::vector<SE3> poses;
+  Histogram all(a, sample);
   for (const Placement& p : placements) {
     const Eigen::Quaterniond turn(Eigen::AngleAxisd(p.yaw_rad, Eigen::Vector3d::UnitZ()));
     const Eigen::Vector3d middle(static_cast<double>(b.middle().x()), static_cast<double>(b.middle().y()), 0);
-    for (const double z : heights_of(votes(p, a, b, sample, height_range_m), height_range_m))
-      poses.emplace_back(turn, Eigen::Vector3d(p.x_m, p.y_m, z) - turn * middle);
+    vote(p, a, b, sample, all);
+    for (const double z : heights_of(all)) poses.emplace_back(turn, Eigen::Vector3d(p.x_m, p.y_m, z) - turn * middle);
   }
   return poses;
 }

@@ -11,9 +11,9 @@
 namespace cairn::matching {
 
 /// Poses T_a_b for placements on the plan: each placement at the two heights at which most surfaces
-/// of the same kind meet. `sample`: surfels of b, which vote. `height_range_m`: heights that are
-/// tried, up and down.
+/// of the same kind meet. All heights at which the maps can meet are tried, wherever their frames
+/// begin. `sample`: surfels of b, which vote.
 [[nodiscard]] std::vector<SE3> stand_up(std::span<const Placement> placements, const PlanView& a, const PlanView& b,
-                                        std::span<const Surfel> sample, float height_range_m);
+                                        std::span<const Surfel> sample);
 
 }  // namespace cairn::matching

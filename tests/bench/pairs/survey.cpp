@@ -14,9 +14,11 @@ namespace {
 
 using simulator::Random;
 
-// A Velodyne VLP-16 on a small robot, at a quarter of its directions.
+// A Velodyne VLP-16 on a small robot that rocks, at a fifth of its directions.
 constexpr double kSensorHeight_m = 0.73, kNoise_m = 0.02, kNearest_m = 0.5;
-constexpr int kRings = 16, kDirections = 480;
+constexpr int kRings = 16, kDirections = 360;
+constexpr std::size_t kScans = 2;  // at each stop
+constexpr double kRocks_rad = 0.06, kBeside_m = 0.5;
 constexpr double kPlaceNoise_m = 0.02, kTurnNoise_rad = 0.002;
 constexpr std::uint64_t kNoiseStream = 61, kDropStream = 62;
 
@@ -31,13 +33,16 @@ SE3 disturbed(const Eigen::Vector3d& origin, Random& random) {
 
 std::vector<Eigen::Vector3d> scan(const simulator::Tracer& tracer, const Eigen::Vector3d& origin, double range_m,
                                   Random& random) {
-  const double first = random.uniform(0, 2 * std::numbers::pi);
+  Vector6 rocking;
+  rocking << 0, 0, 0, random.uniform(-kRocks_rad, kRocks_rad), random.uniform(-kRocks_rad, kRocks_rad),
+      random.uniform(0, 2 * std::numbers::pi);
+  const Eigen::Matrix3d turn = SE3::from_xyz_rpy(rocking).rotation();
   std::vector<Eigen::Vector3d> points;
   for (int k = 0; k < kDirections; ++k)
     for (int ring = 0; ring < kRings; ++ring) {
-      const double azimuth = first + 2 * std::numbers::pi * k / kDirections,
-                   up = (2.0 * ring - 15) * std::numbers::pi / 180;
-      const Eigen::Vector3d ahead(std::cos(up) * std::cos(azimuth), std::cos(up) * std::sin(azimuth), std::sin(up));
+      const double azimuth = 2 * std::numbers::pi * k / kDirections, up = (2.0 * ring - 15) * std::numbers::pi / 180;
+      const Eigen::Vector3d ahead =
+          turn * Eigen::Vector3d(std::cos(up) * std::cos(azimuth), std::cos(up) * std::sin(azimuth), std::sin(up));
       if (const auto hit = tracer.trace({origin, ahead}, kNearest_m, 1.5 * range_m))
         points.push_back((hit->distance + kNoise_m * random.normal_pair().first) * ahead);
     }
@@ -65,10 +70,11 @@ std::unique_ptr<mapping::SemanticOcTree> survey(const Ground& ground, std::span<
   Workers workers(1);
   mapping::Mapper mapper(config, workers);
   const Eigen::Vector3d mirror(1, how.mirrored ? -1 : 1, 1);
-  for (std::size_t i = 0; i < stops.size(); ++i) {
+  for (std::size_t i = 0; i < kScans * stops.size(); ++i) {
     Random random(how.seed, kNoiseStream, i);
-    const Eigen::Vector3d origin(stops[i].x(), stops[i].y(),
-                                 ground.world.ground(stops[i].x(), stops[i].y()) + kSensorHeight_m);
+    const Eigen::Vector2d at = stops[i / kScans] + Eigen::Vector2d(random.uniform(-kBeside_m, kBeside_m),
+                                                                   random.uniform(-kBeside_m, kBeside_m));
+    const Eigen::Vector3d origin(at.x(), at.y(), ground.world.ground(at.x(), at.y()) + kSensorHeight_m);
     const SE3 believed = disturbed(origin, random);
     const auto placed = [&](const Eigen::Vector3d& p) -> Eigen::Vector3f {
       return (how.T_map_world * (believed * p).cwiseProduct(mirror)).cast<float>();

@@ -30,7 +30,7 @@ struct Survey {
   std::uint64_t seed = 0;
 };
 
-/// The map of a robot that takes one scan of sixteen lasers at each stop. Ranges err by 2 cm, and poses by 2 cm and
+/// The map of a robot that takes two scans of sixteen lasers at each stop. Ranges err by 2 cm, and poses by 2 cm and
 /// 0.1 degrees (standard deviations).
 [[nodiscard]] std::unique_ptr<mapping::SemanticOcTree> survey(const Ground& ground,
                                                               std::span<const Eigen::Vector2d> stops,

@@ -3,7 +3,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <limits>
+#include <vector>
 
 #include "fusion/matching/evidence/judge.hpp"
 #include "fusion/matching/features/sample.hpp"
@@ -46,11 +48,26 @@ TEST_F(OfOffice, TheTruthIsAmongTheFirstPlacements) {
   ASSERT_GT(placements.size(), 20U);
   EXPECT_LE(placements.size(), config.placements);
   const auto voters = sample(std::span<const Surfel>(b->surfels), config.height_votes);
-  const auto poses = stand_up(std::span(placements).first(20), of_a, of_b, voters, config.height_range_m);
+  const auto poses = stand_up(std::span(placements).first(20), of_a, of_b, voters);
   double least = 1e9;
   for (const SE3& T : poses)
     if (rotation_angle(T.inverse() * pair->T_a_b) < 0.08) least = std::min(least, off(T, of_b));
   EXPECT_LT(least, 0.8);
+}
+
+TEST_F(OfOffice, APlacementIsFoundAtAnyHeight) {
+  const PlanView of_a(a->surfels, *pair->a), of_b(b->surfels, *pair->b);
+  const Eigen::Vector3d middle = pair->T_a_b * Eigen::Vector3d(of_b.middle().x(), of_b.middle().y(), 0);
+  const double yaw = std::atan2(pair->T_a_b.rotation()(1, 0), pair->T_a_b.rotation()(0, 0));
+  const Placement truth{.yaw_rad = yaw, .x_m = middle.x(), .y_m = middle.y()};
+  for (const float up_m : {-150.0F, -17.0F, 0.0F, 40.0F}) {
+    std::vector<Surfel> raised(b->surfels);
+    for (Surfel& s : raised) s.point.z() += up_m;
+    const auto voters = sample(std::span<const Surfel>(raised), 600);
+    const auto poses = stand_up({&truth, 1}, of_a, of_b, voters);
+    ASSERT_FALSE(poses.empty());
+    EXPECT_NEAR(poses.front().translation().z(), pair->T_a_b.translation().z() - static_cast<double>(up_m), 0.15);
+  }
 }
 
 TEST_F(OfOffice, EveryHeadingIsAStep) {
