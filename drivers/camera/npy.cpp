@@ -68,9 +68,13 @@ Result<NpyHeader> parse_dictionary(std::string_view text) {
   return header;
 }
 
-}  // namespace
+/// The header's text, and where it ends in the file.
+struct Dictionary {
+  std::string_view text;
+  std::size_t end = 0;
+};
 
-Result<NpyHeader> parse_npy_header(std::span<const std::byte> start) {
+Result<Dictionary> read_dictionary(std::span<const std::byte> start) {
   ByteReader in(start);
   const auto magic = in.read_bytes(kMagic.size());
   if (!magic || std::string_view(reinterpret_cast<const char*>(magic->data()), magic->size()) != kMagic)
@@ -87,8 +91,33 @@ Result<NpyHeader> parse_npy_header(std::span<const std::byte> start) {
   }
   const auto text = length ? in.read_bytes(*length) : std::nullopt;
   if (!text) return Error{Errc::kTruncated, ".npy header is cut off or longer than any", {}, in.offset(), {}};
-  auto header = parse_dictionary({reinterpret_cast<const char*>(text->data()), text->size()});
-  if (header) header->data_offset = in.offset();
+  return Dictionary{{reinterpret_cast<const char*>(text->data()), text->size()}, in.offset()};
+}
+
+}  // namespace
+
+Result<NpyArray> parse_npy_array(std::span<const std::byte> start) {
+  const auto dictionary = read_dictionary(start);
+  if (!dictionary) return dictionary.error();
+  const auto [text, offset] = *dictionary;
+  const auto until = [](std::string_view value, char first, char last) {
+    const std::size_t end = value.find(last, 1);
+    const bool whole = value.starts_with(first) && end != std::string_view::npos;
+    return std::string(whole ? value.substr(0, end + 1) : value.substr(0, value.find_first_of(",}")));
+  };
+  NpyArray array{
+      .data_offset = offset, .type = until(value_of(text, "'descr'"), '\'', '\''), .shape = {}, .c_order = true};
+  array.shape = until(value_of(text, "'shape'"), '(', ')');
+  array.c_order = !value_of(text, "'fortran_order'").starts_with("True");
+  if (array.type.empty() || array.shape.empty()) return Error{Errc::kMalformed, "the .npy header has no type or shape"};
+  return array;
+}
+
+Result<NpyHeader> parse_npy_header(std::span<const std::byte> start) {
+  const auto dictionary = read_dictionary(start);
+  if (!dictionary) return dictionary.error();
+  auto header = parse_dictionary(dictionary->text);
+  if (header) header->data_offset = dictionary->end;
   return header;
 }
 

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "drivers/camera/frame.hpp"
 #include "hal/ports.hpp"
@@ -26,6 +27,17 @@ struct NpyHeader {
 };
 
 inline constexpr std::size_t kMaxNpyHeaderBytes = 4096;
+
+/// Any NumPy file: what its header says, unread.
+struct NpyArray {
+  std::size_t data_offset = 0;  ///< bytes from the file's start
+  std::string type;             ///< of a value, such as "<f4"
+  std::string shape;            ///< such as "(3, 4)"
+  bool c_order = true;
+};
+
+/// `start` as below. Errors: kMalformed, kTruncated, kUnsupported (another version).
+[[nodiscard]] Result<NpyArray> parse_npy_array(std::span<const std::byte> start);
 
 /// `start` holds the first bytes of the file; kMaxNpyHeaderBytes are always enough. Errors: kMalformed, kTruncated,
 /// kUnsupported (other types, other orders), kLimit (pictures larger than any camera's).

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The peer process: all that a robot hears of others comes in here, over Cyclone DDS, and goes to the core over a
 // local socket, and the other way round. It knows no device, keeps no state, and may die at any time.
+#include <arpa/inet.h>
 #include <fmt/format.h>
 #include <poll.h>
 
@@ -46,6 +47,15 @@ void receive_all(DdsTeam& team, LocalLink& link, std::vector<DdsTeam::Received>&
       link.send({LinkFrame::Kind::kReceived, datagram.sender, datagram.bytes});
 }
 
+/// For CLI11: what is wrong with the address of a teammate; empty: nothing. Names are not looked up: a robot should not
+/// depend on a name server.
+std::string address_fault(const std::string& text) {
+  in_addr v4{};
+  in6_addr v6{};
+  if (::inet_pton(AF_INET, text.c_str(), &v4) == 1 || ::inet_pton(AF_INET6, text.c_str(), &v6) == 1) return {};
+  return fmt::format("\"{}\" is no address; write one such as 10.0.0.2", text);
+}
+
 int run(const Options& options) {
   limit_udp({options.bytes_per_second});
   auto team = DdsTeam::open(options.dds);
@@ -83,7 +93,9 @@ int main(int argc, char** argv) {
       ->required()
       ->check(CLI::Range(std::uint64_t{1}, ~std::uint64_t{0}));
   app.add_option("--socket", options.socket, "local socket of the core")->required();
-  app.add_option("--peer", options.dds.peers, "address of a teammate; again for each")->required();
+  app.add_option("--peer", options.dds.peers, "address of a teammate, such as 10.0.0.2; again for each")
+      ->required()
+      ->check(address_fault);
   app.add_option("--robots-per-address", options.dds.processes_per_host,
                  "robots of the team that share an address, this one's included: several on one machine")
       ->check(CLI::Range(1U, 8U))

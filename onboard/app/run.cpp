@@ -7,6 +7,7 @@
 #include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/app/restart/restart.hpp"
 #include "onboard/app/restart/start_log.hpp"
+#include "onboard/app/restart/state_lock.hpp"
 #include "onboard/app/run_output.hpp"
 #include "onboard/app/runs/live_run.hpp"
 #include "onboard/app/runs/replay_run.hpp"
@@ -42,6 +43,17 @@ Result<void> check_schedule(const RobotProfile& profile) {
   return scheduler::validate(tasks, static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
 }
 
+/// Keeps other cores out of the state folder. A folder that cannot be locked is an event, and does not keep the robot
+/// from starting; another core in it does (kLimit).
+Result<std::optional<StateLock>> lock_state(const RunOptions& options, Time now, Monitor& monitor) {
+  if (!options.live() || options.state.empty()) return std::optional<StateLock>();
+  auto lock = StateLock::take(options.state);
+  if (lock) return std::optional(std::move(*lock));
+  if (lock.error().code == Errc::kLimit) return lock.error();
+  monitor.event(now, "saved map", to_string(lock.error()));
+  return std::optional<StateLock>();
+}
+
 /// The state folder of a live run. A fault in it must not keep the robot from starting.
 struct StateFolder {
   StateFolder(const std::filesystem::path& folder, Monitor& monitor)
@@ -60,6 +72,7 @@ PreviousRun find_previous_run(StateFolder& state, const RobotProfile& profile, T
 }  // namespace
 
 Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
+  if (const auto fits = check(options); !fits) return fits.error();
   auto chosen = choose_profile(options.config, options.recording);  // every fault at once, or valid
   if (!chosen) return chosen.error();
   RobotProfile* const profile = &chosen->profile;
@@ -73,6 +86,8 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
   for (const std::string& note : chosen->notes) result->monitor.event({}, "profile", note);
   declare_stages(profile->schedule, result->monitor);
   const LiveClock clock;
+  const auto lock = lock_state(options, clock.now(), result->monitor);  // held to the end of the run
+  if (!lock) return lock.error();
   auto door = open_door(options, *profile, clock, result->monitor);  // live devices, or a recording
   if (!door) return door.error();
 

@@ -73,6 +73,12 @@ int run_robot(Arguments a) {
                  "--speed max",
                  {},
                  "leave out --peers: what peers said then is in the recording"});
+  if (a.run.recording.empty() && a.speed == "max")
+    return fail({Errc::kInvalidConfig,
+                 "a live run has the speed of time",
+                 "--speed max",
+                 {},
+                 "name a --recording, or leave it out"});
   a.run.pace = a.run.live() ? Pace::kLive : a.speed == "max" ? Pace::kMaximum : Pace::kRecorded;
   if (::isatty(STDERR_FILENO) != 0) a.run.progress = show_progress;
   catch_stop_signals();
@@ -124,8 +130,7 @@ void add_run_options(CLI::App& app, Commands& commands) {
   app.add_option("--threads", a->run.threads,
                  "threads of a stage, instead of the profile's; the result does not depend on them")
       ->check(CLI::Range(1, 64));
-  app.add_option("--seconds", a->run.seconds, "end after so many seconds of the robot's time")
-      ->check(CLI::PositiveNumber);
+  app.add_option("--seconds", a->run.seconds, "end after so many seconds of the robot's time")->check(above_zero);
   app.add_flag("--json", a->json, "print report.json on stdout");
   app.add_flag("--print-tasks", a->print_tasks,
                "print the tasks of the run (rate, priority, budget) and the channels between them, and end");

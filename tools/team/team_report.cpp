@@ -92,6 +92,7 @@ Json to_json(const TeamReport& report) {
           {"iou_world", or_null(report.figures.iou_world)},
           {"seconds", to_seconds(report.end.took)},
           {"disagreements", report.figures.disagreements},
+          {"disagreement_hints", report.figures.disagreement_hints},
           {"network", report.network.kind()},
           {"link", link_json(report.network.radio())}};
 }
@@ -108,7 +109,9 @@ std::string to_table(const TeamReport& report) {
                         number_or_dash(figures.iou_world, 3), figures.team_sha256.substr(0, 8), merged_text(figures));
   }
   text += warnings(report);
-  for (const std::string& pair : report.figures.disagreements) text += "DIFFERENT team maps: " + pair + "\n";
+  for (Index i = 0; i < report.figures.disagreements.size(); ++i)
+    text += fmt::format("DIFFERENT team maps: {}\n  {}\n", report.figures.disagreements[i],
+                        report.figures.disagreement_hints[i]);
   text += report.figures.wrong_merges ? fmt::format("{} wrong merges\n", *report.figures.wrong_merges)
                                       : "no truth in the recordings: errors, IoU and wrong merges are not known\n";
   return text;

@@ -2,8 +2,11 @@
 #include "onboard/app/cli/command.hpp"
 
 #include <CLI/CLI.hpp>
+#include <charconv>
+#include <cmath>
 #include <iostream>
 
+#include "onboard/app/cli/refusal.hpp"
 #include "onboard/report/json/report_json.hpp"
 
 namespace cairn::app {
@@ -12,9 +15,18 @@ int run_program(Commands& commands, int argc, char** argv) {
   try {
     commands.app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return commands.app.exit(error) == 0 ? kDone : kWrongArguments;
+    if (error.get_exit_code() == 0) return commands.app.exit(error);  // --help and --version
+    std::cerr << "cairn: " << refusal_of(commands.app, error) << '\n';
+    return kWrongArguments;
   }
   return commands.job();
+}
+
+std::string above_zero(const std::string& text) {
+  double value = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  const bool number = error == std::errc{} && end == text.data() + text.size();
+  return number && value > 0 && std::isfinite(value) ? "" : "must be a number above 0, and is \"" + text + "\"";
 }
 
 int fail(const Error& error) {

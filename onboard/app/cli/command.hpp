@@ -3,6 +3,7 @@
 
 #include <functional>
 #include <nlohmann/json_fwd.hpp>
+#include <string>
 
 #include "hal/result.hpp"
 
@@ -29,6 +30,9 @@ struct Commands {
 
 /// Parses the command line and runs the job that it asks for. Returns the program's exit code.
 int run_program(Commands& commands, int argc, char** argv);
+
+/// For CLI11's check(): what is wrong with a number that has to be above 0; empty: nothing.
+[[nodiscard]] std::string above_zero(const std::string& text);
 
 /// Says on stderr what failed and where. A faulty configuration counts as wrong arguments.
 int fail(const Error& error);

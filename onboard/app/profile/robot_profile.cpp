@@ -2,6 +2,11 @@
 #include "onboard/app/profile/robot_profile.hpp"
 
 #include <Eigen/Core>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <utility>
 
 namespace cairn::app {
 
@@ -34,13 +39,40 @@ void declare(config::Section& s, RobotProfile& p) {
   s.group("team", p.team, "the robot's place in a team; cairn run --peers takes part in it");
 }
 
+namespace {
+
+/// A wrong argument, as everything else that is wrong with a profile.
+Error no_such_profile(const std::filesystem::path& path) {
+  return {Errc::kInvalidConfig, "there is no such profile", path.string(), {}, "without one, the defaults hold"};
+}
+
+/// Angles beyond a full turn were meant in degrees.
+Result<void> check_mounts(const RobotProfile& p) {
+  const std::pair<const char*, const std::vector<double>*> mounts[] = {
+      {"lidar.T_base_lidar", &p.lidar.base_xyz_rpy},
+      {"camera.T_base_camera", &p.camera.base_xyz_rpy},
+      {"thermal.T_base_thermal", &p.thermal.base_xyz_rpy},
+      {"depth.T_base_depth", &p.depth.base_xyz_rpy}};
+  std::string faults;
+  for (const auto& [key, mount] : mounts)
+    if (std::any_of(mount->begin() + 3, mount->end(), [](double rad) { return std::abs(rad) > 2 * std::numbers::pi; }))
+      faults +=
+          std::string("\n") + key + ": roll, pitch and yaw are in radians, up to a full turn; 90 degrees are 1.5708";
+  if (faults.empty()) return {};
+  return Error{Errc::kInvalidConfig, "faults in the profile", {}, {}, faults};
+}
+
+}  // namespace
+
 Result<RobotProfile> load_profile(const std::filesystem::path& path, RobotProfile profile) {
   if (path.empty()) return profile;
   config::Section section;
   declare(section, profile);
-  if (const auto loaded = config::load(path, section); !loaded) return loaded.error();
+  if (const auto loaded = config::load(path, section); !loaded)
+    return loaded.error().code == Errc::kNotFound ? no_such_profile(path) : loaded.error();
   if (auto sound = check(profile.failsafe); !sound) return at(path.string(), sound.error());
   if (auto sound = check(profile.team); !sound) return at(path.string(), sound.error());
+  if (auto sound = check_mounts(profile); !sound) return at(path.string(), sound.error());
   return profile;
 }
 

@@ -6,6 +6,7 @@
 #include <functional>
 #include <optional>
 
+#include "hal/result.hpp"
 #include "hal/time.hpp"
 
 namespace cairn::app {
@@ -39,5 +40,8 @@ struct RunOptions {
   /// can.
   [[nodiscard]] bool live() const { return recording.empty() || peers; }
 };
+
+/// Nothing, or all options that this kind of run would ignore, each with the remedy (kInvalidConfig).
+[[nodiscard]] Result<void> check(const RunOptions& options);
 
 }  // namespace cairn::app

@@ -92,6 +92,8 @@ Result<std::vector<BudgetLimit>> parse_budgets(std::string_view yaml, std::strin
 
 Result<std::vector<BudgetLimit>> load_budgets(const std::filesystem::path& file) {
   const auto bytes = read_file(file, kMaxBytes);
+  if (!bytes && bytes.error().code == Errc::kNotFound)
+    return Error{Errc::kInvalidConfig, "there is no such budget file", file.string()};
   if (!bytes) return bytes.error();
   return parse_budgets({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file.string());
 }

@@ -44,6 +44,19 @@ TEST(Npy, ReadsEveryVersionAndShape) {
   EXPECT_EQ(one->frame_bytes(), 35U);
 }
 
+TEST(Npy, TypeAndShapeOfAnyArray) {
+  const auto describe = [](const std::string& text) { return parse_npy_array(bytes_of(text)); };
+  const auto array = describe(npy(dictionary("<f4", "(7, 3, 2, 1)")));
+  ASSERT_TRUE(array);
+  EXPECT_EQ(array->type, "'<f4'");
+  EXPECT_EQ(array->shape, "(7, 3, 2, 1)");
+  EXPECT_TRUE(array->c_order);
+  EXPECT_FALSE(describe(npy("{'descr': '<u2', 'fortran_order': True, 'shape': (5, 7), }"))->c_order);
+  EXPECT_EQ(describe(npy("{'descr': [('x', '<f4')], 'shape': (5,), }"))->shape, "(5,)");
+  EXPECT_EQ(describe(npy("{'fortran_order': False}")).error().code, Errc::kMalformed);
+  EXPECT_EQ(describe("PK\x03\x04").error().code, Errc::kMalformed);
+}
+
 TEST(Npy, RefusesOtherArrays) {
   const auto code = [](const std::string& text) { return parse(text).error().code; };
   EXPECT_EQ(code(npy(dictionary(">u2", "(5, 7)"))), Errc::kUnsupported);

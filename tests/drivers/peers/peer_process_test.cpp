@@ -51,5 +51,19 @@ TEST_F(PeerProcess, EndsWhenItIsToldToThoughItsCapIsTiny) {
   EXPECT_EQ(one.stop(SIGTERM), 0);
 }
 
+TEST(PeerProcessOptions, ATeammateThatIsNoAddressIsRefused) {
+  for (const char* address : {"notanip", "10.0.0", "10.0.0.2:7400", ""}) {
+    std::vector<std::string> words{places::program("cairn-peers"), "--robot", "1", "--socket", "s", "--peer", address};
+    std::vector<char*> arguments;
+    for (std::string& word : words) arguments.push_back(word.data());
+    arguments.push_back(nullptr);
+    pid_t process = 0;
+    ASSERT_EQ(::posix_spawn(&process, arguments[0], nullptr, nullptr, arguments.data(), environ), 0);
+    int status = 0;
+    ::waitpid(process, &status, 0);
+    EXPECT_EQ(WEXITSTATUS(status), 2) << address;
+  }
+}
+
 }  // namespace
 }  // namespace cairn::peer_link

@@ -6,7 +6,10 @@
 
 extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t size) {
   using namespace cairn::camera;
-  const auto header = parse_npy_header({reinterpret_cast<const std::byte*>(data), size});
+  const std::span start(reinterpret_cast<const std::byte*>(data), size);
+  const auto array = parse_npy_array(start);
+  if (array && (array->data_offset > size || array->type.empty() || array->shape.empty())) std::abort();
+  const auto header = parse_npy_header(start);
   if (!header) return 0;
   const bool sound = header->data_offset <= size && header->width > 0 && header->height > 0 &&
                      header->width <= kMaxSide && header->height <= kMaxSide &&

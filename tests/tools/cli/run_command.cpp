@@ -6,6 +6,8 @@
 #include <iostream>
 #include <sstream>
 
+#include "onboard/app/cli/refusal.hpp"
+
 namespace cairn::cli {
 
 Outcome run(void (*add)(app::Commands&), std::vector<std::string> arguments) {
@@ -21,7 +23,7 @@ Outcome run(void (*add)(app::Commands&), std::vector<std::string> arguments) {
     app.parse(arguments);
     code = commands.job();
   } catch (const CLI::ParseError& e) {
-    err << e.what();
+    err << app::refusal_of(app, e);
   }
   std::cout.rdbuf(old_out);
   std::cerr.rdbuf(old_err);

@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "onboard/app/cli/working_line.hpp"
 #include "onboard/report/json/report_json.hpp"
 #include "tools/cli/doctor/machine.hpp"
 #include "tools/cli/doctor/peer.hpp"
@@ -71,7 +72,10 @@ report::Json to_json(const Findings& findings) {
 }
 
 int diagnose(const DoctorArguments& options) {
-  const Findings findings = examine(options);
+  std::error_code ignored;
+  if (!options.config.empty() && !fs::exists(options.config, ignored))
+    return app::fail({Errc::kInvalidConfig, "there is no such profile", options.config.string()});
+  const auto findings = app::while_working("examining", [&] { return examine(options); });
   const auto problems =
       std::count_if(findings.begin(), findings.end(), [](const Finding& f) { return f.level == Level::kProblem; });
   if (options.json)

@@ -8,7 +8,6 @@
 
 #include "drivers/camera/npy.hpp"
 #include "drivers/recording/formats/pcd_file.hpp"
-#include "drivers/recording/formats/trajectory_file.hpp"
 #include "drivers/recording/formats/utc.hpp"
 #include "drivers/recording/recording_reader.hpp"
 #include "drivers/thermal/models.hpp"
@@ -18,8 +17,11 @@
 #include "hal/files/file.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/figures/map_measures.hpp"
+#include "tools/cli/inspect/data_file.hpp"
+#include "tools/cli/inspect/folder.hpp"
 #include "tools/cli/inspect/inspect_stream.hpp"
 #include "tools/cli/inspect/native_file.hpp"
+#include "tools/cli/inspect/trajectory.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -64,28 +66,6 @@ Result<report::Json> inspect_stream(const InspectOptions& options, const Recordi
   auto written = write_scan(options, (*inspection)->kept(), (*inspection)->scans());
   if (!written) return written.error();
   json["out"] = std::move(*written);
-  return json;
-}
-
-/// Poses before a fault count, the fault is told.
-report::Json describe_trajectory(const fs::path& path) {
-  report::Json json;
-  std::vector<recording::StampedPose> poses;
-  const auto bytes = read_file(path, recording::kMaxTrajectoryBytes);
-  if (!bytes) return {{"damage", to_string(bytes.error())}};
-  const std::string_view text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-  const auto parsed = recording::parse_tum(text, path.string(), poses);
-  double length = 0;
-  for (std::size_t i = 1; i < poses.size(); ++i)
-    length += (poses[i].pose.translation() - poses[i - 1].pose.translation()).norm();
-  json["poses"] = poses.size();
-  json["length_m"] = length;
-  if (!poses.empty()) {
-    json["first_s"] = to_seconds(poses.front().stamp);
-    json["last_s"] = to_seconds(poses.back().stamp);
-    json["duration_s"] = to_seconds(poses.back().stamp - poses.front().stamp);
-  }
-  json["damage"] = parsed ? report::Json(nullptr) : report::Json(to_string(parsed.error()));
   return json;
 }
 
@@ -217,6 +197,7 @@ Result<report::Json> inspect_array(const InspectOptions& options) {
   const bool depth = says_depth(options.path);
   if (depth) as.deep = camera::FrameFormat::kZ16;
   auto source = camera::NpySource::open(options.path, as);
+  if (!source && source.error().code == Errc::kUnsupported) return inspect_numbers(options.path);
   if (!source) return source.error();
   const camera::NpyHeader& header = (*source)->header();
   const bool grey = header.pixel_bytes == 1;
@@ -229,55 +210,58 @@ Result<report::Json> inspect_array(const InspectOptions& options) {
                         {{"kind", to_string(kind)}, {"path", options.path.string()}, {"assumed_rate_hz", as.rate_hz}});
 }
 
-/// "points_per_scan": 3 → "points per scan: 3", nested values indented below.
-void write_plain(std::string& out, const report::Json& value, const std::string& indent) {
-  const auto scalar = [](const report::Json& v) {
-    return v.is_string() ? v.get<std::string>() : v.is_null() ? "none" : v.dump();
-  };
-  for (const auto& [key, v] : value.items()) {
-    std::string label = value.is_array() ? "-" : key + ":";
-    for (char& c : label) c = c == '_' ? ' ' : c;
-    if (v.is_structured() && v.empty()) {
-      out += indent + label + " none\n";
-    } else if (v.is_structured()) {
-      out += indent + label + "\n";
-      write_plain(out, v, indent + "  ");
-    } else {
-      out += indent + label + " " + scalar(v) + "\n";
-    }
-  }
+Result<report::Json> inspect_bin(const InspectOptions& options) {
+  auto sweep = inspect_sweep(options.path);
+  if (!sweep) return sweep.error();
+  if (options.out.empty()) return std::move(sweep->json);
+  Scan scan;
+  scan.cloud = std::move(sweep->cloud);
+  auto written = write_scan(options, scan, 1);
+  if (!written) return written.error();
+  sweep->json["out"] = std::move(*written);
+  return std::move(sweep->json);
+}
+
+Result<report::Json> inspect_folder(const InspectOptions& options) {
+  std::error_code error;
+  if (fs::exists(options.path / recording::kIndexFile, error)) return inspect_recording(options);
+  return is_run(options.path) ? inspect_run(options.path) : inspect_parent(options.path);
+}
+
+Error not_known(const fs::path& path) {
+  return {Errc::kUnsupported,
+          "what this file holds is not known",
+          path.string(),
+          {},
+          "known: folders of recordings and runs, pcap, pcapng, candump, gpio.csv, lists of pictures, pictures, sweeps "
+          "(.bin), .npy, .pcd, .cairn, .ot, .bt, .tum"};
+}
+
+/// A file of any text may be called .txt: it is a trajectory if it has a pose.
+Result<report::Json> inspect_trajectory(const fs::path& path) {
+  report::Json json{{"kind", "trajectory"}, {"path", path.string()}};
+  json.update(describe_trajectory(path));
+  if (path.extension() != ".tum" && json["poses"] == 0) return not_known(path);
+  return json;
 }
 
 }  // namespace
 
 Result<report::Json> inspect(const InspectOptions& options) {
   std::error_code error;
-  if (fs::is_directory(options.path, error)) return inspect_recording(options);
+  if (fs::is_directory(options.path, error)) return inspect_folder(options);
   if (!fs::exists(options.path, error))
     return Error{Errc::kNotFound, "there is no such file or folder", options.path.string(), {}, {}};
   if (is_capture(options.path)) return inspect_capture(options);
+  if (is_picture(options.path)) return inspect_picture(options.path);
   if (auto file = recognise_native_file(options.path)) return inspect_native_file(options, std::move(*file));
   const std::string extension = options.path.extension().string();
   if (extension == ".pcd") return inspect_cloud(options);
   if (extension == ".npy") return inspect_array(options);
+  if (extension == ".bin") return inspect_bin(options);
   if (extension == ".cairn" || extension == ".ot" || extension == ".bt") return inspect_map(options);
-  if (extension != ".tum" && extension != ".txt")
-    return Error{
-        Errc::kUnsupported,
-        "what this file holds is not known",
-        options.path.string(),
-        {},
-        "known: folders of recordings, pcap, pcapng, candump, gpio.csv, lists of pictures, .npy, .pcd, .cairn, "
-        ".ot, .bt, .tum"};
-  report::Json json{{"kind", "trajectory"}, {"path", options.path.string()}};
-  json.update(describe_trajectory(options.path));
-  return json;
-}
-
-std::string to_plain_text(const report::Json& json) {
-  std::string out;
-  write_plain(out, json, "");
-  return out;
+  if (extension == ".tum" || extension == ".txt") return inspect_trajectory(options.path);
+  return not_known(options.path);
 }
 
 }  // namespace cairn::cli

@@ -18,12 +18,10 @@ struct InspectOptions {
   std::optional<std::uint64_t> scan;  ///< which one, counted from 0; none: the first complete one
 };
 
-/// What is in the folder of a recording, one of its files (candump, gpio.csv, a list of pictures), a capture (pcap,
-/// pcapng), an array of pictures (.npy), a map (.cairn, .ot, .bt), a trajectory (.tum, .txt) or a point cloud (.pcd).
-/// Damage that leaves something to tell is told in `damage`, not as an Error.
+/// What is in the folder of a recording, of a run or of several, one of a recording's files (candump, gpio.csv, a list
+/// of pictures), a capture (pcap, pcapng), a picture (PNG, JPEG, TIFF), an array (.npy), a sweep (.bin), a map (.cairn,
+/// .ot, .bt), a trajectory (.tum, .txt) or a point cloud (.pcd). Damage that leaves something to tell is told in
+/// `damage`, not as an Error.
 [[nodiscard]] Result<report::Json> inspect(const InspectOptions& options);
-
-/// The same as indented text for people.
-[[nodiscard]] std::string to_plain_text(const report::Json& json);
 
 }  // namespace cairn::cli

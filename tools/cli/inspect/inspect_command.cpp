@@ -6,7 +6,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
+#include "onboard/app/cli/working_line.hpp"
 #include "tools/cli/inspect/inspect.hpp"
+#include "tools/cli/inspect/plain_text.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -17,7 +19,7 @@ struct InspectArguments {
 };
 
 int run(const InspectArguments& options) {
-  const auto found = inspect(options.inspect);
+  const auto found = app::while_working("reading", [&] { return inspect(options.inspect); });
   if (!found) return app::fail(found.error());
   if (options.json) return app::print(*found);
   std::cout << to_plain_text(*found);
@@ -28,7 +30,7 @@ int run(const InspectArguments& options) {
 
 void add_inspect_command(app::Commands& commands) {
   auto* sub = commands.app.add_subcommand(
-      "inspect", "says what a recording, capture, map, trajectory, point cloud or array holds");
+      "inspect", "says what a recording, run, capture, map, trajectory, point cloud, picture or array holds");
   auto o = std::make_shared<InspectArguments>();
   sub->add_option("path", o->inspect.path, "file or folder")->required();
   sub->add_option("--model", o->inspect.model, "sensor model, instead of the one in the packets or the recording");

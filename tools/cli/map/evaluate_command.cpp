@@ -12,10 +12,12 @@
 #include <vector>
 
 #include "drivers/recording/formats/trajectory_file.hpp"
+#include "onboard/app/cli/working_line.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/figures/map_error.hpp"
 #include "onboard/report/figures/trajectory_error.hpp"
 #include "onboard/report/json/report_json.hpp"
+#include "tools/cli/map/pose_option.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -78,7 +80,7 @@ int evaluate_trajectory(const Options& options) {
 
 /// Where the map's frame lies in the true map's: as given, or by the first common pose of two trajectories.
 Result<SE3> T_truth_map(const Options& options) {
-  if (!options.pose.empty()) return SE3::from_xyz_rpy(Eigen::Map<const Vector6>(options.pose.data()));
+  if (!options.pose.empty()) return pose_from_option("--pose", options.pose);
   if (options.trajectory.empty()) return SE3();
   const auto estimate = read_poses(options.trajectory, "trajectory.tum");
   if (!estimate) return estimate.error();
@@ -90,6 +92,16 @@ Result<SE3> T_truth_map(const Options& options) {
   return report::align(matched, report::Alignment::kFirst);
 }
 
+/// What to try where hardly a voxel is right; empty: nothing.
+std::string hint(const Options& options, const report::MapError& error) {
+  constexpr double kHardly = 0.5;
+  if (error.precision().value_or(1) >= kHardly) return {};
+  if (!options.pose.empty() || !options.trajectory.empty())
+    return "few voxels are right: check that the given pose is that of the map in the true map's frame";
+  return "the frames of both maps seem not to be aligned: give --trajectory RUN --ground-truth-trajectory RECORDING, "
+         "or --pose";
+}
+
 int evaluate_map(const Options& options) {
   const fs::path file = file_in(options.estimate, "map.cairn"), true_file = file_in(options.truth, "world.ot");
   const auto map = mapping::load_map(file), truth = mapping::load_map(true_file);
@@ -99,15 +111,23 @@ int evaluate_map(const Options& options) {
   if (const auto few = mapping::listable_voxels(**truth); !few) return app::fail(at(true_file.string(), few.error()));
   const auto T = T_truth_map(options);
   if (!T) return app::fail(T.error());
-  const auto error = report::map_error(**map, **truth, {*T, options.tolerance_m});
+  const auto error = app::while_working("comparing with the true map", [&] {
+    return report::map_error(**map, **truth, {*T, options.tolerance_m});
+  });
   if (!error) return app::fail(at(file.string(), error.error()));
-  if (options.json) return app::print(report::to_json(*error));
+  const std::string tip = hint(options, *error);
+  if (options.json) {
+    report::Json json = report::to_json(*error);
+    json["hint"] = tip.empty() ? report::Json(nullptr) : report::Json(tip);
+    return app::print(json);
+  }
   std::cout << fmt::format("accuracy   {:.4f} m mean, {:.4f} m RMS from {} occupied voxels to the true ones\n",
                            error->mean_m, error->rmse_m, error->occupied);
   if (const auto p = error->precision()) std::cout << fmt::format("precision  {:.4f}\n", *p);
   if (const auto r = error->recall()) std::cout << fmt::format("recall     {:.4f} of what was seen\n", *r);
   std::cout << fmt::format("true map   {} occupied voxels: {} found, {} called free, {} never seen\n",
                            error->true_occupied, error->found, error->contradicted, error->unseen);
+  if (!tip.empty()) std::cout << "hint       " << tip << '\n';
   return app::kDone;
 }
 
@@ -147,7 +167,7 @@ void add_map(app::Commands& commands, CLI::App& evaluate, const std::shared_ptr<
   to->needs(from);
   sub->add_option("--tolerance", options->tolerance_m,
                   "distance up to which a voxel counts as correct, m; default: a voxel's diagonal")
-      ->check(CLI::PositiveNumber);
+      ->check(app::above_zero);
   add(commands, sub, options, evaluate_map);
 }
 

@@ -15,6 +15,7 @@
 
 #include "fusion/matching/belief/map_check.hpp"
 #include "fusion/matching/matcher.hpp"
+#include "onboard/app/cli/working_line.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/json/report_json.hpp"
 
@@ -93,7 +94,7 @@ int told_as_json(const Options& options, const std::vector<SubmapPair>& pairs, s
 int run(const Options& options) {
   const auto maps = load(options.files);
   if (!maps) return app::fail(maps.error());
-  const auto checked = check(options.files, *maps);
+  const auto checked = app::while_working("comparing submaps", [&] { return check(options.files, *maps); });
   if (!checked) return app::fail(checked.error());
   const std::vector<SubmapPair>& pairs = *checked;
   const auto contradictions = std::count_if(pairs.begin(), pairs.end(), [](const auto& p) { return !p.consistent; });

@@ -151,6 +151,8 @@ Result<std::vector<report::MapPath>> read_paths(const Options& options, report::
 int render(const Options& options) {
   const auto view = report::map_view_from(options.view);
   if (!view) return wrong("--view " + options.view + ": choose top, side or front");
+  if (options.out.extension() != ".png")
+    return wrong("--out " + options.out.string() + ": the picture is a PNG, so the name must end in .png");
   const auto map = mapping::load_map(options.file);
   if (!map) return app::fail(at(options.file.string(), map.error()));
   const auto picture = report::look_at(**map, {*view, options.height_min_m, options.height_max_m});
@@ -207,7 +209,7 @@ void add_map_command(app::Commands& commands) {
   two->add_option("other", options->other, "the second map")->required();
   add_map_check_command(commands, map);
   CLI::App* picture = add(commands, map, "render", "draws the map as PNG", options, render);
-  picture->add_option("--out", options->out, "file to write")->required();
+  picture->add_option("--out", options->out, "file to write: .png")->required();
   picture->add_option("--view", options->view, "top, side or front")->capture_default_str();
   picture->add_option("--height-min", options->height_min_m, "voxels below this height are left out, m");
   picture->add_option(
@@ -217,7 +219,7 @@ void add_map_command(app::Commands& commands) {
   picture->add_option("--ground-truth", options->ground_truth,
                       "path to draw dashed (TUM); with --trajectory it is moved into that frame");
   picture->add_option("--scale", options->pixels_per_m, "pixels per metre; default: from the size of the map")
-      ->check(CLI::PositiveNumber);
+      ->check(app::above_zero);
   CLI::App* other = add(commands, map, "export", "writes the map in another format", options, export_map);
   other->add_option("--out", options->out, "file to write: .cairn, .ot, .bt, .ply or .pcd")->required();
 }

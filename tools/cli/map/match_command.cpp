@@ -15,8 +15,10 @@
 
 #include "fusion/matching/book/methods.hpp"
 #include "hal/clock.hpp"
+#include "onboard/app/cli/working_line.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/json/report_json.hpp"
+#include "tools/cli/map/pose_option.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -36,16 +38,18 @@ struct Options {
   bool json = false;
 };
 
-std::optional<UncertainPose> guess(const Options& options) {
-  if (options.initial.empty()) return std::nullopt;
-  UncertainPose pose{SE3::from_xyz_rpy(Eigen::Map<const Vector6>(options.initial.data())),
-                     matching::default_prior_covariance()};
+Result<std::optional<UncertainPose>> guess(const Options& options) {
+  if (options.initial.empty()) return std::optional<UncertainPose>();
+  const auto initial = pose_from_option("--initial", options.initial);
+  if (!initial) return initial.error();
+  UncertainPose pose{*initial, matching::default_prior_covariance()};
   pose.covariance(0, 0) = pose.covariance(1, 1) = options.sigma_m * options.sigma_m;
   pose.covariance(5, 5) = options.sigma_deg * options.sigma_deg * kDegree * kDegree;
-  return pose;
+  return std::optional(pose);
 }
 
-Result<MatchResult> match(const Options& options, const mapping::SemanticOcTree& a, const mapping::SemanticOcTree& b) {
+Result<MatchResult> match(const Options& options, const std::optional<UncertainPose>& initial,
+                          const mapping::SemanticOcTree& a, const mapping::SemanticOcTree& b) {
   const auto features_a = MapFeatures::build(a);
   if (!features_a) return at(options.a.string(), features_a.error());
   const auto features_b = MapFeatures::build(b);
@@ -53,7 +57,7 @@ Result<MatchResult> match(const Options& options, const mapping::SemanticOcTree&
   const auto matcher = matching::make_any_matcher(options.method, *features_a, *features_b);
   if (!matcher) return matcher.error();
   Budget budget = Budget::steps(options.max_steps);
-  return (*matcher)->match(guess(options), budget);
+  return (*matcher)->match(initial, budget);
 }
 
 template <class Matrix>
@@ -90,30 +94,41 @@ std::string to_text(const MatchResult& r) {
   const Vector6 sigma = r.T_a_b.covariance.diagonal().cwiseSqrt();
   return fmt::format(
       "b in a     x {:.3f} y {:.3f} z {:.3f} m, roll {:.3f} pitch {:.3f} yaw {:.3f} deg\n"
+      "in rad     --pose={:.4f},{:.4f},{:.4f},{:.5f},{:.5f},{:.5f}\n"
       "±1σ        {:.3f} {:.3f} {:.3f} m, {:.3f} {:.3f} {:.3f} deg\n"
       "{}   probability {:.3f}: {}\n"
       "overlap    {:.2f}, inliers {:.2f} (the book asks for {:.2f})\n",
-      v[0], v[1], v[2], v[3] / kDegree, v[4] / kDegree, v[5] / kDegree, sigma[0], sigma[1], sigma[2],
-      sigma[3] / kDegree, sigma[4] / kDegree, sigma[5] / kDegree, r.accepted ? "accepted" : "refused ",
-      r.probability_correct, r.reason, r.overlap, r.inlier_ratio, r.threshold);
+      v[0], v[1], v[2], v[3] / kDegree, v[4] / kDegree, v[5] / kDegree, v[0], v[1], v[2], v[3], v[4], v[5], sigma[0],
+      sigma[1], sigma[2], sigma[3] / kDegree, sigma[4] / kDegree, sigma[5] / kDegree,
+      r.accepted ? "accepted" : "refused ", r.probability_correct, r.reason, r.overlap, r.inlier_ratio, r.threshold);
 }
 
 int run(const Options& options) {
+  const auto initial = guess(options);
+  if (!initial) return app::fail(initial.error());
   const auto a = mapping::load_map(options.a), b = mapping::load_map(options.b);
   if (!a) return app::fail(at(options.a.string(), a.error()));
   if (!b) return app::fail(at(options.b.string(), b.error()));
-  const Duration start = thread_cpu_time();
-  const auto result = match(options, **a, **b);
+  Duration took{};  // CPU time
+  const auto result = app::while_working("matching with " + options.method, [&] {
+    const Duration start = thread_cpu_time();
+    auto matched = match(options, *initial, **a, **b);
+    took = thread_cpu_time() - start;
+    return matched;
+  });
   if (!result) return app::fail(result.error());
-  if (options.json) return app::print(to_json(*result, to_seconds(thread_cpu_time() - start)));
-  std::cout << to_text(*result);
-  return app::kDone;
+  if (options.json)
+    app::print(to_json(*result, to_seconds(took)));
+  else
+    std::cout << to_text(*result);
+  return result->accepted ? app::kDone : app::kFailed;
 }
 
 }  // namespace
 
 void add_match_command(app::Commands& commands) {
-  CLI::App* sub = commands.app.add_subcommand("match", "finds the relative pose of two maps");
+  CLI::App* sub = commands.app.add_subcommand(
+      "match", "finds the relative pose of two maps; exits with 1 where it refuses the pose");
   const auto options = std::make_shared<Options>();
   sub->add_option("a", options->a, "first map (.cairn, .ot or .bt); the pose is in its frame")->required();
   sub->add_option("b", options->b, "second map, whose pose is sought")->required();

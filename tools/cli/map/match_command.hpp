@@ -5,8 +5,8 @@
 
 namespace cairn::cli {
 
-/// `cairn match A B [--initial x,y,z,roll,pitch,yaw]`: relative pose of two maps. A match that is not accepted is a
-/// result, not a failure: exit code 0 and `accepted` false.
+/// `cairn match A B [--initial x,y,z,roll,pitch,yaw]`: relative pose of two maps. A pose that is refused is
+/// printed with its reason, `accepted` is false, and the exit code is 1.
 void add_match_command(app::Commands& commands);
 
 }  // namespace cairn::cli

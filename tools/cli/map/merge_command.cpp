@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -14,15 +15,19 @@
 
 #include "fusion/merging/merge.hpp"
 #include "hal/clock.hpp"
+#include "onboard/app/cli/working_line.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/figures/map_measures.hpp"
 #include "onboard/report/json/report_json.hpp"
+#include "tools/cli/map/pose_option.hpp"
 #include "tools/cli/map/save_map.hpp"
 
 namespace cairn::cli {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kReach_voxels = 32768;  // OctoMap's keys have 16 bits
 
 struct Options {
   fs::path a, b, out;
@@ -55,19 +60,43 @@ int report(const Options& options, const mapping::SemanticOcTree& fused, double 
   return app::kDone;
 }
 
+/// A map that reaches out of the octree around the first one would lose voxels without a word.
+Result<void> check_reach(const mapping::SemanticOcTree& a, const mapping::SemanticOcTree& b, const SE3& T_a_b) {
+  const report::MapSummary of_b = report::summarise(b);
+  if (of_b.occupied + of_b.free == 0) return {};
+  const double reach_m = kReach_voxels * std::min(a.getResolution(), b.getResolution());
+  double farthest_m = 0;
+  for (int corner = 0; corner < 8; ++corner) {
+    const auto end = [&](int axis) { return (corner >> axis & 1) != 0 ? of_b.max_m[axis] : of_b.min_m[axis]; };
+    farthest_m = std::max(farthest_m, (T_a_b * Eigen::Vector3d(end(0), end(1), end(2))).cwiseAbs().maxCoeff());
+  }
+  if (farthest_m <= reach_m) return {};
+  return Error{Errc::kInvalidConfig,
+               "the second map would lie outside of what a map can hold",
+               "--pose",
+               {},
+               fmt::format("it reaches to {:.6g} m, and voxels of this size to {:.6g} m", farthest_m, reach_m)};
+}
+
 int run(const Options& options) {
   if (const auto named = check_map_name(options.out); !named) return app::fail(named.error());
+  const auto T_a_b = pose_from_option("--pose", options.pose);
+  if (!T_a_b) return app::fail(T_a_b.error());
   auto a = mapping::load_map(options.a), b = mapping::load_map(options.b);
   if (!a) return app::fail(at(options.a.string(), a.error()));
   if (!b) return app::fail(at(options.b.string(), b.error()));
-  const SE3 T_a_b = SE3::from_xyz_rpy(Eigen::Map<const Vector6>(options.pose.data()));
-  const auto all = contributions(std::move(*a), std::move(*b), T_a_b);
-  const Duration start = thread_cpu_time();
-  const auto fused = merging::merge(all, {.policy = *merging::policy_from(options.policy)});
-  const double seconds = to_seconds(thread_cpu_time() - start);
+  if (const auto fits = check_reach(**a, **b, *T_a_b); !fits) return app::fail(fits.error());
+  const auto all = contributions(std::move(*a), std::move(*b), *T_a_b);
+  Duration took{};  // CPU time
+  const auto fused = app::while_working("merging", [&] {
+    const Duration start = thread_cpu_time();
+    auto merged = merging::merge(all, {.policy = *merging::policy_from(options.policy)});
+    took = thread_cpu_time() - start;
+    return merged;
+  });
   if (!fused) return app::fail(fused.error());
   if (const auto saved = save_map(**fused, options.out); !saved) return app::fail(saved.error());
-  return report(options, **fused, seconds);
+  return report(options, **fused, to_seconds(took));
 }
 
 }  // namespace

@@ -180,7 +180,7 @@ void add_record_command(app::Commands& commands) {
   sub->add_option("--config", o->config, "robot profile, such as config/husky.yaml; default values if not given");
   sub->add_option("--out", o->out, "folder of the new recording")->required();
   sub->add_option("--seconds", o->seconds, "length of the recording, s; without it, until SIGINT or SIGTERM")
-      ->check(CLI::PositiveNumber);
+      ->check(app::above_zero);
   sub->add_flag("--overwrite", o->overwrite, "replace the recording in --out");
   sub->add_flag("--json", o->json, "one JSON object on stdout");
   sub->callback([&commands, o] { commands.job = [o] { return record(*o); }; });

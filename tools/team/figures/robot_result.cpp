@@ -64,6 +64,8 @@ Result<void> take_team(const Json& report, const std::vector<std::string>& names
   if (!pose || result.team_sha256.empty() || result.anchor.empty())
     return Error{Errc::kMalformed, "nothing about the team in the report", {}, {}, "id, T_team_odom, sha256, anchor"};
   result.T_team_odom = *pose;
+  if (const Json& tiles = member(team, "tiles"); tiles.is_number_unsigned())
+    result.own_tiles = tiles.get<std::uint64_t>();
   for (const Json& other : member(team, "merged_with")) result.merged_with.push_back(robot_of(other, names));
   return {};
 }
@@ -71,6 +73,7 @@ Result<void> take_team(const Json& report, const std::vector<std::string>& names
 void take_peers(const Json& report, RobotResult& result) {
   for (const auto& [name, peer] : member(report, "peers").items()) {
     result.reasons[name] = text_of(member(peer, "reason"));
+    result.tiles_of_peer[name] = count_of(member(peer, "tiles"));
     const auto pose = pose_of(member(peer, "T_map_peer"));
     if (pose && member(peer, "accepted") == Json(true)) result.T_map_peer[name] = *pose;
   }

@@ -27,8 +27,10 @@ struct RobotResult {
   std::map<std::string, SE3> T_map_peer;       ///< of peers whose pose is accepted
   std::map<std::string, std::string> reasons;  ///< by peer: why it is merged or not
   std::uint64_t ticks = 0, missed_ticks = 0;
-  std::vector<recording::StampedPose> trajectory;  ///< T_odom_base
-  std::optional<Standing> standing;                ///< at the end; nothing without truth
+  std::optional<std::uint64_t> own_tiles;              ///< that it said; none: the report does not say it
+  std::map<std::string, std::uint64_t> tiles_of_peer;  ///< by peer: how many of its tiles this one holds
+  std::vector<recording::StampedPose> trajectory;      ///< T_odom_base
+  std::optional<Standing> standing;                    ///< at the end; nothing without truth
   std::shared_ptr<const mapping::SemanticOcTree> team_map;
 };
 

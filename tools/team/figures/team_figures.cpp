@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/team/figures/team_figures.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "tools/team/figures/map_overlap.hpp"
@@ -63,6 +65,24 @@ std::optional<std::size_t> count_wrong_merges(const std::vector<RobotResult>& ro
   return wrong;
 }
 
+/// "robot_1 lacks 2 of robot_3's 341 tiles"; empty where it lacks none.
+std::string lack(const RobotResult& holder, const RobotResult& of) {
+  const auto held = holder.tiles_of_peer.find(of.name);
+  if (holder.name == of.name || !of.own_tiles || held == holder.tiles_of_peer.end() || held->second >= *of.own_tiles)
+    return {};
+  return fmt::format("{} lacks {} of {}'s {} tiles", holder.name, *of.own_tiles - held->second, of.name, *of.own_tiles);
+}
+
+std::string why_they_differ(const std::vector<RobotResult>& robots, const RobotResult& a, const RobotResult& b) {
+  std::string lacks;
+  for (const RobotResult& of : robots)
+    for (const RobotResult* holder : {&a, &b})
+      if (const std::string text = lack(*holder, of); !text.empty()) lacks += (lacks.empty() ? "" : ", ") + text;
+  if (!lacks.empty())
+    return lacks + ": they had not arrived at the end; try a longer --settle, or a --link that carries more";
+  return "no tile is missing: the robots had not yet fused the newest poses (try a longer --settle), or it is a fault";
+}
+
 }  // namespace
 
 std::size_t in_largest_team(const std::vector<RobotResult>& robots) {
@@ -76,7 +96,9 @@ TeamFigures compare_team(const std::vector<RobotResult>& robots, const mapping::
   figures.wrong_merges = count_wrong_merges(robots);
   if (!robots.empty()) figures.iou_world = figures.robots[in_largest_team(robots)].iou_world;
   for_each_merged_pair(robots, [&](const RobotResult& a, const RobotResult& b) {
-    if (a.team_sha256 != b.team_sha256) figures.disagreements.push_back(a.name + " and " + b.name);
+    if (a.team_sha256 == b.team_sha256) return;
+    figures.disagreements.push_back(a.name + " and " + b.name);
+    figures.disagreement_hints.push_back(why_they_differ(robots, a, b));
   });
   return figures;
 }

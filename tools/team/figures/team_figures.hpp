@@ -27,6 +27,8 @@ struct TeamFigures {
   std::optional<double> iou_world;  ///< of the largest team's map; of equally large ones, the first robot's
   /// Pairs of which at least one robot counts as merged with the other, but whose team maps differ.
   std::vector<std::string> disagreements;
+  /// For each of them why, as far as the robots' counts of tiles show it, and what to do.
+  std::vector<std::string> disagreement_hints;
 
   [[nodiscard]] bool sound() const { return disagreements.empty() && wrong_merges.value_or(0) == 0; }
 };

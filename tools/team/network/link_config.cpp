@@ -26,7 +26,10 @@ Result<LinkConfig> load_link(const std::string& name) {
   if (name == "clean") return LinkConfig{0, link.queue_ms, 0, 0, 0, 0, 0, link.seed};
   config::Section section;
   declare(section, link);
-  if (const auto loaded = config::load(name, section); !loaded) return loaded.error();
+  if (const auto loaded = config::load(name, section); !loaded) {
+    if (loaded.error().code != Errc::kNotFound) return loaded.error();
+    return Error{Errc::kInvalidConfig, "there is no such link", name, {}, "name a link.yaml, radio or clean"};
+  }
   return link;
 }
 

@@ -16,6 +16,13 @@ TEST(Command, AFileNameThatIsNotUtf8IsPrintedAsValidJson) {
   EXPECT_EQ(object["n"], 1);
 }
 
+TEST(Command, ANumberThatHasToBeAboveZeroIsAskedForInASentence) {
+  EXPECT_EQ(above_zero("0.5"), "");
+  EXPECT_EQ(above_zero("1e9"), "");
+  EXPECT_EQ(above_zero("-3"), "must be a number above 0, and is \"-3\"");
+  for (const char* wrong : {"0", "", "3s", "nan", "inf", "1e999"}) EXPECT_NE(above_zero(wrong), "") << wrong;
+}
+
 TEST(Command, OnlyAFaultyConfigurationCountsAsWrongArguments) {
   testing::internal::CaptureStderr();
   EXPECT_EQ(fail({Errc::kInvalidConfig, "no such key", "robot.yaml", {}, {}}), kWrongArguments);

@@ -24,6 +24,24 @@ TEST(RobotProfile, EveryProfileInConfigIsValid) {
   EXPECT_GT(profiles, 0);
 }
 
+TEST(RobotProfile, OneThatIsNotThereIsAWrongArgument) {
+  const auto profile = load_profile("/nowhere/robot.yaml");
+  ASSERT_FALSE(profile);
+  EXPECT_EQ(profile.error().code, Errc::kInvalidConfig);
+  EXPECT_EQ(profile.error().where, "/nowhere/robot.yaml");
+}
+
+TEST(RobotProfile, AMountInDegreesIsRefused) {
+  const support::TemporaryFolder folder;
+  std::ofstream(folder / "robot.yaml") << "lidar: {T_base_lidar: [0.1, 0, 0.5, 0, 0, 90]}\n"
+                                       << "camera: {T_base_camera: [90, 0, 0, 0, -90, 0]}\n";
+  const auto profile = load_profile(folder / "robot.yaml");
+  ASSERT_FALSE(profile);
+  EXPECT_EQ(profile.error().code, Errc::kInvalidConfig);
+  EXPECT_NE(profile.error().detail.find("lidar.T_base_lidar: roll, pitch and yaw are in radians"), std::string::npos);
+  EXPECT_NE(profile.error().detail.find("camera.T_base_camera"), std::string::npos);
+}
+
 TEST(RobotProfile, TheWrittenProfileReadsBackAsItself) {
   RobotProfile profile;
   profile.name = "x";

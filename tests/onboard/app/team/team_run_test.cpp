@@ -119,6 +119,8 @@ class Observed {
   Observed(const Observed&) = delete;
   Observed& operator=(const Observed&) = delete;
   [[nodiscard]] std::size_t located() const { return located_; }
+  /// That it has shown, in the bytes of its live view.
+  [[nodiscard]] std::uint64_t scans() const { return view_.scans; }
   /// The last that it said of the peer with this name.
   [[nodiscard]] const LiveView::Peer* peer(const std::string& name) const {
     const auto found = std::ranges::find(view_.peers, name, &LiveView::Peer::name);
@@ -186,6 +188,7 @@ TEST_F(TeamRun, IsRepeatedToTheBitThoughThePeerProcessDies) {
   ASSERT_TRUE(result) << to_string(result.error());
   const report::RunReport& ran = (*result)->report;
   EXPECT_GE(ran.scans, kLeastPlayed);
+  EXPECT_GE(observed.scans(), 1U) << "of the live view, whose robot had merged by then";
   EXPECT_EQ(ran.control_thread_allocations.value_or(0), 0U);
   ASSERT_TRUE(ran.team);
   EXPECT_THAT(ran.team->merged_with, ElementsAre("second"));

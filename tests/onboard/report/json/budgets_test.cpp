@@ -63,6 +63,7 @@ TEST(Budgets, AllFaultsOfAFileAreNamedAtOnce) {
     EXPECT_THAT(bad.error().detail, HasSubstr(fault));
   EXPECT_FALSE(parse_budgets("", "b.yaml"));
   EXPECT_FALSE(parse_budgets("a: [", "b.yaml"));
+  EXPECT_EQ(load_budgets("/nowhere/b.yaml").error().code, Errc::kInvalidConfig);
 }
 
 }  // namespace

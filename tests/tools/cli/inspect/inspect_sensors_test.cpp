@@ -104,6 +104,8 @@ TEST(InspectSensors, AnArrayThatEndsEarlyIsDamagedAndADamagedHeaderAnError) {
   EXPECT_EQ(json["sources"][0]["thermal"]["pictures"], 4);
   EXPECT_EQ(json["damaged"], 1);
   write_array(folder / "b.npy", ">u2", 1, 4, 4, 'x');
+  EXPECT_EQ(look_into({folder / "b.npy", "--json"}).json()["kind"], "array") << "pixels of no camera";
+  std::filesystem::resize_file(folder / "b.npy", 20);
   EXPECT_EQ(look_into({folder / "b.npy"}).exit_code, app::kFailed);
 }
 

@@ -89,12 +89,16 @@ TEST(EvaluateMap, TakesThePoseFromFlagOrTrajectories) {
     const Outcome outcome = evaluate(arguments);
     ASSERT_EQ(outcome.exit_code, app::kDone) << outcome.err;
     EXPECT_EQ(outcome.json()["precision"], 1.0);
+    EXPECT_TRUE(outcome.json()["hint"].is_null());
     EXPECT_EQ(outcome.json()["recall"], 1.0);
     EXPECT_EQ(outcome.json()["occupied"], 200);
     EXPECT_LT(outcome.json()["accuracy_mean_m"], 1e-4);
   }
   const auto unaligned = evaluate({"map", folder.path(), "--ground-truth", folder.path(), "--json"}).json();
   EXPECT_LT(unaligned["precision"], 0.2);
+  EXPECT_THAT(unaligned["hint"].get<std::string>(), HasSubstr("--trajectory"));
+  EXPECT_THAT(evaluate({"map", folder.path(), "--ground-truth", folder.path()}).out,
+              HasSubstr("seem not to be aligned"));
 }
 
 TEST(EvaluateMap, RefusesHalfAPose) {

@@ -144,6 +144,8 @@ TEST(MapCommand, FaultsNameTheFileAndExitAsPromised) {
   expect({}, app::kWrongArguments, "subcommand");
   expect({"export", folder / "a.cairn", "--out", folder / "a.stl"}, app::kWrongArguments, ".pcd");
   expect({"render", folder / "a.cairn", "--out", folder / "a.png", "--view", "inside"}, app::kWrongArguments, "inside");
+  expect({"render", folder / "a.cairn", "--out", folder / "a.jpg"}, app::kWrongArguments, "must end in .png");
+  EXPECT_FALSE(std::filesystem::exists(folder / "a.jpg"));
   expect({"render", folder / "a.cairn", "--out", folder / "a.png", "--height-min", "50"}, app::kFailed, "empty");
   expect({"render", folder / "a.cairn", "--out", folder / "a.png", "--scale", "1e9"}, app::kFailed, "too large");
   expect({"render", folder / "a.cairn", "--out", folder / "nowhere/a.png"}, app::kFailed, "nowhere");

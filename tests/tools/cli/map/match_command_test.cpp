@@ -48,13 +48,13 @@ TEST(MatchCommand, GivesThePoseAndAllFields) {
             5);
 }
 
-TEST(MatchCommand, ARefusedMatchIsAResult) {
+TEST(MatchCommand, ARefusedMatchIsPrintedAndExitsWithOne) {
   const TemporaryFolder folder;
   mapping::SemanticOcTree voxel(0.1);
   voxel.setNodeValue(octomap::point3d(1, 2, 3), 1.0F);
   ASSERT_TRUE(mapping::save_cairn(voxel, folder / "a.cairn"));
   const Outcome outcome = match({folder / "a.cairn", folder / "a.cairn", "--json"});
-  ASSERT_EQ(outcome.exit_code, app::kDone) << outcome.err;
+  ASSERT_EQ(outcome.exit_code, app::kFailed) << outcome.err;
   EXPECT_FALSE(outcome.json()["accepted"]);
   EXPECT_THAT(outcome.json()["reason"].get<std::string>(), HasSubstr("too little structure"));
 }
@@ -71,6 +71,8 @@ TEST(MatchCommand, FaultsExitAsPromised) {
   EXPECT_EQ(match({a, a, "--method", "magic"}).exit_code, app::kWrongArguments);
   EXPECT_EQ(match({a, a, "--initial", "1,2,3"}).exit_code, app::kWrongArguments);
   EXPECT_EQ(match({a, a, "--initial", "nan,0,0,0,0,0"}).exit_code, app::kWrongArguments);
+  EXPECT_EQ(match({a, a, "--initial", "0,0,0,0,0,90"}).exit_code, app::kWrongArguments);
+  EXPECT_THAT(match({a, a, "--initial", "0,0,0,0,0,90"}).err, HasSubstr("--initial: angles are in radians"));
   EXPECT_EQ(match({a, a, "--sigma", "1"}).exit_code, app::kWrongArguments);  // of no guess
 }
 

@@ -45,6 +45,23 @@ TEST_F(MergeCommand, KnowsWhatEitherMapKnew) {
   EXPECT_EQ(outcome.json()["policy"], "relative_entropy");
 }
 
+TEST_F(MergeCommand, APoseThatWouldLoseTheSecondMapIsRefused) {
+  const auto refused = [&](const std::string& text) {
+    const Outcome outcome =
+        merge({folder / "a.cairn", folder / "b.cairn", "--pose=" + text, "--out", folder / "lost.ot"});
+    EXPECT_EQ(outcome.exit_code, app::kWrongArguments) << text;
+    EXPECT_FALSE(std::filesystem::exists(folder / "lost.ot"));
+    return outcome.err;
+  };
+  EXPECT_THAT(refused("1e9,0,0,0,0,0"), HasSubstr("within 100 km"));
+  EXPECT_THAT(refused("0,5000,0,0,0,0"), HasSubstr("outside of what a map can hold"));
+  EXPECT_THAT(refused("0,0,0,0,0,90"),
+              testing::AllOf(HasSubstr("radians"), HasSubstr("yaw is 90"), HasSubstr("1.5708")));
+  EXPECT_EQ(
+      merge({folder / "a.cairn", folder / "b.cairn", "--pose=2000,0,0,0,0,0", "--out", folder / "far.ot"}).exit_code,
+      app::kDone);
+}
+
 TEST_F(MergeCommand, EntropiesAreInTheBooksOrder) {
   const auto entropy = [&](const std::string& policy) {
     return merge({folder / "a.cairn", folder / "b.cairn", pose, "--policy", policy, "--out", folder / "c.ot", "--json"})

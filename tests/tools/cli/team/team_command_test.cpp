@@ -161,7 +161,7 @@ TEST_F(TeamCommand, RefusesToWriteIntoRecordings) {
 
 TEST_F(TeamCommand, WrongArgumentsAreSaid) {
   prepare({});
-  EXPECT_EQ(team({"--link", "nowhere.yaml"}).exit_code, app::kFailed);
+  EXPECT_EQ(team({"--link", "nowhere.yaml"}).exit_code, app::kWrongArguments);
   std::ofstream(folder / "link.yaml") << "loss: 2\n";
   EXPECT_EQ(team({"--link", folder / "link.yaml"}).exit_code, app::kWrongArguments);
   EXPECT_EQ(team({"--settle", "-1"}).exit_code, app::kWrongArguments);

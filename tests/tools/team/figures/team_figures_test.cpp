@@ -65,6 +65,21 @@ TEST(CompareTeam, DifferentMapsOfTheMergedAreNotSound) {
   EXPECT_THAT(compare_team(robots, nullptr).disagreements, ElementsAre("r0 and r2"));
 }
 
+TEST(CompareTeam, SaysWhichTilesAMapThatDiffersLacks) {
+  auto robots = team_of(3);
+  robots[2].team_sha256 = "other";
+  for (RobotResult& robot : robots) {
+    robot.own_tiles = 100;
+    for (const RobotResult& other : robots) robot.tiles_of_peer[other.name] = 100;
+  }
+  EXPECT_THAT(compare_team(robots, nullptr).disagreement_hints[0], testing::HasSubstr("no tile is missing"));
+  robots[2].tiles_of_peer["r1"] = 98;
+  const auto hints = compare_team(robots, nullptr).disagreement_hints;
+  ASSERT_EQ(hints.size(), 2U);
+  EXPECT_THAT(hints[0], testing::HasSubstr("r2 lacks 2 of r1's 100 tiles: they had not arrived"));
+  EXPECT_THAT(hints[0], testing::HasSubstr("--settle"));
+}
+
 TEST(CompareTeam, AWrongMergeIsCountedOncePerPair) {
   auto robots = team_of(3);
   robots[0].T_map_peer["r1"] = ahead(20);

@@ -55,5 +55,12 @@ TEST(LinkConfig, ItsYamlIsItself) {
   EXPECT_EQ(again, link);
 }
 
+TEST(LinkConfigFile, OneThatIsNotThereIsAWrongArgument) {
+  const auto link = load_link("/nowhere/link.yaml");
+  ASSERT_FALSE(link);
+  EXPECT_EQ(link.error().code, Errc::kInvalidConfig);
+  EXPECT_EQ(link.error().where, "/nowhere/link.yaml");
+}
+
 }  // namespace
 }  // namespace cairn::team_run
