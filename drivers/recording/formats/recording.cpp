@@ -40,10 +40,24 @@ Result<fs::path> resolve_inside(const fs::path& dir, std::string_view file) {
   return path;
 }
 
+namespace {
+
+Error no_recording(const fs::path& dir) {
+  std::error_code ignored;
+  if (!fs::exists(dir, ignored)) return {Errc::kNotFound, "there is no such recording", dir.string()};
+  return {Errc::kNotFound,
+          "not a recording: there is no recording.yaml",
+          dir.string(),
+          {},
+          "`cairn inspect " + dir.string() + "` says what is there"};
+}
+
+}  // namespace
+
 Result<Recording> load_recording(const fs::path& dir) {
   const fs::path index = dir / kIndexFile;
   const auto bytes = read_file(index, kMaxYamlBytes);
-  if (!bytes) return bytes.error();
+  if (!bytes) return bytes.error().code == Errc::kNotFound ? no_recording(dir) : bytes.error();
   const auto check = [&](std::string_view file) -> std::optional<Error> {
     const auto path = resolve_inside(dir, file);
     return path ? std::nullopt : std::optional(path.error());

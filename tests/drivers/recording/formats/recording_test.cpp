@@ -142,7 +142,16 @@ TEST(Recording, AFileBehindALinkOutOfTheFolderIsRefused) {
 TEST(Recording, NoFolderIsSaid) {
   const auto r = load_recording("/nonexistent/folder");
   ASSERT_FALSE(r);
+  EXPECT_EQ(to_string(r.error()), "/nonexistent/folder: there is no such recording");
   EXPECT_EQ(r.error().code, Errc::kNotFound);
+}
+
+TEST(Recording, AFolderOfSomethingElseIsNamedAsItWasGiven) {
+  const TemporaryFolder folder;
+  const auto r = load_recording(folder.path());
+  ASSERT_FALSE(r);
+  EXPECT_EQ(r.error().where, folder.path());
+  EXPECT_THAT(to_string(r.error()), HasSubstr("there is no recording.yaml: `cairn inspect "));
 }
 
 TEST(Recording, WhatCouldNotBeReadIsNotWritten) {
