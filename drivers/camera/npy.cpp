@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "hal/bytes.hpp"
+#include "hal/files/input_file.hpp"
 
 namespace cairn::camera {
 namespace {
@@ -122,8 +123,9 @@ Result<NpyHeader> parse_npy_header(std::span<const std::byte> start) {
 }
 
 Result<std::unique_ptr<NpySource>> NpySource::open(const std::filesystem::path& path, const Options& options) {
-  std::ifstream file(path, std::ios::binary);
-  if (!file) return Error{Errc::kNotFound, "cannot open the file", path.string(), {}, {}};
+  auto opened = open_input_stream(path);
+  if (!opened) return opened.error();
+  std::ifstream file = std::move(*opened);
   std::array<std::byte, kMaxNpyHeaderBytes> start{};
   file.read(reinterpret_cast<char*>(start.data()), start.size());
   const auto header = parse_npy_header(std::span(start).first(static_cast<std::size_t>(file.gcount())));

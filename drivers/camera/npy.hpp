@@ -53,7 +53,7 @@ class NpySource final : public Source {
     double rate_hz = 9;                    ///< pictures per second
     Time start{};                          ///< arrival of the first picture
   };
-  /// Errors: kNotFound, kIo and those of parse_npy_header(); kTruncated when not even one picture is there.
+  /// Errors: those of InputFile::open() and parse_npy_header(); kTruncated when not even one picture is there.
   [[nodiscard]] static Result<std::unique_ptr<NpySource>> open(const std::filesystem::path& path,
                                                                const Options& options);
 

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "drivers/peers/bounded_end.hpp"
+#include "drivers/peers/dds_log.hpp"
 #include "drivers/peers/dds_team.hpp"
 #include "drivers/peers/local_link.hpp"
 #include "drivers/peers/udp_limiter.hpp"
@@ -58,6 +59,8 @@ std::string address_fault(const std::string& text) {
 
 int run(const Options& options) {
   limit_udp({options.bytes_per_second});
+  const LiveClock clock;
+  DdsLog log(clock);  // before the team: it outlives Cyclone's threads
   auto team = DdsTeam::open(options.dds);
   if (!team) {
     fmt::print(stderr, "cairn-peers: {}\n", to_string(team.error()));
@@ -72,9 +75,11 @@ int run(const Options& options) {
     const bool room = udp_room(kWholeDatagram);
     std::array<pollfd, 2> waited{{{(*team)->readable_fd(), POLLIN, 0}, {room ? link.readable_fd() : -1, POLLIN, 0}}};
     (void)::poll(waited.data(), waited.size(), room ? kRetryMs : kRoomMs);
+    log.settle();
     receive_all(**team, link, received);
     send_all(link, **team, memory);
   }
+  log.sum_up();
   const UdpCounters counters = udp_counters();
   if (!options.quiet)
     fmt::print(stderr, "cairn-peers: sent {} bytes in {} datagrams, dropped {} for the cap\n", counters.sent_bytes,

@@ -7,6 +7,7 @@
 
 #include "drivers/peers/peer_packet.hpp"
 #include "hal/bytes.hpp"
+#include "hal/files/input_file.hpp"
 
 namespace cairn::peer_link {
 namespace {
@@ -33,9 +34,9 @@ Result<void> append_log_record(const Packet& packet, std::vector<std::byte>& out
 }
 
 Result<std::unique_ptr<PeersLogSource>> PeersLogSource::open(const std::filesystem::path& path, SourceId source) {
-  auto file = std::make_unique<std::ifstream>(path, std::ios::binary);
-  if (!*file) return Error{Errc::kNotFound, "the file cannot be opened", path.string(), {}, {}};
-  return from_stream(std::move(file), path.string(), source);
+  auto file = open_input_stream(path);
+  if (!file) return file.error();
+  return from_stream(std::make_unique<std::ifstream>(std::move(*file)), path.string(), source);
 }
 
 Result<std::unique_ptr<PeersLogSource>> PeersLogSource::from_stream(std::unique_ptr<std::istream> stream,

@@ -26,7 +26,7 @@ Result<void> append_log_record(const Packet& packet, std::vector<std::byte>& out
 /// Replays peers.log, as fast as next() is called.
 class PeersLogSource final : public Source {
  public:
-  /// Errors: kNotFound, kIo, kMalformed (not such a file), kUnsupported (another version).
+  /// Errors: those of InputFile::open(), kMalformed (not such a file), kUnsupported (another version).
   static Result<std::unique_ptr<PeersLogSource>> open(const std::filesystem::path& path, SourceId source);
   /// The same from a stream; `name` is used in messages.
   static Result<std::unique_ptr<PeersLogSource>> from_stream(std::unique_ptr<std::istream> stream, std::string name,

@@ -11,6 +11,7 @@
 #include "drivers/peers/peers_log.hpp"
 #include "drivers/recording/formats/image_folder.hpp"
 #include "drivers/recording/scan_source.hpp"
+#include "drivers/recording/stamp_guard.hpp"
 #include "drivers/velodyne/transport/pcap_source.hpp"
 
 namespace cairn::recording {
@@ -110,13 +111,23 @@ Opened open_capture(const Recorded& r) {
   PcapSource::Options options;
   options.source = r.id;
   options.ports = {r.entry.data_port, r.entry.position_port};
-  auto capture = PcapSource::open(*file, options);
-  if (!capture) return capture.error();
-  return on_robot_time(std::unique_ptr<Source>(std::make_unique<CaptureSource>(std::move(*capture), file->string())),
-                       *file, r);
+  auto opened = PcapSource::open(*file, options);
+  if (!opened) return opened.error();
+  const PcapSource* capture = opened->get();
+  auto whole = std::make_unique<CaptureSource>(std::move(*opened), file->string());
+  auto guarded =
+      std::make_unique<GuardedSource>(std::move(whole), file->string(), [capture] { return capture->record_offset(); });
+  return on_robot_time(std::unique_ptr<Source>(std::move(guarded)), *file, r);
 }
 
-Opened open_scans(const Recorded& r) { return as_source(ScanSource::open(r.dir, r.entry.file)); }
+Opened guarded(Opened opened, const std::string& file) {
+  if (!opened) return opened;
+  return std::unique_ptr<Source>(std::make_unique<GuardedSource>(std::move(*opened), file));
+}
+
+Opened open_scans(const Recorded& r) {
+  return guarded(as_source(ScanSource::open(r.dir, r.entry.file)), (r.dir / r.entry.file).string());
+}
 
 template <camera::FrameFormat kDeepFormat>
 Opened open_pictures(const Recorded& r) {
@@ -128,7 +139,7 @@ Opened open_can(const Recorded& r) {
   if (!file) return file.error();
   const drive::CandumpSource::Options options{
       .source = r.id, .interface = {}, .stamps = drive::CandumpTime::Stamps::kSinceStart};
-  return on_robot_time(as_source(drive::CandumpSource::open(*file, options)), *file, r);
+  return on_robot_time(guarded(as_source(drive::CandumpSource::open(*file, options)), file->string()), *file, r);
 }
 
 Opened open_gpio(const Recorded& r) {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/recording/scan_source.hpp"
 
-#include <fstream>
 #include <string_view>
-#include <system_error>
 #include <utility>
 
 #include "drivers/recording/formats/recording.hpp"
 #include "hal/files/file.hpp"
+#include "hal/files/input_file.hpp"
 
 namespace cairn::recording {
 namespace {
@@ -16,16 +15,15 @@ namespace fs = std::filesystem;
 
 /// read_file() into memory that is there already.
 Result<void> read_into(const fs::path& path, std::vector<std::byte>& bytes) {
-  std::error_code error;
-  const std::uintmax_t size = fs::file_size(path, error);
-  if (error) return Error{Errc::kIo, "cannot look at the file", path.string(), {}, error.message()};
-  if (size > kMaxScanBytes)
-    return Error{Errc::kLimit, "the sweep is too large", path.string(), {}, std::to_string(size) + " bytes"};
-  std::ifstream in(path, std::ios::binary);
-  bytes.resize(static_cast<std::size_t>(size));
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
-  if (in) return {};
-  return Error{Errc::kIo, "cannot read the sweep", path.string(), static_cast<std::uint64_t>(in.gcount()), {}};
+  auto file = InputFile::open(path);
+  if (!file) return file.error();
+  if (file->size() > kMaxScanBytes)
+    return Error{Errc::kLimit, "the sweep is too large", path.string(), {}, std::to_string(file->size()) + " bytes"};
+  bytes.resize(static_cast<std::size_t>(file->size()));
+  const auto read = file->read(bytes);
+  if (!read) return read.error();
+  if (*read == bytes.size()) return {};
+  return Error{Errc::kIo, "cannot read the sweep", path.string(), *read, {}};
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ bool is_address(const std::string& text) {
 void declare(config::Section& s, Config& c) {
   s.choice("model", c.model, model_options(), "sensor model");
   s.text("bind_address", c.bind_address, "IPv4 address of this computer to listen on; empty: all");
-  s.text("source_address", c.source_address, "IPv4 address of the sensor; other senders are ignored; empty: any");
+  s.text("source_address", c.source_address,
+         "IPv4 address of the sensor; other senders are ignored; empty: the first that sends valid packets");
   s.integer("data_port", c.data_port, {1, 65535}, "", "UDP port of data packets");
   s.integer("position_port", c.position_port, {1, 65535}, "", "UDP port of position packets");
   s.integer("receive_buffer_bytes", c.receive_buffer_bytes, {65536, 1 << 28}, "B",

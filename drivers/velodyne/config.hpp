@@ -12,7 +12,7 @@ namespace cairn::velodyne {
 struct Config {
   std::string model = "VLP-16";        ///< name or alias of a Model
   std::string bind_address;            ///< IPv4 address of this computer to listen on; empty: all
-  std::string source_address;          ///< IPv4 address of the sensor; empty: any sender
+  std::string source_address;          ///< IPv4 address of the sensor; empty: the first sender of valid packets
   int data_port = 2368;                ///< UDP destination port of data packets
   int position_port = 8308;            ///< UDP destination port of position packets
   int receive_buffer_bytes = 4 << 20;  ///< to ask the kernel for; it grants at most net.core.rmem_max

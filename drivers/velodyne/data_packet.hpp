@@ -37,10 +37,10 @@ struct DataPacket {
 };
 
 /// Why a data packet was refused.
-enum class DataFault : std::uint8_t { kLength, kFlag, kAzimuth, kPair, kReturnMode, kProduct };
+enum class DataFault : std::uint8_t { kLength, kFlag, kAzimuth, kPair, kOrder, kReturnMode, kProduct };
 
-/// Checks length, product byte, return mode, block flags and azimuths. A packet is taken whole or not at all. The
-/// result refers to `bytes`.
+/// Checks length, product byte, return mode, block flags, azimuths and their order. A packet is taken whole or not at
+/// all. The result refers to `bytes`.
 [[nodiscard]] tl::expected<DataPacket, DataFault> parse_data_packet(std::span<const std::byte> bytes,
                                                                     const Model& model);
 /// The same as an Error with the place in the packet. Allocates nothing.

@@ -43,7 +43,9 @@ DeviceTime::Stamp DeviceTime::update(std::uint32_t counter_us, Time arrival, Dur
   counter_us_ = counter_us;
   if (kind != Kind::kNext) restart(kind, arrival, sample + step);
   span_ = span;
-  return kind == Kind::kNext ? follow(step, arrival) : Stamp{kind, last_first_firing(), {}, 1.0};
+  if (kind == Kind::kNext) return follow(step, arrival);
+  busy_ = busy_share(span_);
+  return {kind, last_first_firing(), {}, 1.0};
 }
 
 /// The counter wraps at the hour; seen in the field are sensors that pass it and wrap as u32. A counter that goes on
@@ -103,7 +105,9 @@ DeviceTime::Stamp DeviceTime::follow(Duration step, Time arrival) {
   arrival_ = std::max(arrival_, std::min(arrival, last_first_firing() + span_ + kMaxDelay));
   const double catch_up = delay_.catch_up();
   const double pace = catch_up > kEvenSlew ? 1.0 - catch_up : 1.0;
-  busy_ = pace < 1.0 ? from_seconds(to_seconds(busy_share(span_)) * pace) : busy_share(span_);
+  // The lasers of the last firing keep the device's own pace.
+  const double busy = to_seconds(busy_share(span_)) * pace + to_seconds(last_firing_share(span_)) * (1.0 - pace);
+  busy_ = pace < 1.0 ? from_seconds(busy) : busy_share(span_);
   return {Kind::kNext, last_first_firing(), step, pace};
 }
 

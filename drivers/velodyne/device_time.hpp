@@ -59,6 +59,8 @@ class DeviceTime {
 
   /// All firings of a packet begin within this share of its span (the rest is the last sequence's recharge).
   [[nodiscard]] static constexpr Duration busy_share(Duration span) { return span * 63 / 64; }
+  /// The lasers of a packet's last firing take at most this share of its span: an HDL-32E in dual mode has six firings.
+  [[nodiscard]] static constexpr Duration last_firing_share(Duration span) { return span / 7; }
 
  private:
   [[nodiscard]] Duration step_from_last(std::uint32_t counter_us, Time arrival) const;

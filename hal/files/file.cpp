@@ -2,13 +2,14 @@
 #include "hal/files/file.hpp"
 
 #include <fcntl.h>
-#include <sys/stat.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <string>
 #include <system_error>
+
+#include "hal/files/input_file.hpp"
 
 namespace cairn {
 namespace {
@@ -90,26 +91,18 @@ FileCalls& FileCalls::machine() {
 }
 
 Result<std::vector<std::byte>> read_file(const fs::path& path, std::uint64_t max_bytes) {
-  const Fd fd(FileCalls::machine(), ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  if (fd.get() < 0) return io_error("cannot open the file", path, errno);
-  struct stat info {};
-  if (::fstat(fd.get(), &info) != 0) return io_error("cannot look at the file", path, errno);
-  if (!S_ISREG(info.st_mode)) return Error{Errc::kIo, "not a regular file", path.string(), {}, {}};
-  const auto size = static_cast<std::uint64_t>(info.st_size);
-  if (size > max_bytes)
+  auto file = InputFile::open(path);
+  if (!file) return file.error();
+  if (file->size() > max_bytes)
     return Error{Errc::kLimit,
                  "the file is too large",
                  path.string(),
                  {},
-                 std::to_string(size) + " bytes, at most " + std::to_string(max_bytes) + " are read"};
-  std::vector<std::byte> bytes(static_cast<std::size_t>(size));
-  for (std::size_t done = 0; done < bytes.size();) {
-    const ssize_t n = ::read(fd.get(), bytes.data() + done, bytes.size() - done);
-    if (n < 0 && errno == EINTR) continue;
-    if (n < 0) return io_error("cannot read the file", path, errno);
-    if (n == 0) bytes.resize(done);
-    done += static_cast<std::size_t>(n);
-  }
+                 std::to_string(file->size()) + " bytes, at most " + std::to_string(max_bytes) + " are read"};
+  std::vector<std::byte> bytes(static_cast<std::size_t>(file->size()));
+  const auto read = file->read(bytes);
+  if (!read) return read.error();
+  bytes.resize(*read);
   return bytes;
 }
 

@@ -13,8 +13,8 @@
 
 namespace cairn {
 
-/// The bytes of a whole file. A file above `max_bytes` is refused before memory is taken. Errors: kNotFound, kIo,
-/// kLimit.
+/// The bytes of a whole file. A file above `max_bytes` is refused before memory is taken. Errors: those of
+/// InputFile::open(), kIo, kLimit.
 Result<std::vector<std::byte>> read_file(const std::filesystem::path& path, std::uint64_t max_bytes);
 
 /// Replaces a file so that it always has the whole old or the whole new content: writes a temporary file beside `path`,

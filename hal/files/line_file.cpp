@@ -4,12 +4,16 @@
 #include <cerrno>
 #include <cstring>
 
+#include "hal/files/input_file.hpp"
+
 namespace cairn {
 
 Result<LineFile> LineFile::open(const std::filesystem::path& path, std::size_t max_line) {
-  std::FILE* file = std::fopen(path.c_str(), "rbe");
-  if (file != nullptr) return LineFile(file, path.string(), max_line);
-  return Error{errno == ENOENT ? Errc::kNotFound : Errc::kIo, "cannot open", path.string(), {}, std::strerror(errno)};
+  auto file = InputFile::open(path);
+  if (!file) return file.error();
+  const auto stream = file->release_as_stream();
+  if (!stream) return stream.error();
+  return LineFile(*stream, path.string(), max_line);
 }
 
 Result<std::optional<std::string_view>> LineFile::next() {

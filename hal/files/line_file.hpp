@@ -17,7 +17,7 @@ namespace cairn {
 /// Reads a text file line by line, in bounded memory for any content.
 class LineFile {
  public:
-  /// `max_line`: bytes of the longest line that is read. Errors: kNotFound, kIo.
+  /// `max_line`: bytes of the longest line that is read. Errors: those of InputFile::open().
   [[nodiscard]] static Result<LineFile> open(const std::filesystem::path& path, std::size_t max_line);
 
   /// The next line without its end (LF or CRLF). It stays valid until the next call. Null at the end of the file.

@@ -46,7 +46,7 @@ class Parser {
   [[nodiscard]] bool complete() const {
     return !log.tasks.empty() && std::all_of(ended_.begin(), ended_.end(), [](bool e) { return e; });
   }
-  [[nodiscard]] bool full() const { return ticks_ > kMaxLogTicks; }
+  [[nodiscard]] bool full() const { return ticks_ > kMaxLogTicks || releases_ > kMaxLogReleases; }
 
   ScheduleLog log;
 
@@ -83,8 +83,9 @@ class Parser {
     if (w.count != 3 || !read(w.at[1], number) || number >= log.tasks.size() || ended_[number]) return false;
     TaskLog& task = log.tasks[number];
     ended_[number] = true;
-    return read(w.at[2], task.end) && possible(task, task.end) &&
-           (task.ticks.empty() || task.end > task.ticks.back().index);
+    if (!read(w.at[2], task.end) || !possible(task, task.end)) return false;
+    releases_ += std::min(task.end, kMaxLogReleases + 1);
+    return task.ticks.empty() || task.end > task.ticks.back().index;
   }
 
   /// Its release lies within what Time can hold.
@@ -95,6 +96,7 @@ class Parser {
 
   std::vector<bool> ended_;
   std::size_t ticks_ = 0;
+  std::uint64_t releases_ = 0;
 };
 
 }  // namespace
@@ -112,7 +114,8 @@ Result<ScheduleLog> parse_schedule_log(std::string_view text) {
     const bool understood = number == 1 ? line == kMagic : parser.line(line);
     if (!understood)
       return Error{Errc::kMalformed, "not a line of a schedule log", {}, {}, "line " + std::to_string(number)};
-    if (parser.full()) return Error{Errc::kLimit, "too many ticks", {}, {}, "line " + std::to_string(number)};
+    if (parser.full())
+      return Error{Errc::kLimit, "too many ticks for any run", {}, {}, "line " + std::to_string(number)};
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   if (!parser.complete())

@@ -45,6 +45,8 @@ struct ScheduleLog {
 
 /// Bounds for hostile files. An hour at 2 kHz with every tick busy has fewer lines.
 inline constexpr std::size_t kMaxLogTasks = 64, kMaxLogTicks = 20'000'000, kMaxLogBytes = std::size_t{1} << 30U;
+/// Releases of all tasks, idle ones included: some days of a robot. A replay goes through each.
+inline constexpr std::uint64_t kMaxLogReleases = 500'000'000;
 
 /// Reads the text. Errors: kMalformed (with the line), kTruncated (the end lines are missing: the run was killed),
 /// kLimit.

@@ -33,6 +33,7 @@ struct Row {
 
 [[nodiscard]] std::vector<Row> sensor_rows();
 [[nodiscard]] std::vector<Row> odometry_rows();
+[[nodiscard]] std::vector<Row> garbage_rows();
 [[nodiscard]] std::vector<Row> drive_rows();
 [[nodiscard]] std::vector<Row> computer_rows();
 /// Those of computer_rows() that are about a command's results.

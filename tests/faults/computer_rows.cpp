@@ -236,6 +236,19 @@ std::vector<Row> disk_rows() {
   };
 }
 
+std::vector<Row> foreign_rows() {
+  constexpr safety::Mode N = safety::Mode::kNormal;
+  return {
+      {"C21", "a valid map of a few nodes that span the whole tree",
+       "Each command works on cubes, or refuses at once. Time and memory stay bounded.", 0ms, 0ms, N,
+       "cli/HostileMaps.AreDescribedDrawnAndCompared"},
+      {"C22", "a pipe, device, socket or folder in the place of a file", "It is refused at once, with the remedy.", 0ms,
+       0ms, N, "hal/InputFile.RefusesWhatIsNoRegularFileAtOnce"},
+      {"C23", "eight clients of the live view that read nothing", "A new client takes the place of one of them.", 0ms,
+       0ms, N, "live/LiveServerTest.SilentClientsLockNobodyOut"},
+  };
+}
+
 std::vector<Row> process_rows() {
   constexpr safety::Mode N = safety::Mode::kNormal, S = safety::Mode::kStop;
   return {
@@ -259,32 +272,11 @@ std::vector<Row> process_rows() {
 
 std::vector<Row> computer_rows() {
   std::vector<Row> all;
-  for (auto& rows : {late_rows(), disk_rows(), process_rows(), output_rows()}) all.insert(all.end(), rows.begin(), rows.end());
+  for (auto& rows : {late_rows(), disk_rows(), process_rows(), foreign_rows(), output_rows()})
+    all.insert(all.end(), rows.begin(), rows.end());
   const auto number = [](const Row& row) { return std::stoi(row.id.substr(1)); };
   std::sort(all.begin(), all.end(), [&](const Row& a, const Row& b) { return number(a) < number(b); });
   return all;
-}
-
-std::vector<Row> rows_left_out() {
-  const auto row = [](const char* id, const char* fault, const char* why) {
-    return Row{id, fault, "", 0ms, 0ms, safety::Mode::kNormal, why};
-  };
-  return {
-      row("X1", "another sender floods the LiDAR's port",
-          "needs a network namespace and a wall clock; the source filter has a test (velodyne/UdpSource)"),
-      row("X2", "the time of day jumps during a run", "only metadata reads it (tools/ci/check_layers.sh)"),
-      row("X3", "a USB camera is unplugged and plugged in 1000 times",
-          "needs a guest kernel with dummy_hcd; recovery has a test in virtual time (camera/Recovery)"),
-      row("X4", "power cut at any write", "needs dm-log-writes in a guest; C7 tests every failing call"),
-      row("X5", "hardware watchdog", "needs softdog in a guest"),
-      row("X6", "cgroup memory limit, order of the OOM killer's victims",
-          "needs cgroups; config/systemd sets the order"),
-      row("X7", "CPU overload by stress-ng", "not deterministic; C1, C15 and C16 test the logic in virtual time"),
-      row("X9", "a peer lies about occupancy: a phantom wall, or an erased one",
-          "a robot's own map stays its own; there is no planner yet that reads the team map"),
-      row("X10", "unauthorised, expired or revoked certificate; strangers", "there are no certificates yet"),
-      row("X8", "bad update, A/B slots", "there is no updater yet"),
-  };
 }
 
 }  // namespace cairn::faults

@@ -11,6 +11,7 @@
 
 #include "drivers/recording/new_recording.hpp"
 #include "drivers/recording/recording_writer.hpp"
+#include "drivers/recording/stamp_guard.hpp"
 #include "hal/result.hpp"
 #include "hal/time.hpp"
 
@@ -42,9 +43,12 @@ struct ImportReport {
   std::uint64_t rejected_points = 0;  ///< not finite or out of any range
   std::uint64_t ground_truth_poses = 0;
   std::string model;
-  Time first{}, last{};       ///< arrival of the first and last item
+  Time first{}, last{};       ///< arrival of the first and last item whose stamp is not absurd
   std::vector<Error> damage;  ///< parts that could not be read, at most kMaxDamage; the good parts are in the recording
   std::uint64_t damaged = 0;  ///< how many parts could not be read
+  /// Packets with absurd stamps. They are in the recording as they were; whoever reads it sets them aside.
+  StampGuard::Found absurd_stamps;
+  std::optional<Error> absurd_stamps_note;  ///< the same in words, with the remedy
   static constexpr std::size_t kMaxDamage = 16;
 };
 

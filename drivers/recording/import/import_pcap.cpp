@@ -27,11 +27,12 @@ struct Found {
 
 /// Looks for the first data packet; kNotFound when there is none.
 Result<Found> look_into(const ImportOptions& options) {
-  auto capture = open_capture(options);
-  if (!capture) return capture.error();
+  auto opened = open_capture(options);
+  if (!opened) return opened.error();
+  GuardedSource capture(std::move(*opened), options.source.string());
   Packet packet;
   std::optional<std::int64_t> start;
-  for (auto poll = (*capture)->next(packet, {}); poll && *poll != Poll::kEnd; poll = (*capture)->next(packet, {})) {
+  for (auto poll = capture.next(packet, {}); poll && *poll != Poll::kEnd; poll = capture.next(packet, {})) {
     if (*poll == Poll::kTimeout) continue;
     if (!start) start = packet.arrival.time_since_epoch().count();
     if (packet.channel != options.data_port || packet.bytes.size() != velodyne::kDataBytes) continue;
@@ -77,20 +78,37 @@ Result<RecordingWriter> create_writer(const ImportOptions& options, const std::s
   return RecordingWriter::create(options.out, recording);
 }
 
+/// Takes the verdicts that can be given by now.
+void judge(StampGuard& guard, std::optional<Time>& first, ImportReport& report) {
+  while (const auto verdict = guard.pop()) {
+    if (verdict->absurd) continue;
+    if (!first) report.first = *(first = verdict->stamp);
+    report.last = verdict->stamp;
+  }
+}
+
 Result<void> copy_packets(PcapSource& capture, RecordingWriter& writer, const ImportOptions& options,
                           ImportReport& report) {
   Packet packet;
+  StampGuard guard;
+  std::optional<Time> first;
   for (;;) {
     const auto poll = capture.next(packet, {});
     if (!poll) {
       ++report.damaged;
       report.damage.push_back(poll.error());
     } else if (*poll == Poll::kEnd) {
+      guard.end();
+      judge(guard, first, report);
+      report.absurd_stamps = guard.found();
+      report.absurd_stamps_note =
+          guard.to_error(options.source.string(), "they are kept, and set aside when the recording is read");
       return {};
     } else if (*poll == Poll::kPacket) {
       if (auto written = writer.write(packet); !written) return written;
-      if (report.items++ == 0) report.first = packet.arrival;
-      report.last = packet.arrival;
+      guard.push(packet.arrival, capture.record_offset());
+      judge(guard, first, report);
+      ++report.items;
       report.bytes += packet.bytes.size();
       if (options.progress) options.progress(report.items);
       if (options.stop && options.stop()) return import_interrupted(options);

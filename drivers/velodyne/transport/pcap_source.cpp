@@ -4,10 +4,10 @@
 #include <pcap/pcap.h>
 
 #include <algorithm>
-#include <cerrno>
 #include <string_view>
 
 #include "drivers/velodyne/transport/frame.hpp"
+#include "hal/files/input_file.hpp"
 
 namespace cairn::velodyne {
 namespace {
@@ -30,10 +30,11 @@ PcapSource::PcapSource(std::unique_ptr<pcap, Close> handle, std::string name, co
 PcapSource::~PcapSource() = default;
 
 Result<std::unique_ptr<PcapSource>> PcapSource::open(const std::filesystem::path& path, const Options& options) {
-  std::FILE* file = std::fopen(path.c_str(), "rbe");
-  if (file == nullptr)
-    return Error{errno == ENOENT ? Errc::kNotFound : Errc::kIo, "cannot open the capture file", path.string(), {}, {}};
-  return from_stream(file, path.string(), options);
+  auto file = InputFile::open(path);
+  if (!file) return file.error();
+  const auto stream = file->release_as_stream();
+  if (!stream) return stream.error();
+  return from_stream(*stream, path.string(), options);
 }
 
 Result<std::unique_ptr<PcapSource>> PcapSource::from_stream(std::FILE* file, std::string name, const Options& options) {
@@ -59,6 +60,7 @@ Result<Poll> PcapSource::next(Packet& packet, Duration) {
     if (ended_) return Poll::kEnd;
     pcap_pkthdr* header = nullptr;
     const u_char* bytes = nullptr;
+    record_offset_ = file_position();
     const int status = pcap_next_ex(handle_.get(), &header, &bytes);
     if (status != 1) return end_of_file(status);
     ++counters_.records;
@@ -94,9 +96,12 @@ Result<Poll> PcapSource::end_of_file(int status) {
     counters_.truncated_tail = true;
     return Poll::kEnd;
   }
+  return Error{Errc::kMalformed, "capture file is damaged", name_, file_position(), why};
+}
+
+std::optional<std::uint64_t> PcapSource::file_position() const {
   const long offset = std::ftell(pcap_file(handle_.get()));
-  return Error{Errc::kMalformed, "capture file is damaged", name_,
-               offset < 0 ? std::nullopt : std::optional(static_cast<std::uint64_t>(offset)), why};
+  return offset < 0 ? std::nullopt : std::optional(static_cast<std::uint64_t>(offset));
 }
 
 bool PcapSource::wanted(std::uint32_t address, std::uint16_t port) const {

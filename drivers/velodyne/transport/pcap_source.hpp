@@ -36,7 +36,7 @@ class PcapSource final : public Source {
     bool truncated_tail = false;  ///< the file ended inside its last record
   };
 
-  /// Error: kNotFound, kMalformed (no capture file), kUnsupported (link type).
+  /// Errors: those of InputFile::open(), kMalformed (no capture file), kUnsupported (link type).
   static Result<std::unique_ptr<PcapSource>> open(const std::filesystem::path& path, const Options& options);
   /// Takes ownership of `file`; `name` is for messages.
   static Result<std::unique_ptr<PcapSource>> from_stream(std::FILE* file, std::string name, const Options& options);
@@ -48,6 +48,8 @@ class PcapSource final : public Source {
   /// offset, and then the end. Returns kTimeout after kMaxSkipped records that are not wanted.
   Result<Poll> next(Packet& packet, Duration timeout) override;
   [[nodiscard]] const Counters& counters() const { return counters_; }
+  /// Where the record that was read last begins in the file, in bytes; none if the file cannot tell.
+  [[nodiscard]] std::optional<std::uint64_t> record_offset() const { return record_offset_; }
 
   static constexpr int kMaxSkipped = 4096;
 
@@ -58,12 +60,14 @@ class PcapSource final : public Source {
   PcapSource(std::unique_ptr<pcap, Close> handle, std::string name, const Options& options);
   Result<Poll> end_of_file(int status);
   bool wanted(std::uint32_t address, std::uint16_t port) const;
+  [[nodiscard]] std::optional<std::uint64_t> file_position() const;
 
   std::unique_ptr<pcap, Close> handle_;
   std::string name_;
   Options options_;
   int link_type_;
   Counters counters_;
+  std::optional<std::uint64_t> record_offset_;
   bool ended_ = false;
 };
 

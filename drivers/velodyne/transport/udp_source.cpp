@@ -14,6 +14,8 @@
 #include <span>
 #include <utility>
 
+#include "drivers/velodyne/data_packet.hpp"
+
 namespace cairn::velodyne {
 namespace {
 
@@ -56,12 +58,14 @@ Result<std::unique_ptr<UdpSource>> UdpSource::open(const Config& config, SourceI
   std::unique_ptr<UdpSource> made(new UdpSource(config, source, clock));
   if (auto bound = made->bind(made->sockets_[0], config.data_port, config); !bound) return bound.error();
   if (auto bound = made->bind(made->sockets_[1], config.position_port, config); !bound) return bound.error();
+  made->hear_only(made->source_address_);
   return made;
 }
 
 UdpSource::UdpSource(const Config& config, SourceId source, const Clock& clock)
     : clock_(clock),
       source_(source),
+      model_(*find_model(config.model)),
       max_per_window_(static_cast<std::uint64_t>(config.max_packets_per_s * to_seconds(kRateWindow))) {
   if (!config.source_address.empty()) source_address_ = ntohl(address_of(config.source_address, 0).sin_addr.s_addr);
 }
@@ -74,8 +78,7 @@ Result<void> UdpSource::bind(Socket& socket, int port, const Config& config) {
     set_option(socket.fd, SO_RCVBUF, config.receive_buffer_bytes);
   socklen_t size = sizeof counters_.receive_buffer_bytes;
   getsockopt(socket.fd, SOL_SOCKET, SO_RCVBUF, &counters_.receive_buffer_bytes, &size);
-  if (!set_option(socket.fd, SO_TIMESTAMPNS, 1) || !set_option(socket.fd, SO_RXQ_OVFL, 1))
-    return io_error("cannot have kernel receive stamps and drop counts", port);
+  if (!set_option(socket.fd, SO_TIMESTAMPNS, 1)) return io_error("cannot have kernel receive stamps", port);
 
   sockaddr_in address = address_of(config.bind_address, port);
   if (::bind(socket.fd, reinterpret_cast<sockaddr*>(&address), sizeof address) != 0)
@@ -88,6 +91,7 @@ Result<void> UdpSource::bind(Socket& socket, int port, const Config& config) {
 }
 
 Result<Poll> UdpSource::next(Packet& packet, Duration timeout) {
+  if (--until_count_ < 0) count_drops();
   bool waited = false;
   for (int looked = 0; looked < kMaxLooked; ++looked) {
     const auto received = receive_any(packet);
@@ -95,6 +99,8 @@ Result<Poll> UdpSource::next(Packet& packet, Duration timeout) {
     if (*received == Received::kWanted) return Poll::kPacket;
     if (*received == Received::kUnwanted) continue;
     if (waited) break;
+    until_count_ = 0;  // what comes next begins to fill an empty buffer
+    if (learner_.forget_silent(clock_.now())) hear_only(std::nullopt);
     std::array fds{pollfd{sockets_[0].fd, POLLIN, 0}, pollfd{sockets_[1].fd, POLLIN, 0}};
     if (!wait_for(fds, timeout)) break;
     waited = true;
@@ -128,9 +134,10 @@ Result<UdpSource::Received> UdpSource::receive(Socket& socket, Packet& packet) {
     return io_error("cannot receive", socket.port);
   }
   packet.bytes.resize(static_cast<std::size_t>(size));
-  read_stamps(socket, message, packet);
-  if (source_address_ != 0 && ntohl(sender.sin_addr.s_addr) != source_address_)
-    return ++counters_.foreign, Received::kUnwanted;
+  read_stamps(message, packet);
+  const std::uint32_t from = ntohl(sender.sin_addr.s_addr);
+  learn(from, packet);
+  if (from != this->sender().value_or(from)) return ++counters_.foreign, Received::kUnwanted;
   if (!within_rate(packet.arrival)) return ++counters_.flooded, Received::kUnwanted;
   packet.source = source_;
   packet.channel = socket.port;
@@ -140,23 +147,51 @@ Result<UdpSource::Received> UdpSource::receive(Socket& socket, Packet& packet) {
   return Received::kWanted;
 }
 
-/// Takes the kernel's receive stamp and drop count from the message. The stamp is on CLOCK_REALTIME; one that would lie
-/// in the future or more than a second back on the monotonic line was made before the wall clock was set.
-void UdpSource::read_stamps(Socket& socket, msghdr& message, Packet& packet) {
+std::optional<std::uint32_t> UdpSource::sender() const {
+  return source_address_ ? source_address_ : learner_.address();
+}
+
+void UdpSource::learn(std::uint32_t sender, const Packet& packet) {
+  if (source_address_) return;
+  const bool valid = !learner_.address() && parse_data_packet(packet.payload(), model_).has_value();
+  if (const auto learned = learner_.note(sender, valid, clock_.now())) hear_only(learned);
+}
+
+/// A kernel that refuses the filter leaves all work to receive().
+void UdpSource::hear_only(std::optional<std::uint32_t> sender) {
+  count_drops();
+  filters_ = sender.has_value();
+  for (const Socket& socket : sockets_) {
+    if (!sender) admit_all(socket.fd);
+    filters_ = filters_ && admit_only(socket.fd, *sender);
+  }
+}
+
+/// The kernel has one count for both reasons to drop. Only a buffer that was full since it was read last is still
+/// almost full now.
+void UdpSource::count_drops() {
+  constexpr std::uint32_t kFull = 4, kAlmostFull = 3;
+  until_count_ = kMaxLooked;
+  for (Socket& socket : sockets_) {
+    const auto memory = socket_memory(socket.fd);
+    if (!memory) continue;
+    const std::uint32_t drops = memory->drops - std::exchange(socket.drops, memory->drops);
+    const bool full = memory->waiting_bytes / kAlmostFull >= memory->buffer_bytes / kFull;
+    (filters_ && !full ? counters_.filtered : counters_.kernel_drops) += drops;
+  }
+}
+
+/// Takes the kernel's receive stamp from the message. It is on CLOCK_REALTIME; one that would lie in the future or more
+/// than a second back on the monotonic line was made before the wall clock was set.
+void UdpSource::read_stamps(msghdr& message, Packet& packet) {
   const Time now = clock_.now();
   packet.arrival = Time::min();
   for (cmsghdr* c = CMSG_FIRSTHDR(&message); c != nullptr; c = CMSG_NXTHDR(&message, c)) {
-    if (c->cmsg_level != SOL_SOCKET) continue;
-    if (c->cmsg_type == SCM_TIMESTAMPNS) {
-      timespec stamp;
-      std::memcpy(&stamp, CMSG_DATA(c), sizeof stamp);
-      const Duration realtime = std::chrono::seconds(stamp.tv_sec) + std::chrono::nanoseconds(stamp.tv_nsec);
-      packet.arrival = Time{realtime - LiveClock::realtime_offset()};
-    } else if (c->cmsg_type == SO_RXQ_OVFL) {
-      std::uint32_t drops;
-      std::memcpy(&drops, CMSG_DATA(c), sizeof drops);
-      counters_.kernel_drops += drops - std::exchange(socket.kernel_drops, drops);
-    }
+    if (c->cmsg_level != SOL_SOCKET || c->cmsg_type != SCM_TIMESTAMPNS) continue;
+    timespec stamp;
+    std::memcpy(&stamp, CMSG_DATA(c), sizeof stamp);
+    const Duration realtime = std::chrono::seconds(stamp.tv_sec) + std::chrono::nanoseconds(stamp.tv_nsec);
+    packet.arrival = Time{realtime - LiveClock::realtime_offset()};
   }
   constexpr Duration kFuture = std::chrono::milliseconds(1), kPast = std::chrono::seconds(1);
   if (packet.arrival > now + kFuture || packet.arrival < now - kPast) {

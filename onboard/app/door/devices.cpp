@@ -58,7 +58,7 @@ Result<Device> open_lidar(const LidarProfile& lidar, const SourceEntry& entry, S
   if (!source) return source.error();
   return device_of(entry.id, std::move(*source), [](const velodyne::UdpSource::Counters& c) {
     return Losses{{"kernel_drops", c.kernel_drops},
-                  {"foreign", c.foreign},
+                  {"foreign", c.foreign + c.filtered},
                   {"flooded", c.flooded},
                   {"truncated", c.truncated},
                   {"unstamped", c.unstamped}};

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/live/live_server.hpp"
 
-#include <linux/sockios.h>
-#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/un.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
 #include <cstring>
 #include <string>
@@ -30,6 +29,14 @@ bool is_served(const sockaddr_un& address) {
       ::connect(fd, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 || errno == EAGAIN;
   ::close(fd);
   return served;
+}
+
+/// Whether something that was sent waits to be read.
+bool has_unread(int fd) {
+  constexpr std::size_t kSentAndUnread = 2, kValues = 16;  // SK_MEMINFO_WMEM_ALLOC of <linux/sock_diag.h>
+  std::array<std::uint32_t, kValues> memory{};
+  socklen_t size = sizeof memory;
+  return ::getsockopt(fd, SOL_SOCKET, SO_MEMINFO, memory.data(), &size) == 0 && memory[kSentAndUnread] > 0;
 }
 
 }  // namespace
@@ -90,9 +97,7 @@ void LiveServer::take_in(int fd) {
 
 void LiveServer::note_idle() {
   for (Client& client : clients_) {
-    int unread = 0;
-    const bool idle = ::ioctl(client.fd, SIOCOUTQ, &unread) == 0 && unread > 0;
-    client.idle_lines = idle ? client.idle_lines + 1 : 0;
+    client.idle_lines = has_unread(client.fd) ? client.idle_lines + 1 : 0;
   }
 }
 

@@ -6,8 +6,9 @@
 
 #include <array>
 #include <cstdlib>
-#include <fstream>
 #include <vector>
+
+#include "hal/files/input_file.hpp"
 
 namespace cairn::report {
 namespace {
@@ -48,13 +49,16 @@ std::string Sha256::finish() {
 
 Result<std::string> sha256_of_files(std::span<const std::filesystem::path> files) {
   Sha256 sum;
-  std::vector<char> buffer(1 << 16);
+  std::vector<std::byte> buffer(1 << 16);
   for (const auto& path : files) {
-    std::ifstream file(path, std::ios::binary);
-    if (!file) return Error{Errc::kNotFound, "cannot open the file", path.string(), {}, {}};
-    while (file.read(buffer.data(), static_cast<std::streamsize>(buffer.size())) || file.gcount() > 0)
-      sum.update(std::as_bytes(std::span(buffer).first(static_cast<std::size_t>(file.gcount()))));
-    if (file.bad()) return Error{Errc::kIo, "cannot read the file", path.string(), {}, {}};
+    auto file = InputFile::open(path);
+    if (!file) return file.error();
+    for (;;) {
+      const auto read = file->read(buffer);
+      if (!read) return read.error();
+      if (*read == 0) break;
+      sum.update(std::span(buffer).first(*read));
+    }
   }
   return sum.finish();
 }

@@ -15,9 +15,10 @@ void Executive::run_live(const LiveOptions& options, const Clock& clock) {
 Result<ReplayEnd> Executive::run_replay(const ReplayOptions& options) {
   const auto schedule = ReplaySchedule::prepare(graph_, options);
   if (!schedule) return schedule.error();
-  const ReplayEnd end = options.pace != nullptr
-                            ? replay_on_threads(*schedule, options.start, *options.pace, allocations_)
-                            : replay_serially(*schedule);
+  Silence silence(graph_, options.next_arrival);
+  ReplayEnd end = options.pace != nullptr ? replay_on_threads(*schedule, options.start, *options.pace, allocations_)
+                                          : replay_serially(*schedule, &silence);
+  end.jumped = silence.jumped();
   drain(graph_, nullptr);
   return end;
 }

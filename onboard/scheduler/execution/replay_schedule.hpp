@@ -17,12 +17,16 @@ struct ReplayOptions {
   const Clock* pace = nullptr;        ///< every task on a thread of its own, at real speed; null: as fast as possible
   Duration length = Duration::max();  ///< no release later than so long after the start
   std::function<bool()> stop{};  ///< asked before each tick, on its thread: whether the run ends there; empty: never
+  /// Of the next packet of all inputs; Time::max(): none. With it, a replay in virtual time on one thread jumps over
+  /// long silence (see Silence).
+  std::function<Time()> next_arrival{};
 };
 
 /// How a replay went.
 struct ReplayEnd {
   bool diverged = false;     ///< a tick of the log took more than there was: the recording is not that of the log
   bool interrupted = false;  ///< `stop` ended it before its last tick
+  Duration jumped{};         ///< silence of the recording that virtual time jumped over
 };
 
 /// Which releases a replay has, and what each tick gets: from the log of a live run or, without one, from virtual time.

@@ -26,7 +26,7 @@ ScheduledTask* next_task(const ReplaySchedule& schedule, bool only_ready) {
 
 }  // namespace
 
-ReplayEnd replay_serially(const ReplaySchedule& schedule) {
+ReplayEnd replay_serially(const ReplaySchedule& schedule, Silence* silence) {
   ReplayEnd end;
   for (;;) {
     ScheduledTask* task = next_task(schedule, schedule.logged());
@@ -37,6 +37,8 @@ ReplayEnd replay_serially(const ReplaySchedule& schedule) {
     }
     end.interrupted = task != nullptr && schedule.stopped();
     if (task == nullptr || end.interrupted) return end;
+    const bool jumps = silence != nullptr && !schedule.logged();
+    if (jumps && silence->pass(task->releases.at(task->due().index))) continue;
     ReplaySchedule::tick(*task, nullptr, nullptr);
   }
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <spawn.h>
@@ -22,11 +23,14 @@ namespace cairn::peer_link {
 /// A peer process and the core's end of its socket.
 class Peer {
  public:
-  Peer(std::uint64_t robot, const std::filesystem::path& folder, std::string domain, std::string cap = "1000000")
+  /// `log`: takes what the process writes to stderr; empty: the test's own.
+  Peer(std::uint64_t robot, const std::filesystem::path& folder, std::string domain, std::string cap = "1000000",
+       std::filesystem::path log = {})
       : robot_(std::to_string(robot)),
         socket_(folder / ("peers" + robot_ + ".sock")),
         domain_(std::move(domain)),
         cap_(std::move(cap)),
+        log_(std::move(log)),
         link(LocalLink::listen(socket_).value()) {
     start();
   }
@@ -54,9 +58,14 @@ class Peer {
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
+    posix_spawn_file_actions_t files;
+    ::posix_spawn_file_actions_init(&files);
+    if (!log_.empty())
+      ::posix_spawn_file_actions_addopen(&files, STDERR_FILENO, log_.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0644);
     ASSERT_EQ(
-        ::posix_spawn(&process_, places::program("cairn-peers").c_str(), nullptr, nullptr, arguments.data(), environ),
+        ::posix_spawn(&process_, places::program("cairn-peers").c_str(), &files, nullptr, arguments.data(), environ),
         0);
+    ::posix_spawn_file_actions_destroy(&files);
   }
   void signal(int number) const { ::kill(process_, number); }
   int stop(int signal) {
@@ -83,6 +92,7 @@ class Peer {
   std::string robot_;
   std::filesystem::path socket_;
   std::string domain_, cap_;
+  std::filesystem::path log_;
   ::pid_t process_ = 0;
 
  public:

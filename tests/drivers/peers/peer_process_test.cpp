@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "drivers/peers/domain_claim.hpp"
+#include "hal/files/file.hpp"
 #include "tests/drivers/peers/peer.hpp"
+#include "tests/drivers/peers/udp_malformed.hpp"
 
 namespace cairn::peer_link {
 namespace {
@@ -63,6 +65,27 @@ TEST(PeerProcessOptions, ATeammateThatIsNoAddressIsRefused) {
     ::waitpid(process, &status, 0);
     EXPECT_EQ(WEXITSTATUS(status), 2) << address;
   }
+}
+
+TEST_F(PeerProcess, MalformedPacketsDoNotFillTheLog) {
+  const auto log = folder / "log.txt";
+  Peer peer(1, folder.path(), domain(), "1000000", log);
+  const LiveClock clock;
+  const auto said = [&] {
+    std::error_code none_yet;
+    const auto size = std::filesystem::file_size(log, none_yet);
+    return none_yet ? 0 : size;
+  };
+  const unsigned of_domain = static_cast<unsigned>(std::stoul(domain()));
+  for (const Time end = clock.now() + std::chrono::minutes(5); said() == 0 && clock.now() < end;)
+    send_malformed(of_domain, 4);
+  EXPECT_GT(said(), 0U) << "Cyclone has written its first line";
+  send_malformed(of_domain, 40'000);
+  peer.stop(SIGTERM);
+  EXPECT_LT(said(), 10'000U);
+  const auto bytes = read_file(log, 1U << 20U).value();
+  const std::string text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  EXPECT_NE(text.find("more lines in a minute like:"), text.npos) << text;
 }
 
 }  // namespace

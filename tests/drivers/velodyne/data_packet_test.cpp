@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <random>
+
 #include "tests/support/velodyne_encoder.hpp"
 
 namespace cairn::velodyne {
@@ -108,6 +110,26 @@ TEST(DataPacket, DualReturnBlocksComeInPairs) {
   EXPECT_TRUE(parse_data_packet(encode(f), vlp16()));
   f.azimuth[5] = 81;
   EXPECT_EQ(fault_of(encode(f)), DataFault::kPair);
+}
+
+TEST(DataPacket, AzimuthsThatNoTurningSensorGivesAreRefused) {
+  DataFields f;
+  for (std::size_t b = 0; b < kBlocks; ++b) f.azimuth[b] = static_cast<std::uint16_t>((35'800 + 88 * b) % 36'000);
+  EXPECT_TRUE(parse_data_packet(encode(f), vlp16())) << "22 turns a second, over the wrap";
+  for (std::size_t b = 6; b < kBlocks; ++b) f.azimuth[b] = static_cast<std::uint16_t>(18'000 + 40 * b);
+  EXPECT_TRUE(parse_data_packet(encode(f), vlp16())) << "a sector is left out";
+  f.azimuth[3] = 9'000;
+  EXPECT_EQ(fault_of(encode(f)), DataFault::kOrder);
+}
+
+// A sender that knows flags, model and return mode, and nothing else.
+TEST(DataPacket, NoiseWithRightFlagsIsRefused) {
+  std::mt19937 random(1);
+  for (int i = 0; i < 10'000; ++i) {
+    DataFields f;
+    for (std::uint16_t& azimuth : f.azimuth) azimuth = static_cast<std::uint16_t>(random() % 36'000);
+    EXPECT_EQ(fault_of(encode(f)), DataFault::kOrder);
+  }
 }
 
 TEST(DataPacket, RotationRate) {

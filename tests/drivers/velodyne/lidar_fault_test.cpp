@@ -6,6 +6,7 @@
 #include <random>
 
 #include "tests/drivers/velodyne/lidar_rig.hpp"
+#include "tests/drivers/velodyne/random_azimuths.hpp"
 
 namespace cairn::velodyne {
 namespace {
@@ -123,10 +124,9 @@ TEST(Lidar, RandomPacketsNeverBreakAScan) {
     f.timestamp_us = steady ? static_cast<std::uint32_t>(i * 1327) : static_cast<std::uint32_t>(random());
     const bool dual = random() % 4 == 0;
     f.mode = dual ? 0x39 : 0x37;
-    for (std::size_t b = 0; b < kBlocks; ++b) {
-      f.azimuth[b] = dual && b % 2 == 1 ? f.azimuth[b - 1] : static_cast<std::uint16_t>(random() % 36000);
-      for (auto& r : f.returns[b]) r.distance = static_cast<std::uint16_t>(random());
-    }
+    f.azimuth = test::random_azimuths(dual, random);
+    for (auto& block : f.returns)
+      for (auto& r : block) r.distance = static_cast<std::uint16_t>(random());
     Packet packet;
     packet.channel = kDefaultDataPort;
     arrival +=

@@ -7,6 +7,7 @@
 #include <numbers>
 #include <random>
 
+#include "tests/drivers/velodyne/random_azimuths.hpp"
 #include "tests/support/velodyne_encoder.hpp"
 
 namespace cairn::velodyne {
@@ -50,9 +51,9 @@ DataFields random_fields(const Model& model, ReturnMode mode, std::mt19937& rand
   f.product = model.product;
   f.mode = static_cast<std::uint8_t>(mode);
   const bool dual = mode == ReturnMode::kDual;
+  f.azimuth = test::random_azimuths(dual, random);
   for (std::size_t b = 0; b < kBlocks; ++b) {
     const bool odd = dual && b % 2 == 1;
-    f.azimuth[b] = odd ? f.azimuth[b - 1] : static_cast<std::uint16_t>(random() % kAzimuthUnits);
     for (std::size_t s = 0; s < kBlockChannels; ++s) {
       auto& r = f.returns[b][s];
       r = {static_cast<std::uint16_t>(random()), static_cast<std::uint8_t>(random())};
@@ -145,7 +146,7 @@ TEST(PointDecoder, FrameIsForwardLeftUp) {
   DataFields f;
   f.returns[0][0] = {5000, 1};  // 10 m, 15° below the horizon
   f.returns[2][15] = {5000, 1};
-  f.azimuth[2] = 9000;  // clockwise: to the right
+  for (std::size_t b = 2; b < kBlocks; ++b) f.azimuth[b] = 9000;  // clockwise: to the right
   const PointCloud cloud = decode(encode(f), *find_model("VLP-16"), {}, 0);
   ASSERT_EQ(cloud.size(), 2U);
   EXPECT_GT(cloud.xyz[0].x(), 9.6F);

@@ -44,10 +44,16 @@ void repair(std::vector<std::byte>& bytes, const Model& model) {
   const bool dual = bytes[kReturnModeOffset] == std::byte{0x39};
   if (!dual && bytes[kReturnModeOffset] != std::byte{0x38}) bytes[kReturnModeOffset] = std::byte{0x37};
   bytes[kProductOffset] = static_cast<std::byte>(model.product);
+  // Most steps are a turning sensor's; the packet's own bytes make one jump now and then.
+  const unsigned first = load_le<std::uint16_t>(bytes, kBlockAzimuthOffset);
+  const unsigned step = load_le<std::uint8_t>(bytes, kBlockBytes + kBlockAzimuthOffset) % 100U;
+  const unsigned jump_at = load_le<std::uint8_t>(bytes, 2 * kBlockBytes + kBlockAzimuthOffset);
+  const unsigned jump = load_le<std::uint16_t>(bytes, 3 * kBlockBytes + kBlockAzimuthOffset);
   for (std::size_t b = 0; b < kBlocks; ++b) {
     put16(b * kBlockBytes, kBlockFlag);
-    const std::size_t of_pair = dual ? b / 2 * 2 : b;
-    put16(b * kBlockBytes + 2, load_le<std::uint16_t>(bytes, of_pair * kBlockBytes + 2) % kAzimuthUnits);
+    const auto of_pair = static_cast<unsigned>(dual ? b / 2 * 2 : b);
+    put16(b * kBlockBytes + kBlockAzimuthOffset,
+          (first + of_pair * step + (of_pair >= jump_at ? jump : 0U)) % kAzimuthUnits);
   }
 }
 

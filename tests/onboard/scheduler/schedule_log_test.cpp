@@ -54,6 +54,8 @@ TEST(ScheduleLog, WhatCannotBeIsRefusedWithItsLine) {
   EXPECT_FALSE(parse_schedule_log(head + "0 4 0 1\n0 4 0 1\nend 0 9\n")) << "one tick, two lines";
   EXPECT_FALSE(parse_schedule_log(head + "0 4 0 1\nend 0 4\n")) << "the end lies before the last tick";
   EXPECT_FALSE(parse_schedule_log(head + "end 0 4\nend 0 5\n"));
+  const auto endless = parse_schedule_log(head + "end 0 500000001\n");
+  EXPECT_EQ(endless.error().code, Errc::kLimit) << "a replay would go through each idle tick";
   EXPECT_FALSE(parse_schedule_log("something else\n"));
   EXPECT_FALSE(parse_schedule_log(""));
 }

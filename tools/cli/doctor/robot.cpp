@@ -3,8 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <utility>
 
 #include "onboard/app/door/devices.hpp"
 #include "tools/cli/inspect/inspect.hpp"
@@ -46,11 +50,25 @@ Finding listen_to(app::Device& device, const recording::SourceEntry& entry, cons
           remedy_for_silence(entry.kind)};
 }
 
-Finding examine_device(const app::RobotProfile& profile, const recording::SourceEntry& entry, Duration listen) {
+/// Datagrams of other senders on the LiDAR's ports.
+std::optional<Finding> foreign_senders(const app::Device& device, Duration listen) {
+  for (const auto& [name, count] : device.losses())
+    if (name == "foreign" && count > 0)
+      return Finding{
+          Level::kNote,
+          fmt::format("{}: {} datagrams of other senders in {:.1f} s were dropped, most of them in the kernel",
+                      device.id, count, to_seconds(listen)),
+          "find the sender (tcpdump -n udp), and set lidar.source_address to the sensor's address"};
+  return std::nullopt;
+}
+
+Findings examine_device(const app::RobotProfile& profile, const recording::SourceEntry& entry, Duration listen) {
   const LiveClock clock;
   auto device = app::open_device(profile, entry, SourceId{0}, clock);
-  if (!device) return problem(entry.id, device.error());
-  return listen_to(*device, entry, clock, listen);
+  if (!device) return {problem(entry.id, device.error())};
+  Findings findings{listen_to(*device, entry, clock, listen)};
+  if (auto foreign = foreign_senders(*device, listen)) findings.push_back(std::move(*foreign));
+  return findings;
 }
 
 Finding examine_source(const report::Json& source) {
@@ -77,7 +95,8 @@ Findings examine_profile(const std::filesystem::path& path, Duration listen) {
   if (entries.empty())
     findings.push_back(
         {Level::kProblem, "profile: it has no device", "name one: camera.capture.device, drive.interface, …"});
-  for (const auto& entry : entries) findings.push_back(examine_device(*profile, entry, listen));
+  for (const auto& entry : entries)
+    std::ranges::move(examine_device(*profile, entry, listen), std::back_inserter(findings));
   return findings;
 }
 

@@ -4,9 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <fstream>
 #include <limits>
 #include <nlohmann/json.hpp>
+#include <span>
 
 #include "drivers/camera/npy.hpp"
 #include "drivers/camera/picture_file.hpp"
@@ -14,6 +14,7 @@
 #include "drivers/recording/formats/scan_file.hpp"
 #include "hal/bytes.hpp"
 #include "hal/files/file.hpp"
+#include "hal/files/input_file.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -112,7 +113,8 @@ Json box_of(const PointCloud& cloud) {
 
 bool is_picture(const fs::path& path) {
   std::array<unsigned char, 4> m{};
-  std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(m.data()), m.size());
+  auto file = InputFile::open(path);
+  if (file) (void)file->read(std::as_writable_bytes(std::span(m)));
   const bool png = m[0] == 0x89 && m[1] == 'P' && m[2] == 'N' && m[3] == 'G';
   const bool jpeg = m[0] == 0xFF && m[1] == 0xD8 && m[2] == 0xFF;
   const bool tiff = (m[0] == 'I' && m[1] == 'I' && m[2] == 42 && m[3] == 0) ||
@@ -164,9 +166,11 @@ Result<Sweep> inspect_sweep(const fs::path& path) {
 
 Result<Json> inspect_numbers(const fs::path& path) {
   std::array<std::byte, camera::kMaxNpyHeaderBytes> start{};
-  std::ifstream file(path, std::ios::binary);
-  file.read(reinterpret_cast<char*>(start.data()), start.size());
-  const auto array = camera::parse_npy_array(std::span(start).first(static_cast<std::size_t>(file.gcount())));
+  auto file = InputFile::open(path);
+  if (!file) return file.error();
+  const auto read = file->read(start);
+  if (!read) return read.error();
+  const auto array = camera::parse_npy_array(std::span(start).first(*read));
   if (!array) return at(path.string(), array.error());
   std::error_code ignored;
   return Json{{"kind", "array"},

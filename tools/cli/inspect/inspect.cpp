@@ -2,7 +2,6 @@
 #include "tools/cli/inspect/inspect.hpp"
 
 #include <array>
-#include <fstream>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -10,11 +9,13 @@
 #include "drivers/recording/formats/pcd_file.hpp"
 #include "drivers/recording/formats/utc.hpp"
 #include "drivers/recording/recording_reader.hpp"
+#include "drivers/recording/stamp_guard.hpp"
 #include "drivers/thermal/models.hpp"
 #include "drivers/velodyne/models.hpp"
 #include "drivers/velodyne/packet.hpp"
 #include "drivers/velodyne/transport/pcap_source.hpp"
 #include "hal/files/file.hpp"
+#include "hal/files/input_file.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/figures/map_measures.hpp"
 #include "tools/cli/inspect/data_file.hpp"
@@ -30,9 +31,9 @@ namespace fs = std::filesystem;
 using recording::Recording;
 using recording::SourceEntry;
 
-bool is_capture(const fs::path& path) {
+bool is_capture(InputFile& file) {
   std::array<unsigned char, 4> magic{};
-  std::ifstream(path, std::ios::binary).read(reinterpret_cast<char*>(magic.data()), magic.size());
+  (void)file.read(std::as_writable_bytes(std::span(magic)));
   using Magic = std::array<unsigned char, 4>;
   for (const Magic& known :
        {Magic{0xD4, 0xC3, 0xB2, 0xA1}, Magic{0xA1, 0xB2, 0xC3, 0xD4}, Magic{0x4D, 0x3C, 0xB2, 0xA1},
@@ -131,11 +132,14 @@ Result<report::Json> inspect_capture(const InspectOptions& options) {
                  {},
                  "name it with --model: " + velodyne::model_names()};
   recording.sources.push_back(entry);
-  auto capture = velodyne::PcapSource::open(options.path, {});
-  if (!capture) return capture.error();
-  auto json = inspect_stream(options, recording, **capture, {{"kind", "capture"}, {"path", options.path.string()}});
+  auto opened = velodyne::PcapSource::open(options.path, {});
+  if (!opened) return opened.error();
+  const velodyne::PcapSource& capture = **opened;
+  recording::GuardedSource guarded(std::move(*opened), options.path.string(),
+                                   [&capture] { return capture.record_offset(); });
+  auto json = inspect_stream(options, recording, guarded, {{"kind", "capture"}, {"path", options.path.string()}});
   if (!json) return json;
-  const auto& c = (*capture)->counters();
+  const auto& c = capture.counters();
   (*json)["records"] = {{"whole", c.records},
                         {"not_udp", c.foreign},
                         {"malformed", c.malformed},
@@ -252,7 +256,9 @@ Result<report::Json> inspect(const InspectOptions& options) {
   if (fs::is_directory(options.path, error)) return inspect_folder(options);
   if (!fs::exists(options.path, error))
     return Error{Errc::kNotFound, "there is no such file or folder", options.path.string(), {}, {}};
-  if (is_capture(options.path)) return inspect_capture(options);
+  auto input = InputFile::open(options.path);
+  if (!input) return input.error();
+  if (is_capture(*input)) return inspect_capture(options);
   if (is_picture(options.path)) return inspect_picture(options.path);
   if (auto file = recognise_native_file(options.path)) return inspect_native_file(options, std::move(*file));
   const std::string extension = options.path.extension().string();

@@ -8,6 +8,7 @@
 #include "drivers/drive/can/candump.hpp"
 #include "drivers/gpio/line_event.hpp"
 #include "drivers/recording/formats/image_folder.hpp"
+#include "hal/files/input_file.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -21,7 +22,9 @@ bool begins_as(const std::string& line, std::string_view header) {
 /// The first line that is no comment, cut to what any of these files may have in one. A list's header is no comment.
 std::string first_line(const fs::path& path) {
   constexpr int kLooked = 64;
-  std::ifstream file(path);
+  auto opened = open_input_stream(path);
+  if (!opened) return {};
+  std::ifstream file = std::move(*opened);
   std::array<char, drive::kMaxCandumpLine> line{};
   for (int i = 0; i < kLooked && file; ++i) {
     file.getline(line.data(), static_cast<std::streamsize>(line.size()));

@@ -6,7 +6,6 @@
 #include <CLI/CLI.hpp>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -17,6 +16,7 @@
 
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "hal/files/file.hpp"
+#include "hal/files/input_file.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/figures/map_measures.hpp"
 #include "onboard/report/figures/trajectory_error.hpp"
@@ -47,7 +47,8 @@ int wrong(const std::string& message) {
 /// The content decides, not the name; load_map() has verified the checksums of such a file.
 bool has_checksums(const fs::path& path) {
   std::array<char, 64> head{};
-  std::ifstream(path, std::ios::binary).read(head.data(), head.size());
+  auto file = InputFile::open(path);
+  if (file) (void)file->read(std::as_writable_bytes(std::span(head)));
   return mapping::is_cairn(std::as_bytes(std::span(head)));
 }
 

@@ -38,6 +38,10 @@ report::Json to_json(const ImportArguments& options, const ImportReport& r) {
                     {"damaged", r.damaged},
                     {"damage", report::Json::array()}};
   for (const Error& e : r.damage) json["damage"].push_back(to_string(e));
+  const auto& absurd = r.absurd_stamps;
+  json["absurd_stamps"] = {{"count", absurd.count},
+                           {"first_offset", absurd.first_offset ? report::Json(*absurd.first_offset) : nullptr},
+                           {"note", r.absurd_stamps_note ? report::Json(to_string(*r.absurd_stamps_note)) : nullptr}};
   return json;
 }
 
@@ -50,6 +54,7 @@ void print_report(const ImportArguments& options, const ImportReport& r) {
   if (r.rejected_points > 0) std::cout << ", " << r.rejected_points << " points that are none left out";
   std::cout << '\n';
   for (const Error& e : r.damage) std::cerr << "cairn: left out: " << to_string(e) << '\n';
+  if (r.absurd_stamps_note) std::cerr << "cairn: note: " << to_string(*r.absurd_stamps_note) << '\n';
   if (r.damaged > r.damage.size()) std::cerr << "cairn: left out: " << r.damaged - r.damage.size() << " more\n";
 }
 

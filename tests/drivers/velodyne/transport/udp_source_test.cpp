@@ -126,8 +126,47 @@ TEST_F(UdpSourceTest, OtherSendersAreIgnored) {
   sensor.send(source->data_port(), test::Bytes(1206, std::byte{9}));
   ASSERT_EQ(next(), Poll::kPacket);
   EXPECT_EQ(packet.bytes[0], std::byte{9});
-  for (int i = 0; i < kMoments && source->counters().foreign < 10; ++i) EXPECT_EQ(next(kMoment), Poll::kTimeout);
-  EXPECT_EQ(source->counters().foreign, 10U);
+  for (int i = 0; i < kMoments && source->counters().filtered < 10; ++i) EXPECT_EQ(next(kMoment), Poll::kTimeout);
+  EXPECT_EQ(source->counters().filtered, 10U) << "the kernel drops them";
+  EXPECT_EQ(source->counters().foreign + source->counters().kernel_drops, 0U);
+}
+
+/// Packets of a VLP-16.
+class SensorPackets {
+ public:
+  test::Bytes next() {
+    sensor_.next(packet_);
+    return packet_.bytes;
+  }
+
+ private:
+  test::Sensor sensor_;
+  Packet packet_;
+};
+
+TEST_F(UdpSourceTest, TheFirstSenderOfValidPacketsIsHeardAlone) {
+  Config config = loopback();
+  config.receive_buffer_bytes = 65536;
+  open(config);
+  SensorPackets packets;
+  for (int i = 0; i < SenderLearner::kEnough; ++i) {
+    const Sender stranger("127.0.0.2");
+    stranger.send(source->data_port(), test::Bytes(1206));
+    sender.send(source->data_port(), packets.next());
+    for (int k = 0; k < 2; ++k) ASSERT_EQ(next(), Poll::kPacket) << "nobody is known yet";
+  }
+  ASSERT_EQ(source->sender(), std::uint32_t{INADDR_LOOPBACK});
+  // More than the buffer holds, before the sensor's packet: it is not pushed out.
+  constexpr std::uint64_t kFlood = 2000;
+  const Sender stranger("127.0.0.2");
+  for (std::uint64_t i = 0; i < kFlood; ++i) stranger.send(source->data_port(), test::Bytes(1206));
+  const test::Bytes wanted = packets.next();
+  sender.send(source->data_port(), wanted);
+  ASSERT_EQ(next(), Poll::kPacket);
+  EXPECT_EQ(packet.bytes, wanted);
+  for (int i = 0; i < kMoments && source->counters().filtered < kFlood; ++i) EXPECT_EQ(next(kMoment), Poll::kTimeout);
+  EXPECT_EQ(source->counters().filtered, kFlood);
+  EXPECT_EQ(source->counters().kernel_drops, 0U);
 }
 
 TEST_F(UdpSourceTest, FloodIsDroppedAndCannotHoldTheCaller) {
