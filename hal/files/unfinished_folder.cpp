@@ -88,7 +88,7 @@ Result<void> keep_input(const fs::path& input, const fs::path& output) {
                "the output would replace its own input",
                output.string(),
                {},
-               "name a folder outside " + input.string()};
+               "name another, outside " + input.string()};
 }
 
 Result<UnfinishedFolder> UnfinishedFolder::beside(const fs::path& target) {

@@ -10,7 +10,8 @@ namespace cairn {
 /// Whether `inner` is `outer` or lies somewhere in it, by whatever names: links and mounts are followed. Neither needs
 /// to exist.
 [[nodiscard]] bool lies_in(const std::filesystem::path& inner, const std::filesystem::path& outer);
-/// Error kInvalidConfig: writing to `output` would destroy `input`, because one is the other or lies in it.
+/// Error kInvalidConfig: writing to `output` would destroy `input`, because one is the other or lies in it. Both may be
+/// files or folders.
 [[nodiscard]] Result<void> keep_input(const std::filesystem::path& input, const std::filesystem::path& output);
 
 /// A folder that appears whole or not at all. It is written under another name and takes its place at the end. If its

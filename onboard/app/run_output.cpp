@@ -201,7 +201,7 @@ void remove_stale(const fs::path& out, const std::set<fs::path>& fresh) {
   if (fs::exists(out / recording::kIndexFile, ignored)) return;  // a recording's schedule.log is its own
   for (const fs::path& name : names_in(out)) {
     const bool not_in_every_run = name == kFailedRun || name == "schedule.log" || name == "team.cairn" ||
-                                  name == "team.tum" || name.string().starts_with(kEpochMap);
+                                  name == "team.ot" || name == "team.tum" || name.string().starts_with(kEpochMap);
     if (not_in_every_run && !fresh.contains(name)) fs::remove_all(out / name, ignored);
   }
 }

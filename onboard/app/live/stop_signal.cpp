@@ -19,16 +19,18 @@ constexpr Duration kOneWish = std::chrono::seconds(1);
 
 std::atomic<bool> requested{false};
 static_assert(std::atomic<bool>::is_always_lock_free, "a handler may use nothing else");
-Time requested_at;  // only the handler uses it
+std::atomic<Time::rep> requested_at{0};  // only the handler uses it, on any thread
+static_assert(std::atomic<Time::rep>::is_always_lock_free, "a handler may use nothing else");
 
 /// Makes nothing but system calls, as a handler must.
 void request(int /*number*/) {
   const int error = errno;
-  const Time now = LiveClock().now();
+  const Time::rep now = LiveClock().now().time_since_epoch().count();
   if (!requested.exchange(true)) {
     requested_at = now;
-  } else if (now - requested_at >= kOneWish) {
-    constexpr std::string_view kHint = "\ncairn: is ending and writes its results; Ctrl-\\ kills it and loses them\n";
+  } else if (now - requested_at >= kOneWish.count()) {
+    constexpr std::string_view kHint =
+        "\ncairn: is coming to its end; Ctrl-\\ kills it at once, and its results are lost\n";
     (void)!::write(STDERR_FILENO, kHint.data(), kHint.size());
   }
   errno = error;

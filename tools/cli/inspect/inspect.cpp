@@ -16,6 +16,7 @@
 #include "drivers/velodyne/transport/pcap_source.hpp"
 #include "hal/files/file.hpp"
 #include "hal/files/input_file.hpp"
+#include "hal/files/unfinished_folder.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/figures/map_measures.hpp"
 #include "tools/cli/inspect/data_file.hpp"
@@ -253,7 +254,10 @@ Result<report::Json> inspect_trajectory(const fs::path& path) {
 
 Result<report::Json> inspect(const InspectOptions& options) {
   std::error_code error;
-  if (fs::is_directory(options.path, error)) return inspect_folder(options);
+  const bool folder = fs::is_directory(options.path, error);
+  if (!options.out.empty() && (!folder || fs::exists(options.out, error)))  // a new file in the folder harms nothing
+    if (const auto kept = keep_input(options.path, options.out); !kept) return kept.error();
+  if (folder) return inspect_folder(options);
   if (!fs::exists(options.path, error))
     return Error{Errc::kNotFound, "there is no such file or folder", options.path.string(), {}, {}};
   auto input = InputFile::open(options.path);

@@ -17,6 +17,7 @@
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "hal/files/file.hpp"
 #include "hal/files/input_file.hpp"
+#include "hal/files/unfinished_folder.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/figures/map_measures.hpp"
 #include "onboard/report/figures/trajectory_error.hpp"
@@ -154,6 +155,7 @@ int render(const Options& options) {
   if (!view) return wrong("--view " + options.view + ": choose top, side or front");
   if (options.out.extension() != ".png")
     return wrong("--out " + options.out.string() + ": the picture is a PNG, so the name must end in .png");
+  if (const auto kept = keep_input(options.file, options.out); !kept) return app::fail(kept.error());
   const auto map = mapping::load_map(options.file);
   if (!map) return app::fail(at(options.file.string(), map.error()));
   const auto picture = report::look_at(**map, {*view, options.height_min_m, options.height_max_m});
@@ -179,6 +181,7 @@ int render(const Options& options) {
 
 int export_map(const Options& options) {
   if (const auto named = check_map_name(options.out); !named) return app::fail(named.error());
+  if (const auto kept = keep_input(options.file, options.out); !kept) return app::fail(kept.error());
   const auto map = mapping::load_map(options.file);
   if (!map) return app::fail(at(options.file.string(), map.error()));
   if (const auto saved = save_map(**map, options.out); !saved) return app::fail(saved.error());

@@ -15,6 +15,7 @@
 
 #include "fusion/merging/merge.hpp"
 #include "hal/clock.hpp"
+#include "hal/files/unfinished_folder.hpp"
 #include "onboard/app/cli/working_line.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/figures/map_measures.hpp"
@@ -82,6 +83,8 @@ int run(const Options& options) {
   if (const auto named = check_map_name(options.out); !named) return app::fail(named.error());
   const auto T_a_b = pose_from_option("--pose", options.pose);
   if (!T_a_b) return app::fail(T_a_b.error());
+  for (const auto& input : {options.a, options.b})
+    if (const auto kept = keep_input(input, options.out); !kept) return app::fail(kept.error());
   auto a = mapping::load_map(options.a), b = mapping::load_map(options.b);
   if (!a) return app::fail(at(options.a.string(), a.error()));
   if (!b) return app::fail(at(options.b.string(), b.error()));

@@ -116,6 +116,16 @@ TEST(InspectCommand, OneScanAsPcd) {
   EXPECT_EQ(inspect({folder / "s.pcd", "--json"}).json()["points"], 3);
 }
 
+TEST(InspectCommand, AScanReplacesNothingOfWhatItIsFrom) {
+  const TemporaryFolder folder;
+  write_sweeps(folder / "r");
+  const Outcome o = inspect({folder / "r", "--out", folder / "r/data.csv"});
+  EXPECT_EQ(o.exit_code, app::kWrongArguments);
+  EXPECT_THAT(o.err, HasSubstr("would replace its own input"));
+  EXPECT_EQ(inspect({folder / "r", "--out", folder / "r/scan.pcd"}).exit_code, app::kDone);
+  EXPECT_EQ(inspect({folder / "r/scan.pcd", "--out", folder / "r/scan.pcd"}).exit_code, app::kWrongArguments);
+}
+
 TEST(InspectCommand, MapsAndTrajectories) {
   const TemporaryFolder folder;
   mapping::SemanticOcTree map(0.1);

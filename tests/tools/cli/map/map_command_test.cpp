@@ -112,6 +112,14 @@ TEST(MapCommand, RenderWritesAPngOfTheSizeItTells) {
   }
 }
 
+TEST(MapCommand, AnInputIsNotReplaced) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(mapping::save_cairn(*small_map(), folder / "a.cairn"));
+  for (const char* what : {"export", "render"})
+    EXPECT_EQ(map({what, folder / "a.cairn", "--out", folder / "a.cairn"}).exit_code, app::kWrongArguments) << what;
+  EXPECT_TRUE(mapping::load_map(folder / "a.cairn"));
+}
+
 TEST(MapCommand, ExportReadsBackTheSame) {
   const TemporaryFolder folder;
   ASSERT_TRUE(mapping::save_cairn(*small_map(), folder / "a.cairn"));

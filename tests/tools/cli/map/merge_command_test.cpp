@@ -83,6 +83,15 @@ TEST_F(MergeCommand, AMapWithItselfIsItselfForEveryPolicy) {
   }
 }
 
+TEST_F(MergeCommand, AnInputIsNotReplaced) {
+  std::filesystem::create_symlink(folder / "b.cairn", folder / "link.cairn");
+  for (const char* out : {"a.cairn", "b.cairn", "link.cairn"}) {
+    const Outcome o = merge({folder / "a.cairn", folder / "b.cairn", pose, "--out", folder / out});
+    EXPECT_EQ(o.exit_code, app::kWrongArguments) << out;
+    EXPECT_NE(o.err.find("would replace its own input"), std::string::npos);
+  }
+}
+
 TEST_F(MergeCommand, FaultsExitAsPromised) {
   const std::string a = folder / "a.cairn", b = folder / "b.cairn", out = folder / "c.cairn";
   EXPECT_EQ(merge({a, folder / "none.ot", pose, "--out", out}).exit_code, app::kFailed);
