@@ -18,8 +18,8 @@ using peers::RobotId;
 using std::chrono::milliseconds;
 using std::chrono::seconds;
 
-constexpr double kEndless = 1e9;       // metres of a submap
-constexpr int kLate = 10;  // scans: the last ones
+constexpr double kEndless = 1e9;  // metres of a submap
+constexpr int kLate = 10;         // scans: the last ones
 
 /// What one robot has said, where the team puts it.
 merging::TeamMap share_of(RobotId robot, const Team& team) {
