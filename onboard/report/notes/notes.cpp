@@ -23,7 +23,8 @@ std::vector<Note> notes_of(const RunReport& report) {
   note_team(list, report);
   if (report.monitor != nullptr && report.monitor->dropped_events() > 0)
     list.warning(fmt::format("{} kinds of events did not fit into the list.", report.monitor->dropped_events()), {});
-  std::ranges::stable_partition(list.notes, [](const Note& note) { return note.severity == Severity::kError; });
+  std::stable_partition(list.notes.begin(), list.notes.end(),
+                        [](const Note& note) { return note.severity == Severity::kError; });
   return std::move(list.notes);
 }
 
