@@ -40,13 +40,13 @@ void remove_files(const fs::path& old, const SourceEntry& source) {
     if (lies_in(file.parent_path(), old)) fs::remove(file, ignored);
 }
 
-/// Removes folders that hold nothing. True: `folder` is gone.
-bool prune(const fs::path& folder) {
+/// Removes `folder` and the folders in it, where they hold nothing.
+void prune(const fs::path& folder) {
   std::error_code error;
-  bool empty = true;
-  for (const auto& entry : fs::directory_iterator(folder, error))
-    empty = !entry.is_symlink(error) && entry.is_directory(error) && prune(entry.path()) && empty;
-  return empty && fs::remove(folder, error);
+  std::vector<fs::path> folders{folder};
+  for (const auto& entry : fs::recursive_directory_iterator(folder, error))
+    if (!entry.is_symlink(error) && entry.is_directory(error)) folders.push_back(entry.path());
+  for (; !folders.empty(); folders.pop_back()) fs::remove(folders.back(), error);  // fails if it holds anything
 }
 
 }  // namespace
@@ -93,7 +93,7 @@ void NewRecording::keep_what_is_not_the_recordings() {
   std::error_code error;
   for (const SourceEntry& source : sources_of(old)) remove_files(old, source);
   for (const char* name : kOwnNames) fs::remove_all(old / name, error);
-  (void)prune(old);
+  prune(old);
   std::vector<fs::path> rest;
   for (const auto& entry : fs::directory_iterator(old, error)) rest.push_back(entry.path().filename());
   for (const fs::path& name : rest)
