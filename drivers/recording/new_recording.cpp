@@ -44,7 +44,8 @@ void remove_files(const fs::path& old, const SourceEntry& source) {
 void prune(const fs::path& folder) {
   std::error_code error;
   std::vector<fs::path> folders{folder};
-  for (const auto& entry : fs::recursive_directory_iterator(folder, error))
+  for (const auto& entry :
+       fs::recursive_directory_iterator(folder, fs::directory_options::skip_permission_denied, error))
     if (!entry.is_symlink(error) && entry.is_directory(error)) folders.push_back(entry.path());
   for (; !folders.empty(); folders.pop_back()) fs::remove(folders.back(), error);  // fails if it holds anything
 }

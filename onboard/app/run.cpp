@@ -69,17 +69,24 @@ PreviousRun find_previous_run(StateFolder& state, const RobotProfile& profile, T
   return previous;
 }
 
+/// The profile for these options, if they fit together.
+Result<ChosenProfile> checked_profile(const RunOptions& options) {
+  if (const auto fits = check(options); !fits) return fits.error();
+  auto chosen = choose_profile(options.config, options.recording);
+  if (!chosen) return chosen.error();
+  if (options.threads) chosen->profile.threads = *options.threads;
+  if (options.live())
+    if (const auto fits = check_schedule(chosen->profile); !fits) return fits.error();
+  return chosen;
+}
+
 }  // namespace
 
 Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
-  if (const auto fits = check(options); !fits) return fits.error();
-  auto chosen = choose_profile(options.config, options.recording);  // every fault at once, or valid
+  auto chosen = checked_profile(options);  // every fault at once, or valid
   if (!chosen) return chosen.error();
   RobotProfile* const profile = &chosen->profile;
-  if (options.threads) profile->threads = *options.threads;
   const bool live = options.live();
-  if (live)
-    if (const auto fits = check_schedule(*profile); !fits) return fits.error();
   auto results = prepare_output(options.out);
   if (!results) return results.error();
   auto result = std::make_unique<RunResult>();
