@@ -53,8 +53,8 @@ class SecondLook {
  private:
   void choose(const Selection& scan, const SE3& T_odom_base);
 
-  [[nodiscard]] MotionState refined(const MotionState& place, const Selection& upright, const PatchMap& map,
-                                    double dt_s, Registration& registration) const;
+  [[nodiscard]] MotionState refined(const MotionState& place, const PatchMap& map, double dt_s,
+                                    Registration& registration);
 
   SecondLookConfig config_;
   double narrowest_gate_m_;
@@ -62,7 +62,13 @@ class SecondLook {
   UprightPoints upright_;
   CoarseSearch search_;
   double usual_share_ = 1;
-  std::vector<Keypoint> telling_, few_;
+  double duration_s_ = 0;                        // of the scan
+  std::vector<Keypoint> telling_, third_, few_;  // of its keypoints
+  struct Counted {
+    MotionState state;
+    int fits = 0;
+  };
+  std::vector<Counted> between_;
 };
 
 }  // namespace cairn::odometry
