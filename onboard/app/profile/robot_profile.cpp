@@ -76,6 +76,8 @@ Result<RobotProfile> load_profile(const std::filesystem::path& path, RobotProfil
   return profile;
 }
 
+Result<RobotProfile> load_profile(const std::filesystem::path& path) { return load_profile(path, RobotProfile()); }
+
 std::string to_yaml(RobotProfile profile) {
   config::Section section;
   declare(section, profile);

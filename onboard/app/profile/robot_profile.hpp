@@ -41,7 +41,9 @@ struct RobotProfile {
 void declare(config::Section& section, RobotProfile& profile);
 
 /// `defaults` where `path` is empty; otherwise the file over them, with every fault reported at once.
-Result<RobotProfile> load_profile(const std::filesystem::path& path, RobotProfile defaults = {});
+Result<RobotProfile> load_profile(const std::filesystem::path& path, RobotProfile defaults);
+/// The same over the program's own defaults.
+Result<RobotProfile> load_profile(const std::filesystem::path& path);
 /// The effective values as YAML, as they are kept with every run.
 [[nodiscard]] std::string to_yaml(RobotProfile profile);
 
