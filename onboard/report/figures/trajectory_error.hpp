@@ -24,10 +24,10 @@ enum class Alignment {
 [[nodiscard]] std::optional<Alignment> alignment_from(std::string_view name);
 [[nodiscard]] std::string_view to_string(Alignment alignment);
 
-/// How a trajectory is compared with the ground truth.
 /// Good odometry drifts by less than half a percent of the distance. An error above this share of it is large.
 inline constexpr double kLargeError_percent = 2;
 
+/// How a trajectory is compared with the ground truth.
 struct TrajectoryErrorOptions {
   Alignment alignment = Alignment::kSe3;
   /// The ground truth is interpolated (position linearly, rotation along the shortest arc) between two neighbours that
