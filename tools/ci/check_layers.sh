@@ -63,7 +63,7 @@ for driver in drivers/*/; do
   name=$(basename "$driver")
   others=$(printf '%s\n' drivers/*/ | xargs -n 1 basename | grep -vx -e "$name" | paste -sd '|')
   case $name in
-    recording) others=${others//velodyne/-} others=${others//camera/-} others=${others//drive/-} others=${others//gpio/-} others=${others//peers/-} ;;  # their native files
+    recording) others=${others//velodyne/-} others=${others//camera/-} others=${others//drive/-} others=${others//gpio/-} others=${others//peers/-} others=${others//clients/-} ;;  # their native files
     thermal | depth) others=${others//camera/-} ;;                         # their frames come from drivers/camera
   esac
   mapfile -t own < <(code "$driver")
@@ -72,7 +72,7 @@ for driver in drivers/*/; do
 done
 deny "decoding is pure: it never knows its transport" "decode a std::span; the transport calls the decoder" \
   "$(inc '(drivers/[a-z_/]+/(udp|pcap|v4l2|socketcan|libgpiod)_?|sys/socket|pcap|gpiod)')" \
-  '/(udp|pcap|v4l2|socketcan|libgpiod|import|record)[a-z0-9_]*\.|^drivers/recording/|^drivers/peers/(domain_claim|local_link|peer_process)\.' "${drivers[@]}"
+  '/(udp|pcap|v4l2|socketcan|libgpiod|import|record)[a-z0-9_]*\.|^drivers/recording/|^drivers/peers/(domain_claim|local_link|peer_process)\.|^drivers/clients/sockets/' "${drivers[@]}"
 
 # Folders
 readonly max_files=30
@@ -98,7 +98,7 @@ deny "only hal/workers and onboard/scheduler/threads start threads" \
   '^hal/workers\.[ch]pp$|^onboard/scheduler/threads\.[ch]pp$' "${all[@]}"
 # Local sockets alone (AF_UNIX): the service manager's and the live view's, which housekeeping serves and no real-time
 # thread. Whatever comes from another machine enters by a driver.
-readonly local_sockets='onboard/app/live/(sd_notify|live_server)\.cpp|tools/cli/top/live_client\.cpp|tests/support/local_socket\.hpp|drivers/peers/(domain_claim|local_link)\.cpp'
+readonly local_sockets='onboard/app/live/(sd_notify|live_server)\.cpp|tools/cli/top/live_client\.cpp|tests/support/local_socket\.hpp|drivers/peers/(domain_claim|local_link)\.cpp|drivers/clients/sockets/local_[a-z]+\.[ch]pp'
 # Networks that end on this machine: those of the robots of `cairn team`.
 readonly emulated_networks='tools/team/network/tun_device\.cpp'
 deny "sockets belong to drivers" "put it into drivers/*/udp_* or socketcan_*, behind a Source" \
