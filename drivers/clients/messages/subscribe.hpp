@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+
+#include "drivers/clients/messages/record.hpp"
+
+namespace cairn::clients {
+
+/// What robot.sock has to offer. One bit each.
+enum class Stream : std::uint32_t {
+  kPose = 1,
+  kState = 2,
+  kOwnTiles = 4,
+  kTeamTiles = 8,
+  kScan = 16,
+  kEvents = 32,
+};
+inline constexpr std::uint32_t kAllStreams = 63;
+
+/// What a client of robot.sock wants from now on. A second one replaces the first.
+struct SubscribeMessage {
+  static constexpr RecordKind kKind = RecordKind::kSubscribe;
+  static constexpr double kMaxPose_hz = 200;
+
+  std::uint32_t streams = 0;  ///< bits of Stream
+  double pose_hz = 0;         ///< 0: the pose of each scan; otherwise predictions, too, so often a second
+  double scan_hz = 0;         ///< 0: all scans; otherwise at most so many a second
+  /// What the client has of a map already. It gets what is newer, or everything if the core knows no such session.
+  struct Resume {
+    std::uint64_t session = 0;
+    std::uint32_t epoch = 0;
+    std::uint64_t version = 0;
+    friend bool operator==(const Resume&, const Resume&) = default;
+  };
+  Resume own, team;
+
+  [[nodiscard]] bool wants(Stream stream) const { return (streams & static_cast<std::uint32_t>(stream)) != 0; }
+  void add(Stream stream) { streams |= static_cast<std::uint32_t>(stream); }
+};
+
+/// Appends the body. It is: streams (4), zeros (4), both rates (8 each); then for the own and for the team's map
+/// session (8), version (8), epoch (4), zeros (4).
+void encode(const SubscribeMessage& message, std::vector<std::byte>& out);
+/// Error kMalformed: also for a stream that does not exist, or a rate that is too high.
+[[nodiscard]] Result<SubscribeMessage> decode_subscribe(std::span<const std::byte> body);
+
+}  // namespace cairn::clients
