@@ -4,7 +4,9 @@
 namespace cairn::gpio {
 
 void declare(config::Section& s, Config& c) {
-  s.text("chip", c.chip, "name, path, number or label of the GPIO chip; gpiodetect shows which there are");
+  s.text("chip", c.chip,
+         "name, path, number or label of the GPIO chip; gpiodetect shows which there are; or file:FOLDER, whose files "
+         "are the lines");
   s.text("estop_line", c.estop_line, "input of the e-stop's normally-closed contact; empty: none");
   s.flag("estop_active_low", c.estop_active_low, "the closed contact ties the line to ground");
   s.choice("estop_bias", c.estop_bias, {"as-is", "disabled", "pull-up", "pull-down"},

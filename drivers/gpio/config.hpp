@@ -10,7 +10,7 @@ namespace cairn::gpio {
 /// The lines of one GPIO chip that the robot uses. Section `gpio` of the profile. A line is given by its name or by its
 /// number on the chip. Empty: there is none.
 struct Config {
-  std::string chip = "gpiochip0";    ///< name, path, number or label of the chip
+  std::string chip = "gpiochip0";    ///< name, path, number or label of the chip; or file:FOLDER (FileLines)
   std::string estop_line;            ///< input of the e-stop's normally closed contact
   bool estop_active_low = false;     ///< the closed contact ties the line to ground, so it reads low
   std::string estop_bias = "as-is";  ///< must pull an open line to the level that means open

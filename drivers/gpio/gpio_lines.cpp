@@ -5,7 +5,17 @@
 #include <cstring>
 #include <string>
 
+#include "drivers/gpio/file_lines.hpp"
+
 namespace cairn::gpio {
+
+Result<std::unique_ptr<GpioLines>> open_lines(const Config& config, SourceId source, const Clock& clock) {
+  if (auto sound = check(config); !sound) return sound.error();
+  if (!is_file_chip(config.chip)) return open_chip_lines(config, source, clock);
+  auto lines = FileLines::open(config, source, clock);
+  if (!lines) return lines.error();
+  return std::unique_ptr<GpioLines>(std::move(*lines));
+}
 
 std::array<LineUse, kLines> uses_of(const Config& c) {
   return {LineUse{Line::kEStop, c.estop_line, false, c.estop_active_low, c.estop_bias},

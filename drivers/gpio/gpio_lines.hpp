@@ -13,9 +13,9 @@
 
 namespace cairn::gpio {
 
-/// The lines of a Config on a real chip, through libgpiod 1 or 2 (libgpiod1_lines.cpp, libgpiod2_lines.cpp). next()
-/// gives the edges of the inputs in the order of their stamps, as far as they are known. Levels are logical: true is
-/// active.
+/// The lines of a Config: on a real chip, through libgpiod 1 or 2 (libgpiod1_lines.cpp, libgpiod2_lines.cpp), or files
+/// (FileLines). next() gives the edges of the inputs in the order of their stamps, as far as they are known. Levels are
+/// logical: true is active.
 class GpioLines : public Source {
  public:
   /// Edges that were read.
@@ -36,6 +36,10 @@ class GpioLines : public Source {
 /// Opens the configured lines for this program alone. `clock` must outlive them. Errors: kInvalidConfig, kNotFound
 /// (chip or line), kIo (another program uses a line, or no permission), each with the remedy.
 [[nodiscard]] Result<std::unique_ptr<GpioLines>> open_lines(const Config& config, SourceId source, const Clock& clock);
+
+/// The same for a chip of the kernel; open_lines() has checked the config.
+[[nodiscard]] Result<std::unique_ptr<GpioLines>> open_chip_lines(const Config& config, SourceId source,
+                                                                 const Clock& clock);
 
 /// How one line is used; for both versions of libgpiod.
 struct LineUse {

@@ -108,8 +108,7 @@ class Libgpiod1Lines final : public GpioLines {
 
 }  // namespace
 
-Result<std::unique_ptr<GpioLines>> open_lines(const Config& config, SourceId source, const Clock& clock) {
-  if (auto sound = check(config); !sound) return sound.error();
+Result<std::unique_ptr<GpioLines>> open_chip_lines(const Config& config, SourceId source, const Clock& clock) {
   Chip chip(gpiod_chip_open_lookup(config.chip.c_str()));
   if (!chip) return line_error("cannot open the GPIO chip", config, {});
   auto made = std::make_unique<Libgpiod1Lines>(config, std::move(chip), source, clock);

@@ -158,8 +158,7 @@ class Libgpiod2Lines final : public GpioLines {
 
 }  // namespace
 
-Result<std::unique_ptr<GpioLines>> open_lines(const Config& config, SourceId source, const Clock& clock) {
-  if (auto sound = check(config); !sound) return sound.error();
+Result<std::unique_ptr<GpioLines>> open_chip_lines(const Config& config, SourceId source, const Clock& clock) {
   Chip chip = open_chip(config.chip);
   if (!chip) return line_error("cannot open the GPIO chip", config, {});
   auto made = std::make_unique<Libgpiod2Lines>(config, std::move(chip), source, clock);

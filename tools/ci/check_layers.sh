@@ -71,8 +71,8 @@ for driver in drivers/*/; do
     "$(inc "drivers/($others)/")" "$none" "${own[@]}"
 done
 deny "decoding is pure: it never knows its transport" "decode a std::span; the transport calls the decoder" \
-  "$(inc '(drivers/[a-z_/]+/(udp|pcap|v4l2|socketcan|libgpiod)_?|sys/socket|pcap|gpiod)')" \
-  '/(udp|pcap|v4l2|socketcan|libgpiod|import|record)[a-z0-9_]*\.|^drivers/recording/|^drivers/peers/(domain_claim|local_link|peer_process)\.|^drivers/clients/sockets/' "${drivers[@]}"
+  "$(inc '(drivers/[a-z_/]+/(udp|pcap|v4l2|socket_link|socketcan|unix_can|libgpiod)_?|sys/socket|pcap|gpiod)')" \
+  '/(udp|pcap|v4l2|socket_link|socketcan|unix_can|libgpiod|import|record)[a-z0-9_]*\.|^drivers/recording/|^drivers/peers/(domain_claim|local_link|peer_process)\.|^drivers/clients/sockets/' "${drivers[@]}"
 
 # Folders
 readonly max_files=30
@@ -99,11 +99,13 @@ deny "only hal/workers and onboard/scheduler/threads start threads" \
 # Local sockets alone (AF_UNIX): the service manager's and the live view's, which housekeeping serves and no real-time
 # thread. Whatever comes from another machine enters by a driver.
 readonly local_sockets='onboard/app/live/(sd_notify|live_server)\.cpp|tools/cli/top/live_client\.cpp|tests/support/local_socket\.hpp|drivers/peers/(domain_claim|local_link)\.cpp|drivers/clients/sockets/local_[a-z]+\.[ch]pp'
+# CAN buses that a program of this machine plays (AF_UNIX), both ends.
+readonly local_buses='drivers/drive/can/(socket_link|unix_can_link)\.cpp|tests/drivers/drive/can/unix_can_link_test\.cpp|tools/simulator/live/can_hub\.cpp'
 # Networks that end on this machine: those of the robots of `cairn team`.
 readonly emulated_networks='tools/team/network/tun_device\.cpp'
 deny "sockets belong to drivers" "put it into drivers/*/udp_* or socketcan_*, behind a Source" \
   "$(inc '(sys/socket|sys/un|netinet/|netdb|net/if|netpacket/|linux/(can|if_|net))')" \
-  "^(drivers|tests/drivers)/[a-z_/]+/(udp|socketcan)_[a-z_]*\\.|^tests/vm/uvc_camera\\.cpp$|^($local_sockets|$emulated_networks)$" "${all[@]}"
+  "^(drivers|tests/drivers)/[a-z_/]+/(udp|socketcan)_[a-z_]*\\.|^tests/vm/uvc_camera\\.cpp$|^($local_sockets|$local_buses|$emulated_networks)$" "${all[@]}"
 deny "only drivers speak to other machines" "put it into drivers/*/udp_*" '\b(AF|PF)_(INET6?|PACKET|CAN)\b' \
   "^(drivers|tests/drivers|tests/vm)/|^($emulated_networks)$" "${all[@]}"
 deny "devices belong to drivers" "put it into drivers/, behind a port of hal/ports.hpp" \

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <vector>
 
+#include "drivers/drive/can/bus_name.hpp"
+
 namespace cairn::drive {
 namespace {
 
@@ -44,8 +46,10 @@ void declare_odometry(config::Section& s, Config& c) {
 
 void declare(config::Section& s, Config& c) {
   s.choice("protocol", c.protocol, {"cia402", "agilex"}, "protocol of the motor controllers");
-  s.text("interface", c.interface,
-         "SocketCAN interface, configured and up: ip link set can0 up type can bitrate 500000");
+  s.text(
+      "interface", c.interface,
+      "SocketCAN interface, configured and up: ip link set can0 up type can bitrate 500000; or unix:PATH, a bus that "
+      "a program of this machine plays");
   s.number("wheel_separation_m", c.wheel_separation_m, {0, 5}, "m",
            "effective distance of left and right wheels; for skid steering wider than they stand; needed to enable");
   s.number("wheel_radius_m", c.wheel_radius_m, {0, 2}, "m", "needed to enable a CiA 402 drive");
@@ -62,8 +66,7 @@ Result<void> check(const Config& c) {
   std::string faults;
   const auto fault = [&](const std::string& text) { faults += (faults.empty() ? "" : "\n") + text; };
   if (c.protocol != "cia402" && c.protocol != "agilex") fault("protocol: there are cia402 and agilex");
-  if (c.interface.empty() || c.interface.size() > 15 || c.interface.find('/') != std::string::npos)
-    fault("interface: \"" + c.interface + "\" cannot be the name of an interface");
+  if (!is_bus_name(c.interface)) fault("interface: \"" + c.interface + "\" cannot be the name of an interface");
   std::vector<int> nodes{c.host_node, c.left_node, c.right_node};
   for (const int node : {c.rear_left_node, c.rear_right_node})
     if (node != 0) nodes.push_back(node);

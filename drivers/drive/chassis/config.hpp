@@ -10,7 +10,7 @@ namespace cairn::drive {
 /// A drive on a CAN bus: how it is reached, its geometry and scales, and its limits. Section `drive` of the profile.
 struct Config {
   std::string protocol = "cia402";  ///< cia402 or agilex
-  std::string interface = "can0";   ///< SocketCAN interface, configured and up
+  std::string interface = "can0";   ///< SocketCAN interface, configured and up; or unix:PATH (UnixCanLink)
 
   double wheel_separation_m = 0;  ///< effective distance of left and right wheels; larger than real for skid steering
   double wheel_radius_m = 0;      ///< 0: not known, and a CiA 402 drive cannot be enabled

@@ -6,7 +6,7 @@
 #include <array>
 
 #include "drivers/camera/v4l2_source.hpp"
-#include "drivers/drive/can/socketcan_link.hpp"
+#include "drivers/drive/can/socket_link.hpp"
 #include "drivers/gpio/gpio_lines.hpp"
 #include "drivers/velodyne/transport/udp_source.hpp"
 
@@ -76,9 +76,9 @@ Result<Device> open_camera(const camera::CaptureConfig& capture, const SourceEnt
 }
 
 Result<Device> open_can(const DriveProfile& drive, const SourceEntry& entry, SourceId id, const Clock& clock) {
-  auto link = drive::SocketCanLink::open(drive.driver.interface, id, clock);
+  auto link = drive::open_link(drive.driver.interface, id, clock);
   if (!link) return link.error();
-  return device_of(entry.id, std::move(*link), [](const drive::SocketCanLink::Counters& c) {
+  return device_of(entry.id, std::move(*link), [](const drive::SocketLink::Counters& c) {
     return Losses{{"kernel_drops", c.kernel_drops}, {"unstamped", c.unstamped}, {"reopened", c.reopened}};
   });
 }

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "drivers/gpio/file_lines.hpp"
+
+#include <fcntl.h>
+#include <poll.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+
+namespace cairn::gpio {
+namespace {
+
+Error file_error(std::string_view cause, const std::string& path) {
+  const int why = errno;
+  const bool missing = why == ENOENT || why == ENOTDIR;
+  std::string detail = std::strerror(why);
+  if (missing) detail += "; start the program that plays the robot first: cairn simulate --live";
+  return {missing ? Errc::kNotFound : Errc::kIo, cause, path, {}, std::move(detail)};
+}
+
+/// The level in the file. O_NONBLOCK: what is no plain file must not hold the caller.
+Result<bool> read_level(const std::string& path) {
+  const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
+  if (fd < 0) return file_error("cannot read the GPIO line", path);
+  char text = 0;
+  const ssize_t size = ::read(fd, &text, 1);
+  if (size < 0) {
+    const Error error = file_error("cannot read the GPIO line", path);
+    ::close(fd);
+    return error;
+  }
+  ::close(fd);
+  if (size == 1 && (text == '0' || text == '1')) return text == '1';
+  return Error{Errc::kMalformed, "a GPIO line's file holds 0 or 1", path, {}, {}};
+}
+
+void wait(Duration time) {
+  const timespec limit{0, time.count()};
+  ppoll(nullptr, 0, &limit, nullptr);
+}
+
+}  // namespace
+
+FileLines::FileLines(const Config& config, SourceId source, const Clock& clock) : source_(source), clock_(clock) {
+  const std::filesystem::path folder = config.chip.substr(kFileChip.size());
+  for (const LineUse& use : uses_of(config))
+    if (!use.name.empty())
+      files_.at(static_cast<std::size_t>(use.line)) = {
+          .path = (folder / use.name).string(), .output = use.output, .active_low = use.active_low, .level = {}};
+}
+
+Result<std::unique_ptr<FileLines>> FileLines::open(const Config& config, SourceId source, const Clock& clock) {
+  if (!is_file_chip(config.chip) || config.chip.size() == kFileChip.size())
+    return Error{Errc::kInvalidConfig, "no folder of GPIO lines", config.chip, {}, "file:FOLDER is expected"};
+  std::unique_ptr<FileLines> made(new FileLines(config, source, clock));
+  for (std::size_t i = 0; i < kLines; ++i) {
+    File& file = made->files_.at(i);
+    if (file.path.empty()) continue;
+    if (file.output) {
+      if (auto low = made->set(static_cast<Line>(i), false); !low) return low.error();
+      continue;
+    }
+    const auto level = made->level(static_cast<Line>(i));
+    if (!level) return level.error();
+    file.level = *level;
+  }
+  return made;
+}
+
+Result<Poll> FileLines::next(Packet& packet, Duration timeout) {
+  for (Duration left = timeout; !look(packet); left -= kGlance) {
+    if (left <= Duration::zero()) return Poll::kTimeout;
+    wait(std::min(left, kGlance));
+  }
+  return Poll::kPacket;
+}
+
+bool FileLines::look(Packet& packet) {
+  for (std::size_t i = 0; i < kLines; ++i) {
+    File& file = files_.at(i);
+    if (file.path.empty() || file.output) continue;
+    const auto level = this->level(static_cast<Line>(i));
+    if (!level || *level == file.level) continue;  // level() tells of a line that is lost
+    file.level = *level;
+    encode_event({.line = static_cast<Line>(i), .level = *level, .sampled = false, .sequence = 0}, packet);
+    packet.source = source_;
+    packet.sequence = counters_.events++;
+    packet.arrival = clock_.now();
+    packet.truncated = false;
+    return true;
+  }
+  return false;
+}
+
+Result<bool> FileLines::level(Line line) {
+  const File& file = files_.at(static_cast<std::size_t>(line));
+  if (file.path.empty())
+    return Error{Errc::kNotFound, "the GPIO line is not configured", std::string(name_of(line)), {}, {}};
+  const auto high = read_level(file.path);
+  if (!high) return high.error();
+  return *high != file.active_low;
+}
+
+Result<void> FileLines::set(Line line, bool level) {
+  const File& file = files_.at(static_cast<std::size_t>(line));
+  if (file.path.empty())
+    return Error{Errc::kNotFound, "the GPIO line is not configured", std::string(name_of(line)), {}, {}};
+  const int fd = ::open(file.path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0644);
+  if (fd < 0) return file_error("cannot set the GPIO line", file.path);
+  const char text = level != file.active_low ? '1' : '0';
+  const bool written = ::write(fd, &text, 1) == 1;
+  Error error = file_error("cannot set the GPIO line", file.path);
+  ::close(fd);
+  if (!written) return error;
+  return {};
+}
+
+}  // namespace cairn::gpio
