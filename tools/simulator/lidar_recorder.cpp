@@ -6,8 +6,7 @@
 namespace cairn::simulator {
 namespace {
 
-constexpr std::size_t kBatch = 512;           // packets that are traced at a time
-constexpr std::uint64_t kPositionEvery = 14;  // data packets per position packet, as a real sensor sends them
+constexpr std::size_t kBatch = 512;  // packets that are traced at a time
 
 /// Traces the packets in batches and writes them in the order of their arrival.
 class LidarRecorder {
@@ -38,7 +37,7 @@ class LidarRecorder {
 
  private:
   Result<void> write(std::uint64_t n, std::size_t slot) {
-    if (n % kPositionEvery == 0) {
+    if (n % Lidar::kPositionEvery == 0) {
       // Just ahead of the data packet it accompanies.
       const Time at = lidar_.arrival(n) - std::chrono::microseconds(20);
       lidar_.fill_position(at, position_);

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include "onboard/app/live/stop_signal.hpp"
+#include "tools/cli/simulate/live_command.hpp"
 #include "tools/simulator/simulate.hpp"
 
 namespace cairn::cli {
@@ -21,6 +22,7 @@ namespace {
 
 struct Options {
   simulator::SimulationConfig simulation;
+  LiveArguments live;
   std::vector<std::string> sensors;  // by name
   std::string motion = "gentle";
   bool json = false;
@@ -97,6 +99,16 @@ simulator::Sensors sensors(const std::vector<std::string>& names) {
   return s;
 }
 
+/// What both kinds of simulation share.
+int run_live(Options options, bool limited) {
+  simulator::LiveConfig& live = options.live.config;
+  live.scene = options.simulation.scene;
+  live.seed = options.simulation.seed;
+  live.lidar = options.simulation.lidar;
+  if (limited) live.seconds = options.simulation.seconds;
+  return cli::run_live(options.live, options.json);
+}
+
 int run(Options options) {
   if (options.simulation.flies()) make_uav(options.simulation);
   options.simulation.motion = simulator::style_of(simulator::motion_of(options.motion));
@@ -138,11 +150,12 @@ void add_simulate_command(app::Commands& commands) {
   const auto options = std::make_shared<Options>();
   simulator::SimulationConfig& s = options->simulation;
   sub->add_option("--scene", s.scene, "the world")->required()->check(CLI::IsMember(simulator::scene_names()));
-  sub->add_option("--out", s.out, "new folder: gets one recording per robot: robot_1, robot_2, …")->required();
+  sub->add_option("--out", s.out, "new folder: gets one recording per robot: robot_1, robot_2, …");
   sub->add_option("--robots", s.robots, "number of robots")
       ->check(CLI::Range(1, simulator::kMaxRobots))
       ->capture_default_str();
-  sub->add_option("--seconds", s.seconds, "length of the recordings, s")
+  sub->add_option("--seconds", s.seconds,
+                  "length of the recordings, s; a live simulation without it goes on until Ctrl-C")
       ->check(CLI::Range(0.1, simulator::kMaxSeconds))
       ->capture_default_str();
   sub->add_option("--seed", s.seed, "seed of paths and noise; the same seed gives the same bytes")
@@ -163,7 +176,13 @@ void add_simulate_command(app::Commands& commands) {
       ->capture_default_str();
   add_lidar_options(*sub, s.lidar);
   sub->add_flag("--json", options->json, "one JSON object on stdout");
-  sub->callback([&commands, options] { commands.job = [options] { return run(*options); }; });
+  add_live_options(*sub, options->live);
+  sub->callback([&commands, options, sub] {
+    commands.job = [options, sub] {
+      if (const auto fit = check_live_options(*sub, options->live.live); !fit) return app::fail(fit.error());
+      return options->live.live ? run_live(*options, sub->count("--seconds") > 0) : run(*options);
+    };
+  });
 }
 
 }  // namespace cairn::cli

@@ -49,11 +49,11 @@ std::string rmc_sentence(std::int64_t utc_s) {
 
 }  // namespace
 
-Lidar::Lidar(const velodyne::Model& model, const Tracer& tracer, const Trajectory& trajectory,
-             const LidarConfig& config, std::int64_t start_utc_ns, std::uint64_t seed, const Crowd* people)
+Lidar::Lidar(const velodyne::Model& model, const Tracer& tracer, const Track& track, const LidarConfig& config,
+             std::int64_t start_utc_ns, std::uint64_t seed, const Crowd* people)
     : model_(model),
       tracer_(tracer),
-      trajectory_(trajectory),
+      track_(track),
       config_(config),
       T_base_sensor_(SE3::from_xyz_rpy(config.base_sensor_xyz_rpy)),
       start_utc_ns_(start_utc_ns),
@@ -71,7 +71,7 @@ Lidar::Lidar(const velodyne::Model& model, const Tracer& tracer, const Trajector
 }
 
 Time Lidar::first_firing(std::uint64_t n) const {
-  return trajectory_.start() + model_.packet_span(false) * static_cast<std::int64_t>(n);
+  return track_.start() + model_.packet_span(false) * static_cast<std::int64_t>(n);
 }
 
 Time Lidar::arrival(std::uint64_t n) const {
@@ -80,12 +80,12 @@ Time Lidar::arrival(std::uint64_t n) const {
 }
 
 double Lidar::azimuth(Time t) const {
-  const double turns = config_.rotation_hz * to_seconds(t - trajectory_.start());
+  const double turns = config_.rotation_hz * to_seconds(t - track_.start());
   return first_azimuth_ + 2.0 * kPi * (turns - std::floor(turns));
 }
 
 std::uint32_t Lidar::device_microseconds(Time t) const {
-  const std::int64_t since_ns = (t - trajectory_.start()).count();
+  const std::int64_t since_ns = (t - track_.start()).count();
   const std::int64_t us = config_.pps ? (start_utc_ns_ + since_ns) / 1000 : device_start_us_ + since_ns / 1000;
   return static_cast<std::uint32_t>(us % velodyne::kMicrosecondsPerHour);
 }
@@ -126,7 +126,7 @@ Lidar::Echo Lidar::shoot(Time t, std::size_t channel, std::uint64_t shot) const 
   const double alpha = azimuth(t) - beam.rotation_correction;  // clockwise seen from above, 0 = ahead
   const Eigen::Vector3d direction(beam.cos_elevation * std::cos(alpha), -beam.cos_elevation * std::sin(alpha),
                                   beam.sin_elevation);
-  const SE3 T_world_sensor = trajectory_.T_world_base(t) * T_base_sensor_;
+  const SE3 T_world_sensor = track_.T_world_base(t) * T_base_sensor_;
   const Ray ray{T_world_sensor * Eigen::Vector3d(0, 0, beam.vertical_offset), T_world_sensor.quaternion() * direction};
   auto hit = tracer_.trace(ray, 0.01, config_.max_range_m);
   if (people_ != nullptr) {
@@ -163,7 +163,7 @@ void Lidar::fill_position(Time t, PositionPacket& packet) const {
   const auto state = config_.pps ? velodyne::PpsState::kLocked : velodyne::PpsState::kAbsent;
   store_le(packet, velodyne::kPpsStateOffset, static_cast<std::uint8_t>(state));
   if (!config_.pps) return;
-  const std::int64_t utc_ns = start_utc_ns_ + (t - trajectory_.start()).count();
+  const std::int64_t utc_ns = start_utc_ns_ + (t - track_.start()).count();
   const std::string sentence = rmc_sentence(utc_ns / 1'000'000'000);
   std::memcpy(packet.data() + velodyne::kNmeaOffset, sentence.data(), std::min(sentence.size(), velodyne::kNmeaBytes));
 }

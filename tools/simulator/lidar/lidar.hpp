@@ -9,7 +9,7 @@
 #include "drivers/velodyne/models.hpp"
 #include "hal/se3.hpp"
 #include "hal/time.hpp"
-#include "tools/simulator/motion/trajectory.hpp"
+#include "tools/simulator/motion/track.hpp"
 #include "tools/simulator/people/crowd.hpp"
 #include "tools/simulator/world/tracer.hpp"
 
@@ -34,13 +34,16 @@ struct LidarConfig {
 /// offset. Not modelled: the width of the beam (returns from edges mix two distances), rain, other sensors.
 class Lidar {
  public:
-  /// `model`, `tracer`, `trajectory` and `people` (where there are any) must outlive it. `start_utc_ns` is the wall
-  /// time at the trajectory's start.
-  Lidar(const velodyne::Model& model, const Tracer& tracer, const Trajectory& trajectory, const LidarConfig& config,
+  /// `model`, `tracer`, `track` and `people` (where there are any) must outlive it. `start_utc_ns` is the wall time at
+  /// the track's start.
+  Lidar(const velodyne::Model& model, const Tracer& tracer, const Track& track, const LidarConfig& config,
         std::int64_t start_utc_ns, std::uint64_t seed, const Crowd* people = nullptr);
 
   using DataPacket = std::array<std::byte, velodyne::kDataBytes>;
   using PositionPacket = std::array<std::byte, velodyne::kPositionBytes>;
+
+  /// Data packets per position packet, as a real sensor sends them.
+  static constexpr std::uint64_t kPositionEvery = 14;
 
   /// True trainIds of a data packet's returns, in the packet's order; kIgnoredClass where nothing returned.
   using Labels = std::array<std::uint8_t, velodyne::kBlocks * velodyne::kBlockChannels>;
@@ -71,7 +74,7 @@ class Lidar {
 
   const velodyne::Model& model_;
   const Tracer& tracer_;
-  const Trajectory& trajectory_;
+  const Track& track_;
   LidarConfig config_;
   SE3 T_base_sensor_;
   std::int64_t start_utc_ns_;

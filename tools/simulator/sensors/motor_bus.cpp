@@ -41,11 +41,8 @@ MotorBus::MotorBus(const WheelConfig& config, const Trajectory& trajectory, std:
       trajectory_(trajectory),
       random_(seed, kWheelStream),
       now_(trajectory.start() - kPowerOn),
-      drive_config_(husky_drive()) {
-  const auto [left, right] = random_.normal_pair();
-  radius_[0] = drive_config_.wheel_radius_m * (1 + config.radius_error * left);
-  radius_[1] = drive_config_.wheel_radius_m * (1 + config.radius_error * right);
-  separation_ = drive_config_.wheel_separation_m * (1 + config.separation_error * random_.normal_pair().first);
+      drive_config_(husky_drive()),
+      wheels_(TrueWheels::draw(config, drive_config_, random_)) {
   next_spin_ = trajectory.start() + from_seconds(config.spin_every_s * random_.uniform(0.3, 1.7));
   for (const std::uint8_t id : {std::uint8_t{1}, std::uint8_t{2}}) {
     DriveModelConfig node;
@@ -96,7 +93,7 @@ drive::SendResult MotorBus::send(const drive::CanFrame& frame) {
 void MotorBus::turn_wheels() {
   const double dt = to_seconds(kTick);
   const drive::Velocity body = velocity(trajectory_, now_ - kTick, now_);
-  const drive::WheelSpeeds rims = drive::wheel_speeds(body, separation_);
+  const drive::WheelSpeeds rims = drive::wheel_speeds(body, wheels_.separation_m);
   if (now_ >= next_spin_ && std::abs(body.v) > 0.4) {
     spin_until_ = now_ + kSpin;
     spinning_ = random_.below(2);
@@ -109,9 +106,9 @@ void MotorBus::turn_wheels() {
     const bool spins = now_ < spin_until_ && side == spinning_;
     const double slipped = travel[side] * (spins ? 1 + kSpinShare : 1.0) +
                            config_.travel_noise_m * std::sqrt(std::abs(travel[side])) * noise[side];
-    angle_[side] += slipped / radius_[side];
+    angle_[side] += slipped / wheels_.radius_m[side];
     const double sign = side == 0 ? 1.0 : -1.0;  // the right motor is mounted the other way round
-    nodes_[side].follow(sign * angle_[side], sign * slipped / radius_[side] / dt);
+    nodes_[side].follow(sign * angle_[side], sign * slipped / wheels_.radius_m[side] / dt);
   }
 }
 

@@ -10,17 +10,9 @@
 #include "drivers/drive/can_drive.hpp"
 #include "tools/simulator/motion/drive_model.hpp"
 #include "tools/simulator/motion/trajectory.hpp"
+#include "tools/simulator/motion/true_wheels.hpp"
 
 namespace cairn::simulator {
-
-/// How wheels and ground disagree. All of it is unknown to whoever decodes the frames.
-struct WheelConfig {
-  double radius_error = 0.005;        ///< 1 σ of each side's wheel radius, as a share
-  double separation_error = 0.03;     ///< 1 σ of the effective separation of skid steering, as a share
-  double travel_noise_m = 0.008;      ///< 1 σ of one side's travel after 1 m
-  double encoder_noise_counts = 1.0;  ///< 1 σ of every reading
-  double spin_every_s = 20.0;         ///< mean time between two spins: one side turns much faster than it moves
-};
 
 /// What the drive of the simulated Husky is told; the same keys decode the recording.
 [[nodiscard]] drive::Config husky_drive();
@@ -59,8 +51,7 @@ class MotorBus final : public drive::CanLink {
   Time now_;
   Time free_{};  // when the wire is free again
   drive::Config drive_config_;
-  double separation_;
-  double radius_[2];
+  TrueWheels wheels_;
   double angle_[2] = {0, 0};
   Time spin_until_{}, next_spin_;
   std::size_t spinning_ = 0;
