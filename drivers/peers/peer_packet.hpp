@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal/bytes.hpp"
+#include "hal/files/packet_log.hpp"
 #include "hal/packet.hpp"
 
 // What comes from the team, as packets. The first packet tells who this robot is in the team: a replay needs it.
@@ -18,6 +19,9 @@ enum class PacketKind : std::uint16_t {  ///< Packet::channel
   kBeginning = 1,                        ///< who this robot is; made by the robot itself
 };
 inline constexpr std::size_t kMaxPacket = 1200;
+/// peers.log of a recording. Its magic is "CPRL".
+inline constexpr PacketLogFormat kPeersLog{
+    .magic = 0x4C525043, .most_bytes = kMaxPacket, .contents = "what peers sent"};
 
 /// The id and the epoch that this robot takes part with.
 struct Beginning {

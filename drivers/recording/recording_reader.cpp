@@ -6,9 +6,10 @@
 #include <string>
 #include <utility>
 
+#include "drivers/clients/commands/command_packet.hpp"
 #include "drivers/drive/can/candump_source.hpp"
 #include "drivers/gpio/csv_source.hpp"
-#include "drivers/peers/peers_log.hpp"
+#include "drivers/peers/peer_packet.hpp"
 #include "drivers/recording/formats/image_folder.hpp"
 #include "drivers/recording/scan_source.hpp"
 #include "drivers/recording/stamp_guard.hpp"
@@ -148,10 +149,11 @@ Opened open_gpio(const Recorded& r) {
   return as_source(gpio::CsvSource::open(*file, r.id));
 }
 
-Opened open_peers(const Recorded& r) {
+template <const PacketLogFormat& kFormat>
+Opened open_log(const Recorded& r) {
   const auto file = r.file();
   if (!file) return file.error();
-  return as_source(peer_link::PeersLogSource::open(*file, r.id));
+  return as_source(PacketLogSource::open(*file, kFormat, r.id));
 }
 
 struct ReaderRow {
@@ -166,7 +168,8 @@ constexpr std::array kReaders{
     ReaderRow{kDepth, open_pictures<camera::FrameFormat::kZ16>},
     ReaderRow{kDrive, open_can},
     ReaderRow{kGpio, open_gpio},
-    ReaderRow{kPeers, open_peers},
+    ReaderRow{kPeers, open_log<peer_link::kPeersLog>},
+    ReaderRow{kCommands, open_log<clients::kCommandsLog>},
 };
 static_assert(one_row_per_kind(kReaders));
 

@@ -7,9 +7,10 @@
 #include <system_error>
 #include <utility>
 
+#include "drivers/clients/commands/command_packet.hpp"
 #include "drivers/drive/can/candump.hpp"
 #include "drivers/gpio/line_event.hpp"
-#include "drivers/peers/peers_log.hpp"
+#include "drivers/peers/peer_packet.hpp"
 #include "drivers/recording/formats/append_file.hpp"
 #include "drivers/recording/formats/image_folder.hpp"
 #include "drivers/recording/formats/pcap_writer.hpp"
@@ -138,11 +139,11 @@ class GpioLines final : public Lines {
   }
 };
 
-class PeerRecords final : public SourceWriter {
+class LoggedPackets final : public SourceWriter {
  public:
-  explicit PeerRecords(AppendFile file) : file_(std::move(file)) {}
+  LoggedPackets(AppendFile file, const PacketLogFormat& format) : file_(std::move(file)), format_(format) {}
   Result<void> write(const Packet& packet) override {
-    if (auto made = peer_link::append_log_record(packet, file_.buffer()); !made)
+    if (auto made = append_log_record(format_, packet, file_.buffer()); !made)
       return at(file_.path().string(), made.error());
     return file_.end_record();
   }
@@ -151,6 +152,7 @@ class PeerRecords final : public SourceWriter {
 
  private:
   AppendFile file_;
+  PacketLogFormat format_;
 };
 
 using Opened = Result<std::unique_ptr<SourceWriter>>;
@@ -201,12 +203,13 @@ Opened open_gpio(const Target& t) {
   return std::unique_ptr<SourceWriter>(std::make_unique<GpioLines>(std::move(*file)));
 }
 
-Opened open_peers(const Target& t) {
+template <const PacketLogFormat& kFormat>
+Opened open_log(const Target& t) {
   auto file = AppendFile::create(t.file);
   if (!file) return file.error();
-  peer_link::append_log_header(file->buffer());
+  append_log_header(kFormat, file->buffer());
   if (auto header = file->end_record(); !header) return header.error();
-  return std::unique_ptr<SourceWriter>(std::make_unique<PeerRecords>(std::move(*file)));
+  return std::unique_ptr<SourceWriter>(std::make_unique<LoggedPackets>(std::move(*file), kFormat));
 }
 
 /// Adds the files of a source that its own file lists.
@@ -239,7 +242,8 @@ constexpr std::array kWriters{
     WriterRow{.kind = kDepth, .open = open_pictures, .add_listed = add_pictures},
     WriterRow{.kind = kDrive, .open = open_can, .add_listed = add_nothing},
     WriterRow{.kind = kGpio, .open = open_gpio, .add_listed = add_nothing},
-    WriterRow{.kind = kPeers, .open = open_peers, .add_listed = add_nothing},
+    WriterRow{.kind = kPeers, .open = open_log<peer_link::kPeersLog>, .add_listed = add_nothing},
+    WriterRow{.kind = kCommands, .open = open_log<clients::kCommandsLog>, .add_listed = add_nothing},
 };
 static_assert(one_row_per_kind(kWriters));
 

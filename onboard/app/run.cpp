@@ -4,6 +4,7 @@
 #include <optional>
 #include <thread>
 
+#include "onboard/app/commands/serve_commands.hpp"
 #include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/app/restart/restart.hpp"
 #include "onboard/app/restart/start_log.hpp"
@@ -33,6 +34,9 @@ Result<Door> open_door(const RunOptions& options, RobotProfile& profile, const C
                               : open_recording(options.recording, profile, monitor);
   if (!door) return door;
   if (const auto taken = take_schedule(options, *door); !taken) return taken.error();
+  if (options.live() && !options.recording.empty()) forget_recorded(recording::kCommands, *door);
+  if (!options.sockets.empty() && options.recording.empty())
+    if (const auto served = serve_commands(options.sockets, profile, clock, *door); !served) return served.error();
   if (options.peers)
     if (const auto joined = join_team(profile, clock, *door); !joined) return joined.error();
   return door;

@@ -89,6 +89,7 @@ void Failsafe::decide(FaultSet active, FaultSet latched) {
   decision_.raised = active - decision_.active;
   decision_.ended = decision_.active - active;
   decision_.active = active;
+  decision_.blocking = active & policy_.stop;
   const bool stopped = latch_.state != Latch::State::kRunning;
   const bool was_stopped = decision_.mode == Mode::kStop;
   decision_.mode = stopped ? Mode::kStop : policy_.demanded_by(active);

@@ -52,6 +52,7 @@ struct FailsafeDecision {
       cause;                 ///< of the mode; of a stop: the one that began it; none: normal, never armed, or asked for
   FaultSet active;           ///< all faults that are active now
   FaultSet raised, ended;    ///< since the step before: one event each
+  FaultSet blocking;         ///< active faults that stop: no re-arm request is granted while there is one
   double max_speed_m_s = 0;  ///< infinite in normal mode
   std::uint32_t epoch = 0;   ///< to be given with the next re-arm request
   /// True for one step: the request is granted, arm e-stop and drive now. Motion is allowed from the first step in

@@ -13,6 +13,7 @@
 #include "onboard/scheduler/task_graph.hpp"
 #include "tests/drivers/drive/virtual_bus.hpp"
 #include "tests/faults/campaign.hpp"
+#include "tests/support/command_queue.hpp"
 #include "tests/support/estop_line.hpp"
 
 namespace cairn::faults {
@@ -38,12 +39,14 @@ class CoreRig {
     graph_.add({.name = "drive"}, drive_);
     graph_.connect(drive_.status, safety_->drive, {.capacity = 64});
     graph_.connect(safety_->decisions, drive_.decisions, {.capacity = 64});
+    graph_.connect(drive_.rearms, safety_->rearms, {.capacity = 8});
     safety_->watch_estop({}, line, SourceId{1}, &line, {});
     moves_ = drive_.attach(drive::test::two_nodes(), wire_, SourceId{0}, &wire_, {}).has_value();
-    drive_.set_planner([](Time) { return DriveCommand{0.5, 0, 0}; });
+    commands.keep_answers = false;
+    drive_.obey_commands(commands, SourceId{2}, &commands, {});
     bus.power_on();
     go(std::chrono::seconds(1));
-    safety_->request_rearm(decision().epoch);
+    commands.arm(bus.now, decision().epoch);
     go(std::chrono::seconds(1));
     moves_ = moves_ && drives();
   }
@@ -69,7 +72,7 @@ class CoreRig {
     // Latched: two seconds after the mending nothing has moved, whatever was commanded; a request brings it back.
     m.held = m.held && !well_ && left_speed() < 1e-9;
     for (int i = 0; i < 20 && decision().mode == safety::Mode::kStop; ++i) {
-      safety_->request_rearm(decision().epoch);
+      commands.arm(bus.now, decision().epoch);
       go(std::chrono::milliseconds(200));
     }
     go(seconds(1));
@@ -87,8 +90,22 @@ class CoreRig {
   /// Of both tasks.
   [[nodiscard]] std::uint64_t ticks() const { return 2 * index_; }
 
+  [[nodiscard]] double left_speed() const { return std::abs(bus.nodes[0].speed()) * 0.16; }  ///< m/s at the rim
+  /// Both tasks tick for so long.
+  void go(Duration length) {
+    for (const Time end = bus.now + length; bus.now < end; ++index_) {
+      bus.advance(kTick);
+      if (asks_to_drive && index_ % 10 == 0) commands.drive(bus.now, 0.5);
+      tick(*safety_);
+      tick(drive_);
+      note(bus.now, decision().mode);
+    }
+  }
+
   drive::test::VirtualBus bus;
   support::EStopLine line;
+  support::CommandQueue commands;
+  bool asks_to_drive = true;  ///< a client says 0.5 m/s, fifty times a second
 
  private:
   /// The bus as the tasks see it.
@@ -118,21 +135,13 @@ class CoreRig {
     const Guard& guard_;
   };
 
-  [[nodiscard]] double left_speed() const { return std::abs(bus.nodes[0].speed()) * 0.16; }  // m/s at the rim
-
-  void go(Duration length) {
-    for (const Time end = bus.now + length; bus.now < end; ++index_) {
-      bus.advance(kTick);
-      for (scheduler::Task* task : {static_cast<scheduler::Task*>(&*safety_), static_cast<scheduler::Task*>(&drive_)}) {
-        scheduler::TickRecord record;
-        record.index = index_;
-        scheduler::Tick tick(scheduler::Regime::kLive, bus.now, record);
-        guard_.enter();
-        task->tick(tick);
-        guard_.leave();
-      }
-      note(bus.now, decision().mode);
-    }
+  void tick(scheduler::Task& task) {
+    scheduler::TickRecord record;
+    record.index = index_;
+    scheduler::Tick tick(scheduler::Regime::kLive, bus.now, record);
+    guard_.enter();
+    task.tick(tick);
+    guard_.leave();
   }
   void note(Time now, safety::Mode mode) {
     if (struck_ != Time{}) {

@@ -8,6 +8,9 @@
 #include <string>
 #include <vector>
 
+#include "drivers/clients/commands/command_socket.hpp"
+#include "drivers/clients/messages/record.hpp"
+#include "drivers/clients/sockets/local_client.hpp"
 #include "drivers/drive/can/socketcan_link.hpp"
 #include "drivers/drive/canopen/canopen.hpp"
 #include "drivers/drive/canopen/cia402.hpp"
@@ -16,6 +19,7 @@
 #include "onboard/app/tasks/safety_task.hpp"
 #include "onboard/scheduler/execution/executive.hpp"
 #include "tests/drivers/drive/virtual_bus.hpp"
+#include "tests/support/temporary_folder.hpp"
 #include "tools/simulator/motion/drive_model.hpp"
 
 namespace cairn::vm {
@@ -94,16 +98,21 @@ class EStopRig {
     edges.reserve(1000);
     safety->watch_estop(gpio_, *lines_, SourceId{2}, lines_.get(), [this](const Packet& p) { note(p); });
     (void)drive_.attach(drive::test::two_nodes(), *link_, SourceId{0}, link_.get(), {});
-    drive_.set_planner([](Time) { return DriveCommand{0.5, 0, 0}; });
+    drive_.obey_commands(*commands_, SourceId{3}, commands_.get(), {});
     far_end.emplace(*peer_, clock);
     far_end->keep_log_of(graph_.add(schedule_.safety, *safety));
     far_end->keep_log_of(graph_.add(schedule_.drive, drive_));
     graph_.add({.name = "far end", .rate_hz = 500}, *far_end, scheduler::TaskRole::kLiveOnly);
     graph_.connect(drive_.status, safety->drive, {.capacity = 64});
     graph_.connect(safety->decisions, drive_.decisions, {.capacity = 64});
+    graph_.connect(drive_.rearms, safety->rearms, {.capacity = 8});
   }
 
   void pull(bool closed) const { std::ofstream(world_ + "/sim_gpio0/pull") << (closed ? "pull-up" : "pull-down"); }
+  /// A client of the command socket asks for motion, or to be armed.
+  void drive(double v) { say({.verb = clients::Command::Verb::kVelocity, .v = v, .who = {}}); }
+  void arm(std::uint32_t epoch) { say({.verb = clients::Command::Verb::kArm, .epoch = epoch, .who = {}}); }
+
   void run(const std::function<bool()>& over) {
     far_end->power_on();
     scheduler::Executive(graph_).run_live({clock.now(), over}, clock);
@@ -132,6 +141,22 @@ class EStopRig {
     if (event && edges.size() < edges.capacity()) edges.push_back({packet.arrival, event->level});
   }
 
+  void say(clients::Command command) {
+    command.number = ++said_;
+    command.sent = clock.now();
+    command.valid_for = clients::Command::kMostValid;
+    std::vector<std::byte> bytes;
+    encode(command, bytes);
+    (void)client_.send(bytes);
+    while (client_.receive(bytes, clients::Record::kMaxBody, {}) == clients::LocalClient::Got::kMessage) {
+    }
+  }
+
+  support::TemporaryFolder sockets_;
+  std::unique_ptr<clients::CommandSocket> commands_ =
+      clients::CommandSocket::open(sockets_ / "command.sock", SourceId{3}, clock).value();
+  clients::LocalClient client_ = clients::LocalClient::connect(sockets_ / "command.sock").value();
+  std::uint32_t said_ = 0;
   std::string world_;
   gpio::Config gpio_;
   app::ScheduleProfile schedule_;

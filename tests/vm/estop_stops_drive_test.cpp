@@ -28,12 +28,13 @@ class Operator {
     for (; const auto* change = rig_.safety->changes().front(); rig_.safety->changes().pop())
       mode_ = change->mode, cause_ = change->cause, epoch_ = change->epoch;
     if (now > changed_ + 20s) return true;
+    rig_.drive(0.5);
     const std::uint64_t speed = rig_.far_end->speed_mrad_s;
     const bool driving = speed > 3000, standing = speed < 10;  // 0.5 m/s: 3.1 rad/s
     switch (doing_) {
       case kAsking:
         if (driving && mode_ == safety::Mode::kNormal) return press(), false;
-        if (mode_ == safety::Mode::kStop && now > asked_ + 200ms) rig_.safety->request_rearm(epoch_), asked_ = now;
+        if (mode_ == safety::Mode::kStop && now > asked_ + 200ms) rig_.arm(epoch_), asked_ = now;
         break;
       case kPressing:
         if (standing && mode_ == safety::Mode::kStop) release(now);

@@ -2,6 +2,7 @@
 #include "tools/cli/commands.hpp"
 
 #include "tools/cli/doctor/doctor_command.hpp"
+#include "tools/cli/drive/drive_command.hpp"
 #include "tools/cli/inspect/inspect_command.hpp"
 #include "tools/cli/map/evaluate_command.hpp"
 #include "tools/cli/map/map_command.hpp"
@@ -35,6 +36,7 @@ void add_tool_commands(app::Commands& commands) {
   add_faults_command(commands);
   add_team_command(commands);
   add_top_command(commands);
+  add_drive_commands(commands);
 }
 
 }  // namespace cairn::cli

@@ -20,6 +20,7 @@ enum class SensorKind : std::uint8_t {
   kDrive,     ///< `file` holds candump's lines (drive.log), stamped in UTC
   kGpio,      ///< `file` is gpio.csv
   kPeers,     ///< `file` is peers.log: what other robots sent
+  kCommands,  ///< `file` is commands.log: what came by command.sock
 };
 using enum SensorKind;
 
@@ -40,6 +41,7 @@ inline constexpr std::array kSensorKinds{
     SensorKindRow{.kind = kDrive, .name = "drive"},
     SensorKindRow{.kind = kGpio, .name = "gpio"},
     SensorKindRow{.kind = kPeers, .name = "peers"},
+    SensorKindRow{.kind = kCommands, .name = "commands"},
 };
 
 /// Whether a table has one row per kind, in the order of the enumeration: for a static_assert beside the table.

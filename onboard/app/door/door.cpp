@@ -158,4 +158,12 @@ Result<Door> play_recording(const std::filesystem::path& folder, RobotProfile& p
   return door;
 }
 
+void forget_recorded(recording::SensorKind kind, Door& door) {
+  for (std::size_t i = door.inputs.size(); i-- > 0;) {
+    if (door.inputs[i].entry.kind != kind) continue;
+    door.inputs.erase(door.inputs.begin() + static_cast<std::ptrdiff_t>(i));
+    door.recording.sources.erase(door.recording.sources.begin() + static_cast<std::ptrdiff_t>(i));
+  }
+}
+
 }  // namespace cairn::app

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "drivers/clients/commands/answer_port.hpp"
 #include "drivers/drive/can/can_link.hpp"
 #include "drivers/gpio/gpio_lines.hpp"
 #include "drivers/peers/peer_port.hpp"
@@ -24,11 +25,12 @@ namespace cairn::app {
 struct Input {
   recording::SourceEntry entry;
   std::unique_ptr<Source> source;
-  std::unique_ptr<ScanDecoder> scans;    ///< null: it holds no scans
-  drive::CanLink* can = nullptr;         ///< live: the same source, to send through
-  gpio::GpioLines* lines = nullptr;      ///< live: the same source, to read levels from
-  std::function<Losses()> losses;        ///< live: packets that the device lost; may be empty
-  peer_link::PeerPort* peers = nullptr;  ///< live: the same source, to send through
+  std::unique_ptr<ScanDecoder> scans;      ///< null: it holds no scans
+  drive::CanLink* can = nullptr;           ///< live: the same source, to send through
+  gpio::GpioLines* lines = nullptr;        ///< live: the same source, to read levels from
+  std::function<Losses()> losses;          ///< live: packets that the device lost; may be empty
+  peer_link::PeerPort* peers = nullptr;    ///< live: the same source, to send through
+  clients::AnswerPort* answers = nullptr;  ///< live: the same source, to answer commands through
 };
 
 /// Everything from outside enters through the door. The index of an input is its SourceId.
@@ -52,5 +54,8 @@ Result<Door> open_recording(const std::filesystem::path& folder, RobotProfile& p
 /// a second. `clock` and `monitor` must outlive the door. Errors: those of the index.
 Result<Door> play_recording(const std::filesystem::path& folder, RobotProfile& profile, const Clock& clock,
                             Monitor& monitor);
+
+/// Takes the sources of one kind out of the door: what they say now is something else than what was recorded.
+void forget_recorded(recording::SensorKind kind, Door& door);
 
 }  // namespace cairn::app

@@ -21,6 +21,7 @@ constexpr std::array kWatchedAs{
     WatchedRow{recording::kDrive, safety::Watched::kFeedback},
     WatchedRow{recording::kGpio, std::nullopt},  // the e-stop has rules of its own
     WatchedRow{recording::kPeers, std::nullopt},
+    WatchedRow{recording::kCommands, std::nullopt},  // freshness is the commander's
 };
 static_assert(recording::one_row_per_kind(kWatchedAs));
 

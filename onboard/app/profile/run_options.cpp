@@ -13,6 +13,7 @@ Result<void> check(const RunOptions& options) {
   } else {
     refuse(!options.record.empty(), "--record keeps what devices send: leave it out, the recording is there already");
     refuse(!options.state.empty(), "--state keeps the map of a live run: leave it out, the map goes to --out");
+    refuse(!options.sockets.empty(), "--sockets serves a live run: leave it out, or play the recording with --peers");
     refuse(!options.live_view.empty(),
            "--live-view serves a live run: leave it out, or play the recording with --peers");
   }

@@ -27,6 +27,7 @@ struct RunOptions {
   std::filesystem::path schedule;   ///< of another live run, instead of the recording's own schedule.log
   std::filesystem::path state;      ///< live: where the map is kept for a restart; empty: nowhere
   bool peers = false;               ///< takes part in the team; a recording is then played as if by devices
+  std::filesystem::path sockets;    ///< live: folder for the sockets of other programs; empty: none
   std::filesystem::path live_view;  ///< live: the local socket for `cairn top`; empty: none
   Pace pace = Pace::kRecorded;
   bool reference = false;  ///< at real speed: run an empty task beside the control task, to know what the machine costs

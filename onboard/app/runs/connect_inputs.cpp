@@ -3,11 +3,13 @@
 
 #include <algorithm>
 
+#include "drivers/clients/commands/command_packet.hpp"
+
 namespace cairn::app {
 namespace {
 
-// Packets that may wait for the disk: two seconds of a LiDAR, and edges of an e-stop.
-constexpr std::size_t kWaitingPackets = 2048, kWaitingEdges = 256;
+// Packets that may wait for the disk: two seconds of a LiDAR, edges of an e-stop, and a flood of commands for a second.
+constexpr std::size_t kWaitingPackets = 2048, kWaitingEdges = 256, kWaitingCommands = 4096;
 
 scheduler::Feed::Tap tap(Recorder* recorder, std::size_t packets, std::size_t bytes) {
   return recorder != nullptr ? recorder->tap(packets, bytes) : scheduler::Feed::Tap{};
@@ -33,6 +35,11 @@ Result<void> connect(RobotTasks& tasks, const RunContext& context, Input& input,
   if (input.entry.kind == recording::kGpio && tasks.fitted.estop) {
     tasks.safety.watch_estop(profile.gpio.driver, *input.source, id, input.lines,
                              tap(recorder, kWaitingEdges, scheduler::Feed::kSmall));
+    return {};
+  }
+  if (input.entry.kind == recording::kCommands) {
+    tasks.drive.obey_commands(*input.source, id, input.answers,
+                              tap(recorder, kWaitingCommands, clients::kMaxCommandBytes));
     return {};
   }
   if (input.entry.kind == recording::kDrive) return connect_drive(tasks, context, input, id, recorder);

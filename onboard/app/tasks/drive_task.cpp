@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/tasks/drive_task.hpp"
 
+#include <algorithm>
+#include <utility>
+
+#include "drivers/drive/chassis/differential.hpp"
+
 namespace cairn::app {
 
 using drive::SendResult;
@@ -57,7 +62,30 @@ Result<void> DriveTask::attach(const drive::Config& config, Source& source, Sour
   auto drive = drive::CanDrive::create(config, *link_);
   if (!drive) return drive.error();
   drive_ = std::move(*drive);
+  max_speed_m_s_ = config.max_speed_m_s;
+  max_yaw_rate_rad_s_ = config.max_yaw_rate_rad_s;
   return {};
+}
+
+// Errors of the socket are its clients' own.
+DriveTask::Commands::Commands(Source& source, SourceId id, std::size_t slot, clients::AnswerPort* port,
+                              scheduler::Feed::Tap tap)
+    : feed(
+          source, id, slot, [](Time, const Error&) {}, std::move(tap)),
+      answers(port) {}
+
+void DriveTask::obey_commands(Source& source, SourceId id, clients::AnswerPort* answers, scheduler::Feed::Tap tap) {
+  commands_ = std::make_unique<Commands>(source, id, commands_slot, answers, std::move(tap));
+  set_planner([this](Time now) { return commands_->commander.wanted(now); });
+}
+
+Time DriveTask::first_arrival() {
+  const Time frames = link_ ? link_->feed.first_arrival() : Time::max();
+  return std::min(frames, commands_ ? commands_->feed.first_arrival() : Time::max());
+}
+
+std::uint64_t DriveTask::missing_packets() const {
+  return (link_ ? link_->feed.missing() : 0) + (commands_ ? commands_->feed.missing() : 0);
 }
 
 void DriveTask::tick(Tick& tick) {
@@ -69,11 +97,13 @@ void DriveTask::tick(Tick& tick) {
   }
   link_->begin(tick);
   obey(tick);
+  if (commands_) obey_commander(tick);
   command(tick.release());
   if (const auto state = drive_->tick(tick.release()); state && *state != nullptr) state_ = **state;
+  if (commands_) answer(tick.release());
   publish(tick);
   publish_wheels(tick);
-  if (link_->feed.ended()) tick.end_of_input();
+  if (link_->feed.ended() && (!commands_ || commands_->feed.ended())) tick.end_of_input();
 }
 
 void DriveTask::obey(Tick& tick) {
@@ -92,12 +122,38 @@ void DriveTask::obey(Tick& tick) {
   }
 }
 
+/// A stop is obeyed at once, without the safety task: that hears of it from the drive.
+void DriveTask::obey_commander(Tick& tick) {
+  Commander& commander = commands_->commander;
+  while (const Packet* packet = commands_->feed.take(tick)) commander.take(*packet, situation(tick.release()));
+  const Commander::Orders orders = commander.take_orders();
+  if (orders.stop) drive_->stop(DriveCause::kRequested, tick.release());
+  if (!orders.arm) return;
+  if (RearmRequest* request = rearms.back(tick)) {
+    request->epoch = *orders.arm;
+    rearms.push(tick);
+  }
+}
+
+void DriveTask::answer(Time now) {
+  Commander& commander = commands_->commander;
+  commander.conclude(situation(now), told_);
+  if (commands_->answers != nullptr)
+    for (const Commander::Reply& reply : commander.replies())
+      (void)commands_->answers->answer(reply.client, reply.answer);
+  commander.forget_replies();
+}
+
 void DriveTask::command(Time now) {
+  told_ = {};
   if (!planner_ || !epoch_) return;
   auto wanted = planner_(now);
   if (!wanted) return;
   wanted->epoch = *epoch_;
-  (void)drive_->command(safety::limited(*wanted, decision_), now);  // the drive's status says what became of it
+  const DriveCommand allowed = safety::limited(*wanted, decision_);
+  (void)drive_->command(allowed, now);  // the drive's status says what became of it
+  const drive::Velocity told = drive::limited({allowed.v, allowed.w}, max_speed_m_s_, max_yaw_rate_rad_s_);
+  told_ = {.v = told.v, .w = told.w};
 }
 
 void DriveTask::publish(Tick& tick) {

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "drivers/drive/can_drive.hpp"
+#include "onboard/app/commands/commander.hpp"
 #include "onboard/app/tasks/messages.hpp"
 #include "onboard/scheduler/feed.hpp"
 #include "onboard/scheduler/ports.hpp"
@@ -51,6 +52,9 @@ class DriveTask final : public scheduler::Task {
   scheduler::OutputPort<DriveState> wheels{*this,
                                            "wheels"};  ///< each new state; one is left out where the port is full
 
+  const std::size_t commands_slot = take_slots();  ///< packets of the command socket taken
+  scheduler::OutputPort<RearmRequest> rearms{*this, "rearms"};
+
   /// Says where the robot is to move, at a time; none: nowhere. The task sets the epoch of the command. Called in every
   /// tick, on the task's thread.
   using Planner = std::function<std::optional<DriveCommand>(Time)>;
@@ -60,24 +64,38 @@ class DriveTask final : public scheduler::Task {
   Result<void> attach(const drive::Config& config, Source& source, SourceId id, drive::CanLink* bus,
                       scheduler::Feed::Tap tap);
   void set_planner(Planner planner) { planner_ = std::move(planner); }
+  /// Clients of the command socket are the planner. `source` and `answers` (null in a replay) must outlive the task.
+  void obey_commands(Source& source, SourceId id, clients::AnswerPort* answers, scheduler::Feed::Tap tap);
 
   void tick(scheduler::Tick& tick) override;
 
   /// Of the task's thread, or after the run.
   [[nodiscard]] const std::optional<DriveState>& state() const { return state_; }
   [[nodiscard]] const drive::CanDrive* drive() const { return drive_.get(); }
-  [[nodiscard]] Time first_arrival() { return link_ ? link_->feed.first_arrival() : Time::max(); }
-  [[nodiscard]] std::uint64_t missing_packets() const { return link_ ? link_->feed.missing() : 0; }
+  [[nodiscard]] Time first_arrival();
+  [[nodiscard]] std::uint64_t missing_packets() const;
 
  private:
+  struct Commands {
+    Commands(Source& source, SourceId id, std::size_t slot, clients::AnswerPort* port, scheduler::Feed::Tap tap);
+    scheduler::Feed feed;
+    Commander commander;
+    clients::AnswerPort* answers;
+  };
   void obey(scheduler::Tick& tick);
+  void obey_commander(scheduler::Tick& tick);
+  void answer(Time now);
   void command(Time now);
+  [[nodiscard]] Commander::Situation situation(Time now) const { return {now, decision_, drive_->status()}; }
   void publish(scheduler::Tick& tick);
   void publish_wheels(scheduler::Tick& tick);
 
   Planner planner_;
   std::unique_ptr<ReplayableCanLink> link_;
   std::unique_ptr<drive::CanDrive> drive_;
+  std::unique_ptr<Commands> commands_;
+  double max_speed_m_s_ = 0, max_yaw_rate_rad_s_ = 0;  // of the drive
+  DriveCommand told_;                                  // in this tick
   safety::FailsafeDecision decision_;
   std::optional<std::uint32_t> epoch_;  // of the last arming
   std::optional<DriveState> state_;

@@ -42,4 +42,9 @@ struct DriveNews {
   safety::Seen feedback;  ///< the last set of wheel readings
 };
 
+/// Somebody wants the robot to move again. From drive to safety.
+struct RearmRequest {
+  std::uint32_t epoch = 0;  ///< of the stop that is to end, as FailsafeDecision::epoch
+};
+
 }  // namespace cairn::app

@@ -14,6 +14,7 @@ namespace {
 constexpr std::size_t kWaitingScans = 4;
 // More than a safety task at 500 Hz finds when it comes a tenth of a second late.
 constexpr std::size_t kWaitingNews = 64;
+constexpr std::size_t kWaitingRequests = 8;
 // In virtual time. Real news takes less, so a replay at real speed need not wait for it.
 constexpr Duration kSensorsLag = std::chrono::milliseconds(20);
 // Visible with the next tick of the consumer.
@@ -74,6 +75,7 @@ void RobotTasks::connect_safety(const ScheduleProfile& schedule) {
   graph.connect(drive.status, safety.drive, {.capacity = kWaitingNews, .lag = kNextTick});
   graph.connect(odometry.status, safety.odometry, {.capacity = kWaitingNews, .lag = 2 * schedule.odometry.deadline()});
   graph.connect(safety.decisions, drive.decisions, {.capacity = kWaitingNews});
+  graph.connect(drive.rearms, safety.rearms, {.capacity = kWaitingRequests, .lag = kNextTick});
   graph.connect(drive.wheels, odometry.wheels, {.capacity = kWaitingNews, .lag = kNextTick});
 }
 

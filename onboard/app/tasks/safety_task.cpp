@@ -33,9 +33,6 @@ void SafetyTask::tick(Tick& tick) {
   read_news(tick);
   if (tick.release() < arming_until_) inputs_.drive.level = DriveLevel::kHold;
   if (estop_) read_estop(tick);
-  const std::int32_t rearm = tick.decide(
-      rearm_slot, [this] { return rearm_.exchange(0); }, 0);
-  inputs_.rearm = rearm > 0 ? std::optional(static_cast<std::uint32_t>(rearm - 1)) : std::nullopt;
   const std::int32_t reported = tick.decide(
       faults_slot, [this] { return faults_.load(); }, 0);
   inputs_.faults = safety::FaultSet(static_cast<std::uint32_t>(reported)) | sensor_faults_ | odometry_faults_;
@@ -60,6 +57,8 @@ void SafetyTask::read_news(Tick& tick) {
     arming_until_ = {};
     inputs_.seen[static_cast<std::size_t>(safety::Watched::kFeedback)] = news->feedback;
   }
+  inputs_.rearm.reset();
+  while (const RearmRequest* request = rearms.take(tick)) inputs_.rearm = request->epoch;
   while (const OdometryNews* news = odometry.take(tick)) odometry_faults_.set(safety::Fault::kOdometryLost, news->lost);
 }
 

@@ -23,7 +23,7 @@ class SafetyTask final : public scheduler::Task {
   scheduler::InputPort<SensorsSeen> sensors{*this, "sensors"};
   scheduler::InputPort<DriveNews> drive{*this, "drive"};
   scheduler::OutputPort<safety::FailsafeDecision> decisions{*this, "decisions"};
-  const std::size_t rearm_slot = take_slots();   ///< the re-arm request
+  scheduler::InputPort<RearmRequest> rearms{*this, "rearms"};
   const std::size_t faults_slot = take_slots();  ///< faults that only the machine shows
   scheduler::InputPort<OdometryNews> odometry{*this, "odometry"};
 
@@ -44,8 +44,6 @@ class SafetyTask final : public scheduler::Task {
 
   void tick(scheduler::Tick& tick) override;
 
-  /// Any thread: the operator wants to move again. `epoch` is that of the stop which the operator saw.
-  void request_rearm(std::uint32_t epoch) { rearm_.store(static_cast<std::int32_t>(epoch) + 1); }
   /// Any one thread: faults that the machine shows and the data does not, such as a hung task.
   void report(safety::FaultSet faults) { faults_.store(static_cast<std::int32_t>(faults.bits())); }
 
@@ -71,7 +69,7 @@ class SafetyTask final : public scheduler::Task {
   std::optional<scheduler::Feed> edges_;
   gpio::GpioLines* lines_ = nullptr;
   std::int32_t closed_ = 0;  // as the edges say: 0 nothing yet, 1 open, 2 closed
-  std::atomic<std::int32_t> rearm_{0}, faults_{0};
+  std::atomic<std::int32_t> faults_{0};
   SpscQueue<Change> changes_{kMaxChanges};
   RelaxedCounter lost_changes_;
 };

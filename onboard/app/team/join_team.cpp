@@ -1,24 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/team/join_team.hpp"
 
-#include <algorithm>
-
 #include "drivers/peers/peer_port.hpp"
 
 namespace cairn::app {
-namespace {
-
-/// Peers say other things now than when the recording was made.
-void forget_recorded_peers(Door& door) {
-  for (std::size_t i = door.inputs.size(); i-- > 0;) {
-    if (door.inputs[i].entry.kind != recording::kPeers) continue;
-    door.inputs.erase(door.inputs.begin() + static_cast<std::ptrdiff_t>(i));
-    door.recording.sources.erase(door.recording.sources.begin() + static_cast<std::ptrdiff_t>(i));
-  }
-}
-
-}  // namespace
-
 Result<void> check_team_place(const RobotProfile& profile) {
   if (profile.team.id != 0) return {};
   return Error{Errc::kInvalidConfig,
@@ -38,7 +23,7 @@ recording::SourceEntry peers_entry() {
 
 Result<void> join_team(const RobotProfile& profile, const Clock& clock, Door& door) {
   if (auto place = check_team_place(profile); !place) return place;
-  forget_recorded_peers(door);
+  forget_recorded(recording::kPeers, door);
   const recording::SourceEntry entry = peers_entry();
   const auto id = static_cast<SourceId>(door.inputs.size());
   const Time utc = clock.now() + Duration{LiveClock::realtime_offset()};

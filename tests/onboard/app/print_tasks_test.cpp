@@ -35,6 +35,7 @@ TEST(PrintTasks, ALiveRunHasTasksForTheDiskAndChannelsBetweenTheOthers) {
             "drive.status         safety.drive               64    0.001\n"
             "odometry.status      safety.odometry            64      200\n"
             "safety.decisions     drive.decisions            64        0\n"
+            "drive.rearms         safety.rearms               8    0.001\n"
             "drive.wheels         odometry.wheels            64    0.001\n"
             "receive.scans        odometry.scans              4        0\n"
             "odometry.motions     mapping.motions             4        0\n");

@@ -14,6 +14,7 @@
 #include "drivers/gpio/line_event.hpp"
 #include "drivers/thermal/thermal.hpp"
 #include "tools/cli/inspect/can_figures.hpp"
+#include "tools/cli/inspect/command_figures.hpp"
 #include "tools/cli/inspect/peer_figures.hpp"
 
 namespace cairn::cli {
@@ -168,6 +169,7 @@ Made make_sensor_figures(const SourceEntry& entry) {
   if (entry.kind == recording::kDepth) return around<DepthFigures>(depth::DepthCamera::create({}));
   if (entry.kind == recording::kGpio) return std::unique_ptr<SensorFigures>(std::make_unique<GpioFigures>());
   if (entry.kind == recording::kPeers) return std::unique_ptr<SensorFigures>(std::make_unique<PeerFigures>());
+  if (entry.kind == recording::kCommands) return std::unique_ptr<SensorFigures>(std::make_unique<CommandFigures>());
   return std::unique_ptr<SensorFigures>(std::make_unique<CanFigures>());
 }
 

@@ -84,7 +84,7 @@ TEST(Recording, AllFaultsAreReportedWithFileAndLine) {
   for (const char* fault :
        {"f:1: robot: only letters", "f:2: start_utc: must be a time", "f:3: realtime_offset_ns: must be a whole",
         "f:4: colour: unknown key", "f:5: robot: this key appears twice",
-        "f:8: sources[0].kind: must be velodyne, scans, camera, thermal, depth, drive, gpio or peers",
+        "f:8: sources[0].kind: must be velodyne, scans, camera, thermal, depth, drive, gpio, peers or commands",
         "f:9: sources[0].file: a file name must not hold `.` or `..`",
         "f:13: sources[1].file: a file must be named relative", "f:14: sources[1].T_base_sensor: must be [x,",
         "f:15: sources[1].data_port: must be a whole number 1 … 65535", "f:11: sources[1].frame: is missing",

@@ -14,7 +14,7 @@ TEST(SensorKind, EveryNameIsThatOfItsKind) {
 }
 
 TEST(SensorKind, TheListForMessagesHoldsThemAll) {
-  EXPECT_EQ(list_of_sensor_kinds(), "velodyne, scans, camera, thermal, depth, drive, gpio or peers");
+  EXPECT_EQ(list_of_sensor_kinds(), "velodyne, scans, camera, thermal, depth, drive, gpio, peers or commands");
 }
 
 TEST(SensorKind, ATableHasOneRowPerKindInTheirOrder) {
@@ -23,7 +23,7 @@ TEST(SensorKind, ATableHasOneRowPerKindInTheirOrder) {
   };
   EXPECT_FALSE(one_row_per_kind(std::array{Row{kVelodyne}}));
   EXPECT_FALSE(one_row_per_kind(std::array{Row{kScans}, Row{kVelodyne}, Row{kCamera}, Row{kThermal}, Row{kDepth},
-                                           Row{kDrive}, Row{kGpio}, Row{kPeers}}));
+                                           Row{kDrive}, Row{kGpio}, Row{kPeers}, Row{kCommands}}));
 }
 
 TEST(SensorKind, ThreeOfThemArePictures) {

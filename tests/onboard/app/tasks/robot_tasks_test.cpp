@@ -39,7 +39,7 @@ TEST_F(RobotTasksTest, TheSlotsInTheScheduleLogNeverChange) {
   const std::map<std::string, std::vector<std::size_t>> numbers{
       {"safety",
        {safety.edges_slot, safety.level_slot, safety.sensors.slot(), safety.drive.slot(), safety.decisions.slot(),
-        safety.rearm_slot, safety.faults_slot, safety.odometry.slot()}},
+        safety.rearms.slot(), safety.faults_slot, safety.odometry.slot()}},
       {"drive",
        {drive.can_slots.frames, drive.can_slots.full, drive.can_slots.down, drive.can_slots.errors,
         drive.decisions.slot(), drive.status.slot()}},

@@ -15,12 +15,14 @@ class SafetyNeighbours final : public scheduler::Task {
     join(drive, task.drive, drive_channel_);
     join(task.decisions, decisions, decisions_channel_);
     join(odometry, task.odometry, odometry_channel_);
+    join(rearms, task.rearms, rearms_channel_);
   }
 
   scheduler::OutputPort<app::SensorsSeen> sensors{*this, "sensors"};
   scheduler::OutputPort<app::DriveNews> drive{*this, "drive"};
   scheduler::InputPort<safety::FailsafeDecision> decisions{*this, "decisions"};
   scheduler::OutputPort<app::OdometryNews> odometry{*this, "odometry"};
+  scheduler::OutputPort<app::RearmRequest> rearms{*this, "rearms"};
 
  private:
   template <class T>
@@ -34,6 +36,7 @@ class SafetyNeighbours final : public scheduler::Task {
   scheduler::Channel<app::DriveNews> drive_channel_{{.capacity = 8}, nobody_, nobody_};
   scheduler::Channel<safety::FailsafeDecision> decisions_channel_{{.capacity = 8}, nobody_, nobody_};
   scheduler::Channel<app::OdometryNews> odometry_channel_{{.capacity = 8}, nobody_, nobody_};
+  scheduler::Channel<app::RearmRequest> rearms_channel_{{.capacity = 8}, nobody_, nobody_};
 };
 
 }  // namespace cairn::test

@@ -77,9 +77,13 @@ class SafetyTaskTest : public testing::Test {
     fill(*news);
     port.push(tick);
   }
+  void ask(std::uint32_t epoch) {
+    asked_.push_back({log_.size(), epoch});
+    send(neighbours_.rearms, [&](RearmRequest& request) { request.epoch = epoch; });
+  }
   void arm() {
     run(600ms);  // closed for long enough
-    task_->request_rearm(task_->decision().epoch);
+    ask(task_->decision().epoch);
     run(50ms);
   }
   [[nodiscard]] safety::Mode mode() const { return task_->decision().mode; }
@@ -92,6 +96,11 @@ class SafetyTaskTest : public testing::Test {
   std::vector<TickRecord> log_;
   std::vector<safety::FailsafeDecision> decisions_made_;
   std::uint64_t allocated_ = 0;
+  struct Asked {
+    std::size_t before;  // the tick
+    std::uint32_t epoch;
+  };
+  std::deque<Asked> asked_;
 };
 
 TEST_F(SafetyTaskTest, ARobotIsStoppedUntilItIsAskedFor) {
@@ -109,14 +118,14 @@ TEST_F(SafetyTaskTest, ALostEStopThatIsClosedAgainObeysTheNextRequest) {
   run(kPeriod);
   EXPECT_EQ(mode(), safety::Mode::kStop) << "within the tick";
   EXPECT_EQ(task_->decision().cause, safety::Fault::kEStopLost);
-  task_->request_rearm(task_->decision().epoch);
+  ask(task_->decision().epoch);
   run(1s);
   EXPECT_EQ(mode(), safety::Mode::kStop) << "nobody moves with an e-stop that cannot be read";
   line_.there = true;
   run(2s);
   EXPECT_EQ(mode(), safety::Mode::kStop) << "not by itself";
   EXPECT_FALSE(task_->decision().active.has(safety::Fault::kEStopLost)) << "that is over";
-  task_->request_rearm(task_->decision().epoch);
+  ask(task_->decision().epoch);
   run(50ms);
   EXPECT_EQ(mode(), safety::Mode::kNormal);
 }
@@ -128,10 +137,10 @@ TEST_F(SafetyTaskTest, ARequestBeforeTheContactWasClosedForLongEnoughIsLost) {
   ASSERT_EQ(task_->decision().cause, safety::Fault::kEStopOpen);
   line_.move(true, now_);
   run(200ms);  // of estop_rearm_ms
-  task_->request_rearm(task_->decision().epoch);
+  ask(task_->decision().epoch);
   run(2s);
   EXPECT_EQ(mode(), safety::Mode::kStop) << "a refused request is not kept for later";
-  task_->request_rearm(task_->decision().epoch);
+  ask(task_->decision().epoch);
   run(50ms);
   EXPECT_EQ(mode(), safety::Mode::kNormal);
 }
@@ -144,7 +153,7 @@ TEST_F(SafetyTaskTest, AnOldRequestEndsNoLaterStop) {
   line_.move(true, now_ + 1ms);
   run(2s);
   ASSERT_EQ(mode(), safety::Mode::kStop) << "two edges between two ticks";
-  task_->request_rearm(first);
+  ask(first);
   run(1s);
   EXPECT_EQ(mode(), safety::Mode::kStop);
 }
@@ -206,6 +215,8 @@ class ReplayedSafetyTask : public SafetyTaskTest {
     edges_.push_back(line_.edges.back());
   }
   void send_news_before(std::size_t tick) {
+    for (; !requests_.empty() && requests_.front().before == tick; requests_.pop_front())
+      send(neighbours_.rearms, [this](RearmRequest& request) { request.epoch = requests_.front().epoch; });
     for (; !news_.empty() && news_.front().before == tick; news_.pop_front())
       send(neighbours_.odometry, [this](OdometryNews& n) { n.lost = news_.front().lost; });
   }
@@ -215,6 +226,7 @@ class ReplayedSafetyTask : public SafetyTaskTest {
     bool lost;
   };
   std::deque<Sent> news_;
+  std::deque<Asked> requests_;  // of asked_, those not sent yet
   std::deque<Packet> edges_;
 };
 
@@ -228,6 +240,7 @@ TEST_F(ReplayedSafetyTask, DecidesInEveryTickAsItDidLive) {
   neighbours_.connect(again);
   again.watch_estop({}, recorded, SourceId{0}, nullptr, {});
   now_ = Time{10s};
+  requests_ = asked_;
   std::uint64_t arms = 0;
   for (std::size_t i = 0; i < log_.size(); ++i, now_ += kPeriod) {
     send_news_before(i);

@@ -6,6 +6,8 @@
 #include <fstream>
 
 #include "drivers/camera/frame.hpp"
+#include "drivers/clients/commands/command_packet.hpp"
+#include "drivers/clients/messages/command.hpp"
 #include "drivers/peers/peer_packet.hpp"
 #include "drivers/recording/recording_writer.hpp"
 #include "fusion/peers/datagrams/datagram.hpp"
@@ -180,6 +182,34 @@ TEST(InspectSensors, WhatPeersSaidIsCountedByWhoSaidIt) {
   EXPECT_EQ(figures["rejected"], 1);
   EXPECT_EQ(figures["peers"]["3"]["name"], "third");
   EXPECT_EQ(figures["peers"]["3"]["hellos"], 1);
+}
+
+TEST(InspectSensors, WhatClientsCommandedIsCountedByVerb) {
+  const TemporaryFolder folder;
+  recording::Recording r;
+  r.robot = "robot_1";
+  r.sources = {{"commands", recording::kCommands, "commands.log", "", ""}};
+  auto writer = recording::RecordingWriter::create(folder / "rec", r).value();
+  Packet packet;
+  packet.bytes = {clients::kClientJoined};
+  ASSERT_TRUE(writer.write(packet));
+  for (std::uint32_t number = 1; number < 4; ++number) {
+    encode(clients::Command{.verb = clients::Command::Verb::kVelocity,
+                            .number = number,
+                            .v = -0.1 * number,
+                            .who = clients::ClientName("desk")},
+           packet.bytes);
+    ASSERT_TRUE(writer.write(packet));
+  }
+  packet.bytes = {clients::kClientLeft};
+  ASSERT_TRUE(writer.write(packet));
+  ASSERT_TRUE(writer.close());
+  const Outcome o = look_into({folder / "rec", "--json"});
+  const auto figures = nlohmann::json::parse(o.out)["sources"][0]["commands"];
+  EXPECT_EQ(figures["connections"], 1);
+  EXPECT_EQ(figures["commands"]["velocity"], 3);
+  EXPECT_EQ(figures["clients"], nlohmann::json::array({"desk"}));
+  EXPECT_NEAR(figures["fastest_m_s"].get<double>(), 0.3, 1e-9);
 }
 
 }  // namespace

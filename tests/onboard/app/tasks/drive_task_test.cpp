@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Clients of the command socket, the drive and the safety task, and simulated motors on a bus.
+#include "onboard/app/tasks/drive_task.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/faults/core_rig.hpp"
+
+namespace cairn::app {
+namespace {
+
+using namespace std::chrono_literals;
+using clients::Command;
+using Outcome = clients::Answer::Outcome;
+
+class DriveTaskTest : public ::testing::Test {
+ protected:
+  DriveTaskTest() {
+    rig_.asks_to_drive = false;
+    rig_.go(1s);
+    rig_.commands.keep_answers = true;
+  }
+  [[nodiscard]] const clients::Answer& last() const { return rig_.commands.answers.back().answer; }
+  void say(std::uint16_t client, Command::Verb verb) {
+    rig_.commands.say(client, rig_.bus.now, {.verb = verb, .epoch = rig_.decision().epoch, .who = {}});
+  }
+  void drive_for(Duration length, double v) {
+    for (const Time end = rig_.bus.now + length; rig_.bus.now < end; rig_.go(20ms))
+      rig_.commands.drive(rig_.bus.now, v);
+  }
+
+  faults::CoreRig rig_;
+};
+
+TEST_F(DriveTaskTest, TheWheelsFollowTheClient) {
+  EXPECT_LT(rig_.left_speed(), 1e-9);
+  drive_for(1s, 0.3);
+  EXPECT_NEAR(rig_.left_speed(), 0.3, 0.01);
+  EXPECT_EQ(last().outcome, Outcome::kDone);
+  rig_.go(1s);
+  EXPECT_LT(rig_.left_speed(), 1e-9) << "the client has gone silent";
+}
+
+TEST_F(DriveTaskTest, AStopOfAnyClientIsLatched) {
+  drive_for(1s, 0.3);
+  say(2, Command::Verb::kStop);
+  rig_.go(faults::CoreRig::kTick);
+  EXPECT_TRUE(last().stopped);
+  drive_for(2s, 0.3);
+  EXPECT_LT(rig_.left_speed(), 1e-9);
+  EXPECT_EQ(rig_.decision().mode, safety::Mode::kStop);
+  EXPECT_EQ(last().outcome, Outcome::kHeld);
+  say(1, Command::Verb::kArm);
+  rig_.go(1s);
+  EXPECT_EQ(last().outcome, Outcome::kDone);
+  EXPECT_LT(rig_.left_speed(), 1e-9) << "nothing was asked for since";
+  drive_for(1s, 0.3);
+  EXPECT_NEAR(rig_.left_speed(), 0.3, 0.01);
+}
+
+TEST_F(DriveTaskTest, ArmingWithThePressedEStopIsRefused) {
+  rig_.line.move(false, rig_.bus.now);
+  rig_.go(500ms);
+  say(1, Command::Verb::kArm);
+  rig_.go(20ms);
+  EXPECT_EQ(last().outcome, Outcome::kRefused);
+  EXPECT_EQ(last().why.view(), "estop_open");
+}
+
+TEST_F(DriveTaskTest, WhatTheDriveCannotDoIsTold) {
+  drive_for(100ms, 5);
+  EXPECT_EQ(last().outcome, Outcome::kLimited);
+  EXPECT_LT(last().v, 5);
+  EXPECT_GT(last().v, 0);
+}
+
+}  // namespace
+}  // namespace cairn::app
