@@ -99,7 +99,7 @@ check_link() {  # check_link PAGE TARGET
 
 sources=$(find .ci config docs drivers fusion hal onboard tests toolchains tools -type f)$'\n'
 # Every option that a program or a script has.
-options=$'\n'$(grep -rhoE -- '--[a-z][a-z-]+' onboard/app tools drivers/peers .ci tests/vm | sort -u)$'\n'
+options=$'\n'$(grep -rhoE -- '--[a-z][a-z-]*' onboard/app tools drivers/peers .ci tests/vm | sort -u)$'\n'
 readonly rooms='^\.?/?(\.ci|config|docs|drivers|fusion|hal|onboard|tests|toolchains|tools)(/|$)'
 
 exists() {  # exists NAME: a path from the root, or the end of one; the ending of a source file may be left out
