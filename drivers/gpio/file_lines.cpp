@@ -21,8 +21,8 @@ Error file_error(std::string_view cause, const std::string& path) {
   return {missing ? Errc::kNotFound : Errc::kIo, cause, path, {}, std::move(detail)};
 }
 
-/// The level in the file. O_NONBLOCK: what is no plain file must not hold the caller.
-Result<bool> read_level(const std::string& path) {
+/// The level in the file; null: it is empty. O_NONBLOCK: what is no plain file must not hold the caller.
+Result<std::optional<bool>> read_level(const std::string& path) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
   if (fd < 0) return file_error("cannot read the GPIO line", path);
   char text = 0;
@@ -33,7 +33,8 @@ Result<bool> read_level(const std::string& path) {
     return error;
   }
   ::close(fd);
-  if (size == 1 && (text == '0' || text == '1')) return text == '1';
+  if (size == 0) return std::optional<bool>();
+  if (text == '0' || text == '1') return std::optional(text == '1');
   return Error{Errc::kMalformed, "a GPIO line's file holds 0 or 1", path, {}, {}};
 }
 
@@ -101,7 +102,7 @@ Result<bool> FileLines::level(Line line) {
     return Error{Errc::kNotFound, "the GPIO line is not configured", std::string(name_of(line)), {}, {}};
   const auto high = read_level(file.path);
   if (!high) return high.error();
-  return *high != file.active_low;
+  return *high && **high != file.active_low;
 }
 
 Result<void> FileLines::set(Line line, bool level) {

@@ -16,9 +16,9 @@ inline constexpr std::string_view kFileChip = "file:";
 [[nodiscard]] inline bool is_file_chip(std::string_view chip) { return chip.starts_with(kFileChip); }
 
 /// Lines without a chip, for a robot that another program plays: each line is a file in a folder, has the line's name
-/// and holds 1 (high) or 0 (low). The files are read at every call, so keep them in memory, such as in /run. An edge is
-/// seen when the level differs from that of the call before; its stamp is the time of that call. Two edges between two
-/// calls are not seen.
+/// and holds 1 (high) or 0 (low). An empty file is a line that is not active: a shell empties a file before it writes.
+/// The files are read at every call, so keep them in memory, such as in /run. An edge is seen when the level differs
+/// from that of the call before; its stamp is the time of that call. Two edges between two calls are not seen.
 class FileLines final : public GpioLines {
  public:
   static constexpr Duration kGlance = std::chrono::milliseconds(1);  ///< between two looks while next() waits
@@ -28,7 +28,7 @@ class FileLines final : public GpioLines {
   static Result<std::unique_ptr<FileLines>> open(const Config& config, SourceId source, const Clock& clock);
 
   Result<Poll> next(Packet& packet, Duration timeout) override;
-  /// Also kMalformed: the file holds neither 0 nor 1, as while it is being written.
+  /// Also kMalformed: the file holds something else.
   Result<bool> level(Line line) override;
   Result<void> set(Line line, bool level) override;
 

@@ -68,7 +68,7 @@ TEST_F(FileLinesTest, ActiveLowTurnsLevelsAround) {
 
 TEST_F(FileLinesTest, ALineThatIsGoneOrSenselessHasNoLevelAndNoEdge) {
   const auto lines = open();
-  for (const char* senseless : {"", "x", "-1", " 1", "\xff\n"}) {
+  for (const char* senseless : {"x", "-1", " 1", "\xff\n"}) {
     write("estop", senseless);
     EXPECT_EQ(lines->level(Line::kEStop).error().code, Errc::kMalformed) << senseless;
     EXPECT_EQ(lines->next(packet, 0s).value(), Poll::kTimeout) << senseless;
@@ -78,6 +78,20 @@ TEST_F(FileLinesTest, ALineThatIsGoneOrSenselessHasNoLevelAndNoEdge) {
   std::filesystem::create_directory(folder / "estop");
   EXPECT_EQ(lines->level(Line::kEStop).error().code, Errc::kIo);
   EXPECT_EQ(lines->next(packet, 0s).value(), Poll::kTimeout);
+}
+
+/// `echo 0 > estop` empties the file before it writes. An e-stop that is read just then is open, and not lost.
+TEST_F(FileLinesTest, AnEmptyFileIsALineThatIsNotActive) {
+  for (const bool active_low : {false, true}) {
+    config.estop_active_low = active_low;
+    write("estop", active_low ? "0" : "1");
+    const auto lines = open();
+    ASSERT_TRUE(lines->level(Line::kEStop).value());
+    write("estop", "");
+    EXPECT_FALSE(lines->level(Line::kEStop).value());
+    ASSERT_EQ(lines->next(packet, 0s).value(), Poll::kPacket);
+    EXPECT_FALSE(decode_event(packet)->level);
+  }
 }
 
 TEST_F(FileLinesTest, OutputsAreFilesToo) {

@@ -6,6 +6,7 @@
 namespace cairn::simulator {
 namespace {
 
+constexpr int kHeartbeat_ms = 200;  // who listens hears that the motors live
 constexpr std::uint64_t kLiveWheelStream = 72, kLiveNodeStream = 73;
 
 }  // namespace
@@ -23,6 +24,7 @@ Motors::Motors(drive::CanLink& bus, const drive::Config& measured, const WheelCo
     node.product = static_cast<std::uint32_t>(measured.product);
     node.velocity_units_per_rad_s = measured.velocity_units_per_rad_s;
     node.position_counts_per_rad = measured.position_counts_per_rad;
+    node.heartbeat_ms = kHeartbeat_ms;
     node.encoder_noise_counts = config.encoder_noise_counts;
     node.seed = mix(seed ^ kLiveNodeStream);
     nodes_.emplace_back(node);

@@ -22,6 +22,7 @@ void DriveModel::power_on(Time now, Frames& out) {
 
 void DriveModel::boot(Time now, Frames& out) {
   objects_ = {config_.vendor, config_.product, static_cast<std::uint32_t>(10 * config_.velocity_units_per_rad_s)};
+  objects_.put(cia402::kProducerHeartbeat, static_cast<std::uint32_t>(config_.heartbeat_ms));
   nmt_ = NmtState::kPreOperational;
   power_.boot();
   angle_at_boot_ = wheel_.angle();

@@ -21,6 +21,7 @@ struct DriveModelConfig {
   double velocity_units_per_rad_s = 1000;
   double position_counts_per_rad = 10000;
   double encoder_noise_counts = 0;  ///< 1 σ of each reading
+  int heartbeat_ms = 0;             ///< period of the heartbeat before anybody has set it; 0: silent
   double coasting_rad_s2 = 20;      ///< how fast a wheel without power comes to rest
   std::uint64_t seed = 1;
 };

@@ -10,8 +10,8 @@ using canopen::Object;
 
 namespace {
 
-constexpr std::uint32_t kMostEntries = 64;  // of one PDO (CiA 301, 7.4.4)
-constexpr std::size_t kFrameBytes = 8;
+constexpr std::uint32_t kMostEntries = 64;                // of one PDO (CiA 301, 7.4.4)
+constexpr std::size_t kFrameBytes = 8, kObjectBytes = 4;  // no object of the dictionary has more
 
 /// One PDO, as the dictionary describes it.
 class Pdo {
@@ -72,7 +72,7 @@ void pack_tpdos(const ObjectDictionary& objects, std::vector<CanFrame>& out) {
     frame.id = pdo.id();
     for (std::uint8_t sub = 1; sub <= pdo.entries(); ++sub) {
       const std::size_t bytes = pdo.bytes(sub);
-      if (frame.length + bytes > kFrameBytes) return;
+      if (bytes > kObjectBytes || frame.length + bytes > kFrameBytes) return;
       canopen::store(frame, frame.length, objects.value(pdo.object(sub)), bytes);
       frame.length = static_cast<std::uint8_t>(frame.length + bytes);
     }

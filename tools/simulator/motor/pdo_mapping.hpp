@@ -15,7 +15,8 @@ namespace cairn::simulator {
 void unpack_rpdos(const drive::CanFrame& frame, ObjectDictionary& objects,
                   const std::function<void(drive::canopen::Object)>& written);
 
-/// Appends the frames that the node sends on SYNC. Stops at a mapping of more than eight bytes.
+/// Appends the frames that the node sends on SYNC. Stops at a mapping of more than eight bytes, and at an entry that is
+/// longer than any object.
 void pack_tpdos(const ObjectDictionary& objects, std::vector<drive::CanFrame>& out);
 
 }  // namespace cairn::simulator

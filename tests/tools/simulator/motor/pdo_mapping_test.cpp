@@ -70,6 +70,11 @@ TEST_F(PdoMapping, AMappingOfWhatDoesNotExistEndsThere) {
   EXPECT_TRUE(written.empty());
 }
 
+TEST_F(PdoMapping, AnEntryThatIsLongerThanAnObjectIsNotSent) {
+  map(0x1800, canopen::kTpdo1 + kNode, {entry(cia402::kPosition, 64)});
+  EXPECT_TRUE(sent().empty());
+}
+
 TEST_F(PdoMapping, WhatTheNodeSendsIsReadByTheMaster) {
   map(0x1800, canopen::kTpdo1 + kNode,
       {entry(cia402::kStatusword, 16), entry(cia402::kModeDisplay, 8), entry(cia402::kErrorCode, 16)});
