@@ -61,6 +61,15 @@ Result<simulator::LiveConfig> config_of(const LiveArguments& arguments) {
   return config;
 }
 
+/// `folder`: where the simulated devices are, and so a fit place for the sockets of the robot's program.
+void show_next_steps(const std::filesystem::path& profile, const std::filesystem::path& folder) {
+  const std::string socket = (folder / "command.sock").string();
+  std::printf("then, in other terminals:\n");
+  std::printf("  cairn run --config %s --sockets %s --out run\n", profile.c_str(), folder.c_str());
+  std::printf("  cairn arm --socket %s\n", socket.c_str());
+  std::printf("  cairn drive --v 0.5 --seconds 3 --socket %s\n", socket.c_str());
+}
+
 void show(const simulator::LiveConfig& config, const LiveDevices& d) {
   std::printf("%s: the robot stands at x %.2f m, y %.2f m, yaw %.1f deg\n", config.scene.c_str(), d.start.x, d.start.y,
               d.start.yaw * 180 / std::numbers::pi);
@@ -69,8 +78,7 @@ void show(const simulator::LiveConfig& config, const LiveDevices& d) {
   std::printf("drive:  two CiA 402 motors on the CAN bus %s\n", d.can.c_str());
   std::printf("e-stop: %s; `echo 0 > %s` presses it, `echo 1` releases it\n", d.pressed ? "pressed" : "released",
               d.estop.c_str());
-  if (!config.profile.empty())
-    std::printf("run the robot's program: cairn run --config %s --out run\n", config.profile.c_str());
+  if (!config.profile.empty()) show_next_steps(config.profile, d.estop.parent_path());
   std::printf("Ctrl-C ends the simulation\n");
   std::fflush(stdout);
 }

@@ -130,6 +130,7 @@ app::RobotProfile live_profile(const LiveConfig& config, const LiveDevices& devi
   simulated.lidar = config.lidar;
   app::RobotProfile profile = simulated_profile(simulated);
   profile.name = "simulated";
+  profile.lidar.driver.bind_address = devices.lidar.host;  // whose packets come here
   profile.lidar.driver.data_port = devices.lidar.data_port;
   profile.lidar.driver.position_port = devices.lidar.position_port();
   profile.drive.driver.interface = devices.can;

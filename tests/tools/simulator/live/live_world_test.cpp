@@ -100,7 +100,7 @@ TEST(LiveWorld, PacketsComeAsTheSensorSendsThem) {
 }
 
 TEST(LiveWorld, TheLidarSeesTheWorldFromWhereTheRobotIs) {
-  LiveRobot robot;
+  LiveRobot robot({4, 3, 0}, LiveRobot::exact(), LidarConfig{});
   robot.arm();
   robot.go(1, 0);
   robot.run(3s);
@@ -174,7 +174,7 @@ TEST(LiveWorld, TheTruthIsToldAHundredTimesASecond) {
 }
 
 TEST(LiveWorld, TheSameCommandsAtTheSameTimesGiveTheSameBytes) {
-  LiveRobot one, two;
+  LiveRobot one({4, 3, 0}, WheelConfig{}, LidarConfig{}), two({4, 3, 0}, WheelConfig{}, LidarConfig{});
   for (LiveRobot* robot : {&one, &two}) {
     robot->arm();
     robot->go(0.7, -0.4);
