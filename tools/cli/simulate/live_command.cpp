@@ -100,16 +100,17 @@ nlohmann::ordered_json to_json(const simulator::LiveConfig& config, const LiveSu
           {"late_p99_ms", milliseconds(s.late_p99)},
           {"late_max_ms", milliseconds(s.late_max)},
           {"can_frames_received", s.motors.obeyed},
-          {"can_frames_sent", s.motors.sent}};
+          {"can_frames_sent", s.motors.sent},
+          {"can_frames_lost", s.motors.unsent}};
 }
 
 void show(const LiveSummary& s) {
   std::printf("%.1f s: %.1f m driven, %d contacts; %llu LiDAR packets (%llu left out), half of them within %.1f ms, ",
               s.seconds, s.distance_m, s.contacts, static_cast<unsigned long long>(s.lidar.data_packets),
               static_cast<unsigned long long>(s.lidar.left_out), milliseconds(s.late_p50));
-  std::printf("99 %% within %.1f ms, all within %.1f ms; %llu CAN frames came, %llu went\n", milliseconds(s.late_p99),
-              milliseconds(s.late_max), static_cast<unsigned long long>(s.motors.obeyed),
-              static_cast<unsigned long long>(s.motors.sent));
+  std::printf("99 %% within %.1f ms, all within %.1f ms; %llu CAN frames came, %llu went, %llu were lost\n",
+              milliseconds(s.late_p99), milliseconds(s.late_max), static_cast<unsigned long long>(s.motors.obeyed),
+              static_cast<unsigned long long>(s.motors.sent), static_cast<unsigned long long>(s.motors.unsent));
 }
 
 }  // namespace

@@ -59,58 +59,53 @@ CanHub::~CanHub() {
   if (!path_.empty()) ::unlink(path_.c_str());
 }
 
-void CanHub::accept_clients() {
+Result<void> CanHub::accept_clients() {
   for (std::size_t i = 0; i < kMaxClients; ++i) {
     const int fd = ::accept4(fd_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK);
-    if (fd < 0) return;
+    if (fd < 0) break;
     auto client = UnixCanLink::adopt(fd, SourceId{0}, clock_);
-    if (clients_.size() < kMaxClients)
-      clients_.push_back(std::move(client));
-    else
-      ++counters_.turned_away;
+    if (clients_.size() == kMaxClients)
+      return Error{Errc::kLimit, "one more program wanted to join this bus", path_.string(), {}, "8 can be connected"};
+    clients_.push_back(std::move(client));
   }
+  return {};
 }
 
 Result<Poll> CanHub::next(Packet& packet, Duration /*timeout*/) {
   drop_lost();
-  accept_clients();
+  if (auto accepted = accept_clients(); !accepted) return accepted.error();
   for (std::size_t tried = 0; tried < clients_.size(); ++tried) {
     turn_ = (turn_ + 1) % clients_.size();
-    if (take_from(clients_[turn_], packet)) return Poll::kPacket;
+    const auto taken = take_from(clients_[turn_], packet);
+    if (!taken) return taken.error();
+    if (*taken) return Poll::kPacket;
   }
   return Poll::kTimeout;
 }
 
-bool CanHub::take_from(Client& client, Packet& packet) {
-  // A program that sends nothing but rubbish must not hold the owner.
-  constexpr int kMostRecords = 64 + static_cast<int>(UnixCanLink::kMostOwn);
-  for (int i = 0; i < kMostRecords; ++i) {
+Result<bool> CanHub::take_from(Client& client, Packet& packet) {
+  do {
     const auto poll = client->next(packet, Duration::zero());
-    if (!poll || *poll != Poll::kPacket) return false;
-    if (packet.channel == static_cast<std::uint16_t>(drive::Direction::kSent)) continue;
-    const auto frame = packet.truncated ? Error{Errc::kTruncated, "no frame"} : drive::decode_frame(packet.payload());
-    if (!frame) {
-      ++counters_.refused;
-      continue;
-    }
-    pass_on(*frame, &client);
-    return true;
-  }
-  return false;
+    if (!poll || *poll != Poll::kPacket) return false;  // a program that has gone is dropped later
+  } while (packet.channel == static_cast<std::uint16_t>(drive::Direction::kSent));
+  const auto frame = drive::decode_frame(packet.payload());
+  if (packet.truncated || !frame)
+    return Error{Errc::kMalformed, "a program sent what is no CAN frame", path_.string(), {}, {}};
+  (void)pass_on(*frame, &client);  // who has no room loses the frame
+  return true;
 }
 
-void CanHub::pass_on(const drive::CanFrame& frame, const Client* from) {
+SendResult CanHub::pass_on(const drive::CanFrame& frame, const Client* from) {
+  SendResult result = SendResult::kSent;
   for (Client& client : clients_)
-    if (&client != from && client->send(frame) == SendResult::kQueueFull) ++counters_.not_taken;
+    if (&client != from && client->send(frame) == SendResult::kQueueFull) result = SendResult::kQueueFull;
+  return result;
 }
 
 void CanHub::drop_lost() {
   std::erase_if(clients_, [](const Client& client) { return !client->is_open(); });
 }
 
-SendResult CanHub::send(const drive::CanFrame& frame) {
-  pass_on(frame, nullptr);
-  return SendResult::kSent;
-}
+SendResult CanHub::send(const drive::CanFrame& frame) { return pass_on(frame, nullptr); }
 
 }  // namespace cairn::simulator

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
+#include <cstddef>
 #include <filesystem>
 #include <memory>
 #include <vector>
@@ -15,11 +15,6 @@ namespace cairn::simulator {
 /// frames. The owner waits for nobody.
 class CanHub final : public drive::CanLink {
  public:
-  struct Counters {
-    std::uint64_t refused = 0;      ///< records that are no frame
-    std::uint64_t not_taken = 0;    ///< frames that a program had no room for
-    std::uint64_t turned_away = 0;  ///< programs: kMaxClients are connected
-  };
   static constexpr std::size_t kMaxClients = 8;
 
   /// Replaces a socket that no program serves any more. `clock` must outlive the hub. Errors: kInvalidConfig (no name
@@ -29,24 +24,23 @@ class CanHub final : public drive::CanLink {
   CanHub& operator=(const CanHub&) = delete;
   ~CanHub() override;
 
-  /// The next frame of a program, stamped when it was sent. Never waits, whatever the timeout.
+  /// The next frame of a program, stamped when it was sent. Never waits, whatever the timeout. Errors: kMalformed (a
+  /// program sent what is no frame), kLimit (kMaxClients are connected, and one more was turned away).
   Result<Poll> next(Packet& packet, Duration timeout) override;
-  /// To all programs. kSent also where nobody is connected: so it is on a bus of which one is the only node that
-  /// listens.
+  /// To all programs. kQueueFull: one of them had no room for it. kSent also where nobody is connected.
   drive::SendResult send(const drive::CanFrame& frame) override;
   Result<void> restart() override { return {}; }
 
   [[nodiscard]] std::size_t clients() const { return clients_.size(); }
-  [[nodiscard]] const Counters& counters() const { return counters_; }
 
  private:
   using Client = std::unique_ptr<drive::UnixCanLink>;
 
   CanHub(int fd, std::filesystem::path path, const Clock& clock) : fd_(fd), path_(std::move(path)), clock_(clock) {}
-  void accept_clients();
+  Result<void> accept_clients();
   /// Whether `client` had a frame; it is then in `packet`, and the others have it.
-  bool take_from(Client& client, Packet& packet);
-  void pass_on(const drive::CanFrame& frame, const Client* from);
+  Result<bool> take_from(Client& client, Packet& packet);
+  drive::SendResult pass_on(const drive::CanFrame& frame, const Client* from);
   void drop_lost();
 
   int fd_;
@@ -54,7 +48,6 @@ class CanHub final : public drive::CanLink {
   const Clock& clock_;
   std::vector<Client> clients_;
   std::size_t turn_ = 0;
-  Counters counters_;
 };
 
 }  // namespace cairn::simulator

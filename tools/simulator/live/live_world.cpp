@@ -41,7 +41,8 @@ Time LiveWorld::next_due() const {
 void LiveWorld::obey_bus() {
   for (int i = 0; i < kMostFrames; ++i) {
     const auto poll = ports_.bus.next(packet_, Duration::zero());
-    if (!poll) return say_fault("CAN", poll.error());
+    if (!poll) say_fault("CAN", poll.error());
+    if (!poll) continue;
     if (*poll != Poll::kPacket) return;
     if (packet_.channel != static_cast<std::uint16_t>(drive::Direction::kReceived)) continue;
     const auto frame = drive::decode_frame(packet_.payload());

@@ -20,7 +20,7 @@ class Motors {
   /// Frames, each way.
   struct Counters {
     std::uint64_t obeyed = 0, sent = 0;
-    std::uint64_t unsent = 0;  ///< the bus did not take them
+    std::uint64_t unsent = 0;  ///< the bus, or a program on it, had no room for them
   };
 
   /// `bus` must outlive it. `measured`: the drive as its owner has configured it.
