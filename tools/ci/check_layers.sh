@@ -50,7 +50,12 @@ deny "hal knows nobody" "move the word both sides need into hal/, or hand the th
 deny "drivers know only hal" "hand the result on as one of hal's types; onboard/app connects driver and stage" \
   "$(inc '(onboard|fusion|tools|tests)/')" "$none" "${drivers[@]}"
 deny "onboard knows only hal; onboard/app may also know drivers and fusion" "take a port of hal/ports.hpp as argument" \
-  "$(inc '(drivers|fusion)/')" '^onboard/app/|^onboard/report/figures/trajectory_error\.[ch]pp$' "${onboard[@]}"
+  "$(inc '(drivers|fusion)/')" '^onboard/(app|client)/|^onboard/report/figures/trajectory_error\.[ch]pp$' "${onboard[@]}"
+mapfile -t client < <(code onboard/client)
+not_clients=$(printf '%s\n' drivers/*/ | xargs -n 1 basename | grep -vx clients | paste -sd '|')
+deny "onboard/client knows only hal, drivers/clients, onboard/mapping and fusion/peers" "let it see messages and maps only" \
+  "$(inc "(drivers/($not_clients)|fusion/(matching|merging|team)|onboard/(app|odometry|report|safety|scheduler)|tools)/|onboard/robot\.")" \
+  "$none" "${client[@]}"
 deny "onboard knows neither tools nor tests" "move what is needed into the room that owns it" \
   "$(inc '(tools|tests)/')" "$none" "${onboard[@]}"
 deny "the program does not know tests" "move what is needed out of tests/" "$(inc 'tests/')" "$none" "${product[@]}"

@@ -2,6 +2,8 @@
 #include "drivers/clients/sockets/local_server.hpp"
 
 #include <grp.h>
+#include <linux/sockios.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -125,6 +127,15 @@ bool LocalServer::send(ClientId client, std::span<const std::byte> message) {
   return place != nullptr && place->fd >= 0 &&
          ::send(place->fd, message.data(), message.size(), MSG_NOSIGNAL | MSG_DONTWAIT) ==
              static_cast<ssize_t>(message.size());
+}
+
+/// The kernel takes twice `waiting_bytes`, and counts its own overhead.
+bool LocalServer::send_bulk(ClientId client, std::span<const std::byte> message) {
+  const Client* place = find(client);
+  int waiting = 0;
+  if (place == nullptr || place->fd < 0 || ::ioctl(place->fd, SIOCOUTQ, &waiting) != 0) return false;
+  if (waiting > 0 && waiting + static_cast<int>(message.size()) > waiting_bytes_) return false;
+  return send(client, message);
 }
 
 void LocalServer::drop(ClientId client) {

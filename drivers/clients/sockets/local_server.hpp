@@ -53,6 +53,9 @@ class LocalServer {
   Received receive(std::vector<std::byte>& bytes, std::size_t most);
   /// False: the client is gone, or has not read what was sent before.
   bool send(ClientId client, std::span<const std::byte> message);
+  /// The same for what can wait: false also where half of the client's room is taken. The other half is for messages
+  /// that cannot wait.
+  bool send_bulk(ClientId client, std::span<const std::byte> message);
   /// Ends the connection. The next receive() says that it left.
   void drop(ClientId client);
 

@@ -81,6 +81,20 @@ TEST_F(LocalServerTest, OneTooManyIsTurnedAway) {
   EXPECT_EQ(server.turned_away(), 1U);
 }
 
+TEST_F(LocalServerTest, WhatCanWaitLeavesRoomForWhatCannot) {
+  LocalServer server = open();
+  LocalClient client = connect();
+  const auto id = receive(server).client;
+  int bulk = 0, urgent = 0;
+  while (server.send_bulk(id, kMessage)) ASSERT_LT(++bulk, 100'000);
+  while (server.send(id, kMessage)) ASSERT_LT(++urgent, 100'000);
+  EXPECT_GT(bulk, 0);
+  EXPECT_GT(urgent, 0);
+  while (receive(client) == LocalClient::Got::kMessage) continue;
+  EXPECT_TRUE(server.send_bulk(id, kMessage));
+  EXPECT_FALSE(server.send_bulk(99, kMessage));
+}
+
 TEST_F(LocalServerTest, ADeafClientCostsItsOwnMessages) {
   LocalServer server = open();
   LocalClient deaf = connect(), reader = connect();
