@@ -30,7 +30,9 @@ void Monitor::event(Time when, std::string_view stage, std::string_view what) {
     events_.push_back({when, when, std::string(stage), std::string(what), 1});
   } else {
     ++dropped_events_;
+    return;
   }
+  kept_events_.fetch_add(1, std::memory_order_release);
 }
 
 std::vector<Event> Monitor::events_now() const {

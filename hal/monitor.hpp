@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <atomic>
 #include <cstdint>
 #include <deque>
 #include <mutex>
@@ -51,6 +52,8 @@ class Monitor {
   [[nodiscard]] std::uint64_t dropped_events() const { return dropped_events_; }
   /// A copy, while others report.
   [[nodiscard]] std::vector<Event> events_now() const;
+  /// Any thread, without a lock: counts the events that were kept. A copy is worth its time only when this has changed.
+  [[nodiscard]] std::uint64_t kept_events() const { return kept_events_.load(std::memory_order_acquire); }
 
   static constexpr std::size_t kMaxEvents = 256;
 
@@ -59,6 +62,7 @@ class Monitor {
   std::deque<StageStats> stages_;
   std::vector<Event> events_;
   std::uint64_t dropped_events_ = 0;
+  std::atomic<std::uint64_t> kept_events_{0};
 };
 
 /// Times a scope: `const StageTimer timing{monitor.stage("odometry")};`. Figures only; no result depends on it.

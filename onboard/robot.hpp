@@ -94,12 +94,18 @@ class Robot {
   [[nodiscard]] bool resuming() const { return odometry_.resuming(); }
 
   [[nodiscard]] const std::vector<TrackPoint>& track() const { return track_; }
+  /// Of locate()'s thread: pose and motion at the last scan, and the noise of a prediction from there.
+  [[nodiscard]] const odometry::MotionFilter& motion() const { return odometry_.motion(); }
+  [[nodiscard]] odometry::MotionNoise expected_noise() const { return odometry_.expected_noise(); }
   [[nodiscard]] const mapping::SemanticOcTree& map() const { return mapper_.tree(); }
+  /// Of map(). It may lag behind the last TrackPoint's.
+  [[nodiscard]] std::uint32_t map_epoch() const { return mapped_epoch_; }
   static constexpr std::size_t kEarlierMaps = 3;
   /// Maps of earlier epochs, the oldest first: at most kEarlierMaps, the largest ones.
   [[nodiscard]] const std::vector<EarlierMap>& earlier_maps() const { return earlier_; }
   /// Maps of earlier epochs that are no longer there, because larger ones came.
   [[nodiscard]] std::size_t dropped_maps() const { return dropped_maps_; }
+  [[nodiscard]] std::span<const mapping::TileKey> changed_tiles() const { return mapper_.changed_tiles(); }
   /// See Mapper::take_changed_tiles(). After a new epoch began, all of the map's.
   [[nodiscard]] std::vector<mapping::TileKey> take_changed_tiles() { return mapper_.take_changed_tiles(); }
 

@@ -181,6 +181,7 @@ void TeamMap::fuse_tile(View& view, mapping::TileKey tile) {
     labels[i] = labelled && fused[i] >= kLimits.occupied ? fused_label(known, i) : mapping::VoxelLabel{};
   }
   mapping::write_tile(*view.fused, tile, fused, labelled ? &labels : nullptr);
+  if (changed_ && &view == &shown_) changed_->insert(tile);
 }
 
 mapping::VoxelLabel TeamMap::fused_label(std::size_t known, std::size_t voxel) {
@@ -197,6 +198,19 @@ void TeamMap::step(View& view) {
     fuse_tile(view, take_nearest(view));
 }
 
+void TeamMap::note_all(const mapping::SemanticOcTree& map) {
+  if (!changed_) return;
+  const auto tiles = mapping::known_tiles(map, std::numeric_limits<std::size_t>::max());
+  changed_->insert(tiles.begin(), tiles.end());
+}
+
+std::vector<mapping::TileKey> TeamMap::take_changed_tiles() {
+  if (!changed_) return {};
+  std::vector<mapping::TileKey> tiles(changed_->begin(), changed_->end());
+  changed_->clear();
+  return tiles;
+}
+
 /// What is shown must not be older than what was; but tiles may change faster than they are caught up with.
 void TeamMap::catch_up_or_show() {
   if (!next_->later.empty() && next_->catch_ups++ < kCatchUps)
@@ -206,6 +220,8 @@ void TeamMap::catch_up_or_show() {
 }
 
 void TeamMap::show_next() {
+  note_all(*shown_.fused);
+  note_all(*next_->fused);
   spare_ = std::move(shown_.fused);
   shown_ = std::move(*next_);
   shown_.dirty = std::exchange(shown_.later, {});

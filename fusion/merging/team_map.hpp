@@ -71,6 +71,11 @@ class TeamMap {
   };
   [[nodiscard]] Origin origin_of(mapping::TileKey tile) const;
 
+  /// From now on the tiles of map() that may have changed are noted. That is work for those who look at them alone.
+  void note_changes() { changed_.emplace(); }
+  /// In canonical order, each once; all of both maps after map() has become another one. Empty before note_changes().
+  [[nodiscard]] std::vector<mapping::TileKey> take_changed_tiles();
+
  private:
   using Dirty = std::map<std::uint64_t, std::set<mapping::TileKey>>;  // by region: tiles to be fused
   /// One map, for one set of poses.
@@ -98,6 +103,7 @@ class TeamMap {
   [[nodiscard]] bool add_to_shown(const View& wanted);
   void catch_up_or_show();
   void show_next();
+  void note_all(const mapping::SemanticOcTree& map);
 
   double resolution_m_;
   std::map<SubmapKey, TileLayer> layers_;
@@ -109,6 +115,7 @@ class TeamMap {
   bool redo_ = false;  // shown_ and next_ hold what is to be forgotten
   unsigned turn_ = 0;
   Eigen::Vector3d focus_ = Eigen::Vector3d::Zero();
+  std::optional<std::set<mapping::TileKey>> changed_;
   RememberedFold fold_;
   std::vector<Placement::Opinion> by_submap_;  // of a tile; reused
   std::vector<float> opinions_;                // of a voxel

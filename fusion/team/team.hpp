@@ -89,6 +89,9 @@ class Team {
   /// How many tiles of the robot's own map wait to be published.
   [[nodiscard]] std::size_t unsaid() const { return own_tiles_.waiting(); }
   [[nodiscard]] const merging::TeamMap& map() const { return map_; }
+  /// See merging::TeamMap.
+  void note_map_changes() { map_.note_changes(); }
+  [[nodiscard]] std::vector<mapping::TileKey> take_changed_tiles() { return map_.take_changed_tiles(); }
   [[nodiscard]] const TeamPoses& poses() const { return poses_; }
   /// What all robots claim of where others are.
   [[nodiscard]] std::vector<PairClaim> claims() const { return published_claims(exchange_.layers()); }

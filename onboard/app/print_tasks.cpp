@@ -32,6 +32,7 @@ void add_live_only_tasks(const RunOptions& options, const ScheduleProfile& sched
   std::vector<scheduler::TaskSpec> specs{schedule.housekeeping};
   if (!options.state.empty()) specs.push_back(schedule.saving);
   specs.push_back(schedule.watch);
+  if (!options.sockets.empty()) specs.push_back(schedule.streams);
   for (const scheduler::TaskSpec& spec : specs) tasks.graph.add(spec, tasks.reference, scheduler::TaskRole::kLiveOnly);
 }
 

@@ -2,6 +2,7 @@
 #include "onboard/app/run.hpp"
 
 #include <optional>
+#include <system_error>
 #include <thread>
 
 #include "onboard/app/commands/serve_commands.hpp"
@@ -27,6 +28,14 @@ Result<void> take_schedule(const RunOptions& options, Door& door) {
   return {};
 }
 
+/// Where it is missing.
+Result<void> make_socket_folder(const std::filesystem::path& folder) {
+  std::error_code failed;
+  if (!folder.empty()) std::filesystem::create_directories(folder, failed);
+  if (failed) return Error{Errc::kIo, "cannot make the folder for sockets", folder.string(), {}, failed.message()};
+  return {};
+}
+
 Result<Door> open_door(const RunOptions& options, RobotProfile& profile, const Clock& clock, Monitor& monitor) {
   auto door = options.recording.empty()
                   ? open_devices(profile, options.record.empty() ? Devices::kUsed : Devices::kAll, clock, monitor)
@@ -35,6 +44,7 @@ Result<Door> open_door(const RunOptions& options, RobotProfile& profile, const C
   if (!door) return door;
   if (const auto taken = take_schedule(options, *door); !taken) return taken.error();
   if (options.live() && !options.recording.empty()) forget_recorded(recording::kCommands, *door);
+  if (const auto made = make_socket_folder(options.sockets); !made) return made.error();
   if (!options.sockets.empty() && options.recording.empty())
     if (const auto served = serve_commands(options.sockets, profile, clock, *door); !served) return served.error();
   if (options.peers)

@@ -120,8 +120,10 @@ void add_run_options(CLI::App& app, Commands& commands) {
       "take part in the team, through the peer process (cairn-peers) at team.socket of the profile; a recording is "
       "played as if by the robot's devices");
   app.add_option("--live-view", a->run.live_view, "live: local socket for cairn top, such as /run/cairn/live.sock");
-  app.add_option("--sockets", a->run.sockets,
-                 "live: folder for the sockets of other programs, such as /run/cairn: command.sock takes commands");
+  app.add_option(
+      "--sockets", a->run.sockets,
+      "live: folder for the sockets of other programs, such as /run/cairn: robot.sock gives pose, state, maps "
+      "and scans, command.sock takes commands");
   app.add_option("--schedule", a->run.schedule,
                  "repeat this schedule.log of a live run, instead of the recording's own");
   app.add_option("--speed", a->speed, "pace of a recording: as it was made, or as fast as possible")

@@ -90,6 +90,11 @@ class LidarOdometry {
   /// The first scan after resume() is still to come. Grant it every iteration.
   [[nodiscard]] bool resuming() const { return relocaliser_.pending(); }
 
+  /// Pose and motion at the last scan.
+  [[nodiscard]] const MotionFilter& motion() const { return filter_; }
+  /// How much acceleration is expected until the next scan.
+  [[nodiscard]] MotionNoise expected_noise() const { return prior_.usual(map_.settled()); }
+
   /// Blocks the map holds, for figures and tests.
   [[nodiscard]] std::size_t map_blocks() const { return map_.patches().blocks(); }
 

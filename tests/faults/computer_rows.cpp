@@ -246,6 +246,12 @@ std::vector<Row> foreign_rows() {
        0ms, N, "hal/InputFile.RefusesWhatIsNoRegularFileAtOnce"},
       {"C23", "eight clients of the live view that read nothing", "A new client takes the place of one of them.", 0ms,
        0ms, N, "live/LiveServerTest.SilentClientsLockNobodyOut"},
+      {"C29", "clients of robot.sock that read nothing, send garbage, or die",
+       "The run is what it is without them. Garbage ends a connection, with an event.", 0ms, 0ms, N,
+       "streams/LiveStreams.HostileClientsChangeNothing"},
+      {"C30", "a client of robot.sock that does not read for a while",
+       "It misses no tile. Of other records it loses some, and counts them.", 0ms, 0ms, N,
+       "streams/TileStreamTest.WhoDoesNotReadMissesNoTile"},
   };
 }
 

@@ -12,6 +12,8 @@ void declare(config::Section& s, ScheduleProfile& p) {
   s.group("team", p.team, "in a team: datagrams of peers, and a slice of the team's map");
   s.group("matching", p.matching, "in a team: compares maps, one pair at a time, for seconds if need be");
   s.group("watch", p.watch, "events, signs of life, live view: waits for no disk");
+  s.group("streams", p.streams,
+          "robot.sock, where --sockets says so: poses, state, tiles and scans for other programs");
   s.group("housekeeping", p.housekeeping, "recording: everything that may wait for a disk");
   s.group("saving", p.saving, "map, pose and scans for a restart, where --state says so");
 }

@@ -34,6 +34,7 @@ struct ScheduleProfile {
   scheduler::TaskSpec team{.name = "team", .rate_hz = 25, .phase_ms = 3, .deadline_ms = 200, .soft_ms = 4};
   scheduler::TaskSpec matching{.name = "matching", .rate_hz = 10, .phase_ms = 6, .deadline_ms = 5000};
   scheduler::TaskSpec watch{.name = "watch", .rate_hz = 20, .phase_ms = 4, .deadline_ms = 1000, .soft_ms = 0.5};
+  scheduler::TaskSpec streams{.name = "streams", .rate_hz = 400, .phase_ms = 0.6, .deadline_ms = 5};
   scheduler::TaskSpec housekeeping{
       .name = "housekeeping", .rate_hz = 20, .phase_ms = 5, .deadline_ms = 1000, .soft_ms = 1};
   scheduler::TaskSpec saving{.name = "saving", .rate_hz = 10, .phase_ms = 7, .deadline_ms = 1000, .soft_ms = 5};

@@ -19,6 +19,18 @@ constexpr Duration kStartDelay = std::chrono::milliseconds(50);
 // A recording that is played among peers has ended, and they get the time to hear of it.
 constexpr Duration kLinger = std::chrono::seconds(30);
 
+/// What clients are told first.
+clients::HelloMessage greeting(const RobotProfile& profile, const std::vector<recording::SourceEntry>& sources,
+                               std::uint64_t session) {
+  clients::HelloMessage hello{.robot = profile.name,
+                              .robot_id = static_cast<std::uint64_t>(profile.team.id),
+                              .session = session,
+                              .resolution_m = profile.mapping.resolution_m};
+  for (const recording::SourceEntry& source : sources)
+    if (source.base_sensor_xyz_rpy) hello.sensors.push_back({source.id, source.T_base_sensor()});
+  return hello;
+}
+
 }  // namespace
 
 LiveRun::LiveRun(RobotTasks& tasks, const RunContext& context, const Clock& clock)
@@ -32,10 +44,12 @@ Result<RunEnd> LiveRun::run(Generations* generations) {
   if (const auto opened = open_recorder(); !opened) return opened.error();
   if (const auto connected = connect_inputs(tasks_, context_, recorder_ ? &*recorder_ : nullptr); !connected)
     return connected.error();
+  if (const auto opened = open_streams(); !opened) return opened.error();
   add_live_only_tasks(generations);
   best_effort_ = !become_real_time(tasks_.graph, context_.monitor);
   execute();
   safety_events_.read();
+  close_streams();
   if (saving_) saving_->close(clock_.now(), tasks_.robot);
   report_unlogged_ticks();
   if (const auto closed = housekeeping_->close(clock_.now()); !closed) return closed.error();
@@ -53,6 +67,33 @@ Result<void> LiveRun::open_recorder() {
   return keep_with_recording(folder, *context_.previous.resumed, context_.monitor);
 }
 
+Result<void> LiveRun::open_streams() {
+  const auto& folder = context_.options.sockets;
+  if (folder.empty()) return {};
+  const RobotProfile& profile = context_.profile;
+  const auto robot_id = static_cast<std::uint64_t>(profile.team.id);
+  const std::uint64_t session = new_epoch(clock_.now() + LiveClock::realtime_offset());
+  auto hub = ClientHub::open(folder, greeting(profile, context_.door.recording.sources, session), context_.monitor);
+  if (!hub) return hub.error();
+  outlets_.emplace();
+  streams_.emplace(std::move(*hub), session, robot_id, *outlets_, context_.monitor);
+  tasks_.odometry.serve(*outlets_);
+  tasks_.drive.publish_to(outlets_->drive);
+  tasks_.mapping.serve(outlets_->own);
+  if (tasks_.team) tasks_.team->team().serve(outlets_->team);
+  return {};
+}
+
+/// The last tiles go out before the clients are left alone.
+void LiveRun::close_streams() {
+  if (!streams_) return;
+  streams_->close(clock_, [this] {
+    const bool own = tasks_.mapping.serve_rest();
+    return (!tasks_.team || tasks_.team->team().serve_rest()) && own;
+  });
+  streams_.reset();
+}
+
 void LiveRun::add_live_only_tasks(Generations* generations) {
   const RunOptions& options = context_.options;
   const ScheduleProfile& schedule = context_.profile.schedule;
@@ -65,6 +106,7 @@ void LiveRun::add_live_only_tasks(Generations* generations) {
   if (generations != nullptr) writers.push_back(add_saving(*generations));
   watch_.emplace(std::move(writers), recorder);
   add_live_only(schedule.watch, *watch_);
+  if (streams_) add_live_only(schedule.streams, *streams_);
   publisher_.emplace(tasks_.graph, context_.monitor,
                      StatusPublisher::from_environment(context_.profile.name, options.live_view), clock_.now());
   watch_->add([this](Time) { safety_events_.read(); });
@@ -122,9 +164,18 @@ void LiveRun::publish_status(Time now) {
   publisher_->set_shed(tasks_.mapping.shed());
   publisher_->set_scans(tasks_.receive.figures().scans);
   if (tasks_.team && tasks_.team->team().view().refresh()) publisher_->set_peers(tasks_.team->team().view().value());
+  if (outlets_) publish_state();
   safety::FaultSet faults = faults_of_machine() | schedule_faults_.look();
   faults.set(safety::Fault::kTaskHung, !publisher_->tick(now));
   tasks_.safety.report(faults);
+}
+
+void LiveRun::publish_state() {
+  (void)outlets_->drive.refresh();
+  outlets_->state.publish(StateNews{.decision = safety_events_.decision(),
+                                    .drive = outlets_->drive.value(),
+                                    .shed = tasks_.mapping.shed(),
+                                    .scans = tasks_.receive.figures().scans});
 }
 
 safety::FaultSet LiveRun::faults_of_machine() const {

@@ -9,6 +9,7 @@
 #include "onboard/app/runs/safety_events.hpp"
 #include "onboard/app/runs/schedule_faults.hpp"
 #include "onboard/app/runs/status_publisher.hpp"
+#include "onboard/app/streams/streams_task.hpp"
 #include "onboard/app/tasks/housekeeping_task.hpp"
 #include "onboard/app/tasks/recorder.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
@@ -17,8 +18,8 @@
 
 namespace cairn::app {
 
-/// Runs the tasks of a robot on the machine's clock, beside those that only a live run has: housekeeping, saving and
-/// watching.
+/// Runs the tasks of a robot on the machine's clock, beside those that only a live run has: housekeeping, saving,
+/// watching and serving clients.
 class LiveRun {
  public:
   /// All must outlive the run; the run must outlive the use of `tasks`.
@@ -26,12 +27,13 @@ class LiveRun {
 
   /// Until the options' `stop`, their seconds are over, or a played recording has ended. Leaves schedule.log and, where
   /// it is asked for, a recording. A stop is an interruption only while a recording is played. `generations`: where the
-  /// map is saved; null: nowhere. Errors: an input cannot be
-  /// connected; the recording or the log cannot be written.
+  /// map is saved; null: nowhere. Errors: an input cannot be connected; a socket cannot be served; the recording or the
+  /// log cannot be written.
   Result<RunEnd> run(Generations* generations);
 
  private:
   Result<void> open_recorder();
+  Result<void> open_streams();
   void add_live_only_tasks(Generations* generations);
   [[nodiscard]] safety::Pulse add_saving(Generations& generations);
   scheduler::ScheduledTask& add_live_only(const scheduler::TaskSpec& spec, scheduler::Task& task);
@@ -41,6 +43,8 @@ class LiveRun {
   [[nodiscard]] bool played_out(Time now) const;
   [[nodiscard]] RunEnd end() const;
   void publish_status(Time now);
+  void publish_state();
+  void close_streams();
   [[nodiscard]] safety::FaultSet faults_of_machine() const;
   void report_unlogged_ticks();
 
@@ -55,6 +59,8 @@ class LiveRun {
   std::optional<SavingTask> saving_;
   std::optional<WatchTask> watch_;
   std::optional<StatusPublisher> publisher_;
+  std::optional<StreamOutlets> outlets_;
+  std::optional<StreamsTask> streams_;
   bool best_effort_ = false;
 };
 

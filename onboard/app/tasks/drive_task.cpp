@@ -101,6 +101,7 @@ void DriveTask::tick(Tick& tick) {
   command(tick.release());
   if (const auto state = drive_->tick(tick.release()); state && *state != nullptr) state_ = **state;
   if (commands_) answer(tick.release());
+  if (published_to_ != nullptr) published_to_->publish(drive_->status());
   publish(tick);
   publish_wheels(tick);
   if (link_->feed.ended() && (!commands_ || commands_->feed.ended())) tick.end_of_input();

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "drivers/drive/can_drive.hpp"
+#include "hal/latest_value.hpp"
 #include "onboard/app/commands/commander.hpp"
 #include "onboard/app/tasks/messages.hpp"
 #include "onboard/scheduler/feed.hpp"
@@ -66,6 +67,9 @@ class DriveTask final : public scheduler::Task {
   void set_planner(Planner planner) { planner_ = std::move(planner); }
   /// Clients of the command socket are the planner. `source` and `answers` (null in a replay) must outlive the task.
   void obey_commands(Source& source, SourceId id, clients::AnswerPort* answers, scheduler::Feed::Tap tap);
+  /// Live: the status of the drive goes to `latest`, too, with every tick. To be called before the run; `latest` must
+  /// outlive the task.
+  void publish_to(LatestValue<std::optional<DriveStatus>>& latest) { published_to_ = &latest; }
 
   void tick(scheduler::Tick& tick) override;
 
@@ -101,6 +105,7 @@ class DriveTask final : public scheduler::Task {
   std::optional<DriveState> state_;
   Time published_wheels_ = Time::min();  // stamp
   DriveNews published_;
+  LatestValue<std::optional<DriveStatus>>* published_to_ = nullptr;
 };
 
 }  // namespace cairn::app

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <utility>
 
 namespace cairn::app {
 
@@ -13,6 +14,8 @@ namespace {
 
 // Between two batches of changed tiles, in time of scans.
 constexpr Duration kBatchPeriod = std::chrono::milliseconds(500);
+// For clients. Reading one takes some microseconds.
+constexpr std::size_t kOwnTilesInATick = 256;
 
 }  // namespace
 
@@ -43,6 +46,7 @@ void OdometryTask::locate(const ArrivedScan& arrived, Tick& tick) {
       robot_.locate(arrived.scan, budget, out != nullptr ? out->scan : dropped_, rolled ? &*rolled : nullptr);
   tick.settle(steps_slot, budget);
   if (located && published_ != nullptr) published_->publish(*located);
+  if (located && outlets_ != nullptr) hand_to_clients(*located, out != nullptr ? out->scan : dropped_);
   lost_ = !located || located->lost;
   if (!located) {
     monitor_.event(arrived.scan.valid.end, "odometry", to_string(located.error()));
@@ -54,6 +58,18 @@ void OdometryTask::locate(const ArrivedScan& arrived, Tick& tick) {
   }
   if (tick.takes_time()) latency_.record(tick.figure_now() - arrived.arrival);
   if (progress_) progress_(arrived.scan.valid.end, ++count_);
+}
+
+void OdometryTask::hand_to_clients(const TrackPoint& point, const LocatedScan& scan) {
+  if (PoseNews* pose = outlets_->poses.back()) {
+    *pose = {point, robot_.motion(), robot_.expected_noise()};
+    outlets_->poses.push();
+  }
+  if (!outlets_->scans_wanted.load(std::memory_order_relaxed)) return;
+  if (LocatedScan* copy = outlets_->scans.back()) {
+    *copy = scan;
+    outlets_->scans.push();
+  }
 }
 
 /// The safety task hears of changes only.
@@ -80,6 +96,9 @@ void MappingTask::tick(Tick& tick) {
   }
   motions.give_back(tick);
   if (tick.regime() == Regime::kDrain) hand_on_tiles(tick);
+  if (outlet_ == nullptr) return;
+  if (tick.release() > next_batch_ + kBatchPeriod) owe_changes();  // no further scan may come
+  hand_to_clients(kOwnTilesInATick);
 }
 
 void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
@@ -104,9 +123,43 @@ void MappingTask::share_resumed_tiles() {
   resumed_tiles_ = mapping::known_tiles(robot_.map(), std::numeric_limits<std::size_t>::max());
 }
 
+void MappingTask::serve(TileOutlet& outlet) {
+  outlet_ = &outlet;
+  outlet.owe(mapping::known_tiles(robot_.map(), std::numeric_limits<std::size_t>::max()));
+}
+
+bool MappingTask::serve_rest() {
+  if (!std::exchange(serving_rest_, true))
+    outlet_->owe(mapping::known_tiles(robot_.map(), std::numeric_limits<std::size_t>::max()));
+  hand_to_clients(std::numeric_limits<std::size_t>::max());
+  return mapped_ == Time{} || outlet_->owed() == 0;
+}
+
+/// Tiles that the port has not taken yet stay with the map, so clients may get them twice.
+void MappingTask::owe_changes() {
+  if (std::exchange(owed_changes_, true)) return;
+  outlet_->begin(robot_.map_epoch());
+  if (tiles.connected())
+    outlet_->owe(robot_.changed_tiles());
+  else
+    outlet_->owe(robot_.take_changed_tiles());
+}
+
+/// A resumed map waits until the first scan has told whether the robot is where that map ends.
+void MappingTask::hand_to_clients(std::size_t most) {
+  if (mapped_ == Time{}) return;
+  outlet_->begin(robot_.map_epoch());
+  outlet_->hand_over(most, [this](TileNews& news) {
+    news.state = mapping::read_tile(robot_.map(), news.tile);
+    news.changed = mapped_;
+  });
+}
+
 /// Scans change the same tiles again and again. Reading them with each scan would be a quarter of the work in a forest.
 void MappingTask::note_changes(const LocatedScan& scan, Tick& tick) {
   changes_ = {scan.epoch, scan.T_odom_base};
+  mapped_ = scan.stamp;
+  owed_changes_ = false;
   if (scan.stamp < next_batch_ && scan.stamp >= next_batch_ - kBatchPeriod) return;
   next_batch_ = scan.stamp + kBatchPeriod;
   hand_on_tiles(tick);
@@ -114,6 +167,7 @@ void MappingTask::note_changes(const LocatedScan& scan, Tick& tick) {
 
 /// Where the channel is full, tiles stay changed and go with the next batch.
 void MappingTask::hand_on_tiles(Tick& tick) {
+  if (outlet_ != nullptr) owe_changes();
   TileBatch* out = changes_ ? tiles.back(tick) : nullptr;
   if (out == nullptr) return;
   out->epoch = changes_->epoch;

@@ -8,6 +8,7 @@
 
 #include "hal/monitor.hpp"
 #include "onboard/app/profile/robot_profile.hpp"
+#include "onboard/app/streams/stream_outlets.hpp"
 #include "onboard/app/tasks/map_copier.hpp"
 #include "onboard/app/tasks/messages.hpp"
 #include "onboard/app/tasks/wheel_history.hpp"
@@ -34,12 +35,16 @@ class OdometryTask final : public scheduler::Task {
 
   /// Live: every pose is written to `pose`, too. To be called before the run; `pose` must outlive the task.
   void publish_to(LatestValue<TrackPoint>& pose) { published_ = &pose; }
+  /// Live: every pose goes to `outlets`, too, and scans while they are wanted. What finds no room is left out. To be
+  /// called before the run; `outlets` must outlive the task.
+  void serve(StreamOutlets& outlets) { outlets_ = &outlets; }
 
   void tick(scheduler::Tick& tick) override;
 
  private:
   void locate(const ArrivedScan& arrived, scheduler::Tick& tick);
   void publish_status(scheduler::Tick& tick);
+  void hand_to_clients(const TrackPoint& point, const LocatedScan& scan);
 
   Duration deadline_;
   int max_steps_;
@@ -49,6 +54,7 @@ class OdometryTask final : public scheduler::Task {
   StageStats& latency_;
   Progress progress_;
   LatestValue<TrackPoint>* published_ = nullptr;
+  StreamOutlets* outlets_ = nullptr;
   LocatedScan dropped_;  // filled when the channel is full
   std::size_t count_ = 0;
   bool lost_ = false, published_lost_ = false;
@@ -68,6 +74,11 @@ class MappingTask final : public scheduler::Task {
 
   /// Live: hands on copies of the map and scans. To be called before the run.
   void keep_copies(MapCopier copier) { copier_.emplace(std::move(copier)); }
+  /// Live: changed tiles go to `outlet`, too, and first those of a resumed map. That changes nothing for the port. To
+  /// be called before the run; `outlet` must outlive the task.
+  void serve(TileOutlet& outlet);
+  /// After the run: `outlet` gets all tiles as they are now, as far as it has room. True: it has them all.
+  bool serve_rest();
 
   /// The first batch holds the tiles of a resumed map. To be called before the run.
   void share_resumed_tiles();
@@ -86,6 +97,8 @@ class MappingTask final : public scheduler::Task {
   safety::Shed decide(const ArrivedMotion& motion, scheduler::Tick& tick);
   void note_changes(const LocatedScan& scan, scheduler::Tick& tick);
   void hand_on_tiles(scheduler::Tick& tick);
+  void owe_changes();
+  void hand_to_clients(std::size_t most);
 
   Duration deadline_;
   safety::OverloadController overload_;
@@ -104,6 +117,10 @@ class MappingTask final : public scheduler::Task {
   };
   std::optional<Changes> changes_;  // not handed on yet
   Time next_batch_{};
+  TileOutlet* outlet_ = nullptr;
+  Time mapped_{};             // stamp of the last scan
+  bool owed_changes_ = true;  // up to that scan
+  bool serving_rest_ = false;
 };
 
 }  // namespace cairn::app

@@ -19,6 +19,8 @@ constexpr Duration kStepPeriod = std::chrono::milliseconds(100), kPublishPeriod 
 // long.
 constexpr Duration kFusionSlice = std::chrono::microseconds(1500);
 constexpr int kSliceTiles = 100;
+// For clients. A tile takes as long as it takes to fuse it.
+constexpr std::size_t kTeamTilesInATick = 32;
 
 }  // namespace
 
@@ -43,6 +45,25 @@ void TeamTask::tick(Tick& tick) {
     speak(tick);
   }
   fuse(tick);
+  if (outlet_ != nullptr && team_) hand_to_clients(kTeamTilesInATick);
+}
+
+/// A tile's contributors are looked up in each submap, as when it is fused.
+void TeamTask::hand_to_clients(std::size_t most) {
+  outlet_->begin(0);  // the team's map goes on, whatever happens to the robots' own
+  outlet_->owe(team_->take_changed_tiles());
+  outlet_->hand_over(most, [this](TileNews& news) {
+    auto origin = team_->map().origin_of(news.tile);
+    news.state = mapping::read_tile(team_->map().map(), news.tile);
+    news.changed = origin.newest;
+    news.contributors = std::move(origin.robots);
+  });
+}
+
+bool TeamTask::serve_rest() {
+  if (!team_) return true;
+  hand_to_clients(std::numeric_limits<std::size_t>::max());
+  return outlet_->owed() == 0;
 }
 
 void TeamTask::hear(Tick& tick) {
@@ -62,6 +83,7 @@ void TeamTask::begin(const Packet& packet, Time now) {
   const auto beginning = peer_link::decode_beginning(packet.payload());
   if (!beginning || team_) return monitor_.event(now, "team", "an invalid beginning was ignored");
   team_.emplace(team_config(profile_, beginning->robot, name_, resolution_m_), beginning->epoch);
+  if (outlet_ != nullptr) team_->note_map_changes();
 }
 
 void TeamTask::observe(Tick& tick) {

@@ -12,6 +12,7 @@
 #include "hal/monitor.hpp"
 #include "onboard/app/live/live_view.hpp"
 #include "onboard/app/profile/team_profile.hpp"
+#include "onboard/app/streams/tile_outlet.hpp"
 #include "onboard/app/team/team_messages.hpp"
 #include "onboard/scheduler/feed.hpp"
 #include "onboard/scheduler/ports.hpp"
@@ -35,6 +36,11 @@ class TeamTask final : public scheduler::Task {
   void go_on() { epoch_ = 0; }
   /// Before the run. `source` must outlive the task. `port` is the same source, to send through; null in a replay.
   void attach(Source& source, SourceId id, peer_link::PeerPort* port, scheduler::Feed::Tap tap);
+  /// Live: tiles of the team's map that have changed go to `outlet`. To be called before the run; `outlet` must outlive
+  /// the task.
+  void serve(TileOutlet& outlet) { outlet_ = &outlet; }
+  /// After the run: `outlet` gets what is left, as far as it has room. True: it has it all.
+  bool serve_rest();
 
   void tick(scheduler::Tick& tick) override;
 
@@ -61,6 +67,7 @@ class TeamTask final : public scheduler::Task {
   void fuse(scheduler::Tick& tick);
   void note_lags(Time now);
   void publish_peers(Time now);
+  void hand_to_clients(std::size_t most);
 
   TeamProfile profile_;
   std::string name_;
@@ -82,6 +89,7 @@ class TeamTask final : public scheduler::Task {
   std::map<peers::RobotId, Histogram> lags_;
   std::map<peers::RobotId, bool> merged_;
   LatestValue<std::vector<LiveView::Peer>> view_;
+  TileOutlet* outlet_ = nullptr;
 };
 
 /// Compares maps, one pair at a time, at the lowest priority.

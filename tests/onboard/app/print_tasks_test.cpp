@@ -41,6 +41,14 @@ TEST(PrintTasks, ALiveRunHasTasksForTheDiskAndChannelsBetweenTheOthers) {
             "odometry.motions     mapping.motions             4        0\n");
 }
 
+TEST(PrintTasks, ClientsAreServedByATaskOfTheirOwn) {
+  RunOptions options;
+  EXPECT_THAT(print_tasks(options).value(), Not(HasSubstr("streams")));
+  options.sockets = "somewhere";
+  EXPECT_THAT(print_tasks(options).value(),
+              HasSubstr("streams            400         -     -        -        -            5  live only\n"));
+}
+
 TEST(PrintTasks, AReplayHasNoneThatIsLiveOnly) {
   const support::TemporaryFolder folder;
   std::ofstream(folder / "data.csv") << "";

@@ -16,10 +16,11 @@ using ::testing::HasSubstr;
 TEST(RunOptions, WhatOnlyALiveRunCanDoIsRefusedOfARecordingAllAtOnce) {
   RunOptions options;
   options.recording = "rec", options.record = "r", options.state = "s", options.live_view = "l";
+  options.sockets = "k";
   const auto fits = check(options);
   ASSERT_FALSE(fits);
   EXPECT_EQ(fits.error().code, Errc::kInvalidConfig);
-  for (const char* option : {"--record", "--state", "--live-view", "rec: options"})
+  for (const char* option : {"--record", "--state", "--live-view", "--sockets", "rec: options"})
     EXPECT_THAT(to_string(fits.error()), HasSubstr(option));
   options.peers = true;
   EXPECT_TRUE(check(options)) << "played as if by devices";

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "onboard/app/streams/client_hub.hpp"
+#include "onboard/app/streams/stream_outlets.hpp"
+
+namespace cairn::app {
+
+/// Scans on their way to the clients that want them: one at a time, in parts, over several ticks if need be. A client
+/// that has not taken a scan when the next one is there loses the rest of it.
+class ScanStream {
+ public:
+  /// Sends what clients take now.
+  void serve(ClientHub& hub, SpscQueue<LocatedScan>& scans);
+
+ private:
+  void begin(ClientHub& hub, const LocatedScan& scan);
+  bool send(ClientHub& hub, StreamClient& client, const LocatedScan& scan);
+
+  bool begun_ = false;             // the scan in front
+  std::vector<std::byte> record_;  // reused
+};
+
+}  // namespace cairn::app

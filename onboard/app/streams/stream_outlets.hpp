@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <optional>
+
+#include "hal/drive.hpp"
+#include "hal/latest_value.hpp"
+#include "hal/spsc_queue.hpp"
+#include "onboard/app/streams/tile_outlet.hpp"
+#include "onboard/robot.hpp"
+#include "onboard/safety/failsafe.hpp"
+#include "onboard/safety/overload.hpp"
+
+namespace cairn::app {
+
+/// A pose, and all that is needed to predict the next ones.
+struct PoseNews {
+  TrackPoint point;
+  odometry::MotionFilter filter;  ///< at `point`
+  odometry::MotionNoise noise;    ///< that odometry expects of the next step
+};
+
+/// How the robot is.
+struct StateNews {
+  safety::FailsafeDecision decision;
+  std::optional<DriveStatus> drive{};  ///< none: nothing is known of a drive
+  safety::Shed shed{};
+  std::uint64_t scans = 0;
+};
+
+/// What the tasks of a live run hand to the task that serves robot.sock. They never wait for it.
+struct StreamOutlets {
+  SpscQueue<PoseNews> poses{64};                  ///< from odometry, one for each scan
+  std::atomic<bool> scans_wanted{false};          ///< a client wants scans
+  SpscQueue<LocatedScan> scans{4};                ///< from odometry, while they are wanted
+  TileOutlet own;                                 ///< from mapping
+  TileOutlet team;                                ///< from the team's task
+  LatestValue<std::optional<DriveStatus>> drive;  ///< from the drive's task, for the watch task
+  LatestValue<StateNews> state;                   ///< from the watch task
+};
+
+}  // namespace cairn::app

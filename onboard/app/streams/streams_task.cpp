@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/streams/streams_task.hpp"
+
+#include <utility>
+
+#include "drivers/clients/messages/state.hpp"
+#include "onboard/app/streams/state_message.hpp"
+
+namespace cairn::app {
+namespace {
+
+using clients::Stream;
+using clients::TileMap;
+
+// In one tick. Encoding a tile takes a microsecond, making and sending a full record some tens.
+constexpr std::size_t kTiles = 512, kTileRecords = 8;
+constexpr double kEvents_hz = 10;
+constexpr Duration kClosingStep = std::chrono::milliseconds(1);
+
+}  // namespace
+
+StreamsTask::StreamsTask(ClientHub hub, std::uint64_t session, std::uint64_t robot_id, StreamOutlets& outlets,
+                         Monitor& monitor)
+    : hub_(std::move(hub)),
+      outlets_(outlets),
+      monitor_(monitor),
+      events_(monitor),
+      own_(TileMap::kOwn, session, robot_id),
+      team_(TileMap::kTeam, session, 0),
+      event_beat_(kEvents_hz) {}
+
+/// Poses first: they are what is wanted at once. Returns how many records of tiles were sent.
+std::size_t StreamsTask::serve(Time now) {
+  send_poses();
+  hub_.receive(now);
+  greet_subscribers();
+  send_predictions(now);
+  send_state(now);
+  send_events(now);
+  scans_.serve(hub_, outlets_.scans);
+  return send_tiles(now);
+}
+
+void StreamsTask::greet_subscribers() {
+  for (StreamClient& client : hub_.clients()) {
+    if (!std::exchange(client.fresh, false)) continue;
+    own_.begin(client);
+    team_.begin(client);
+    if (client.wants.wants(Stream::kState)) hub_.send(client, state_);
+    if (client.wants.wants(Stream::kEvents))
+      for (const clients::EventMessage& event : events_.so_far()) hub_.send(client, event);
+  }
+  outlets_.scans_wanted.store(hub_.anybody_wants(Stream::kScan), std::memory_order_relaxed);
+}
+
+void StreamsTask::send_poses() {
+  for (; const PoseNews* news = outlets_.poses.front(); outlets_.poses.pop()) {
+    predictor_.take(*news);
+    state_.map_epoch = news->point.epoch;
+    hub_.send_all(Stream::kPose, message_of(news->point));
+  }
+}
+
+void StreamsTask::send_predictions(Time now) {
+  std::optional<clients::PoseMessage> pose;
+  for (StreamClient& client : hub_.clients()) {
+    if (!client.wants.wants(Stream::kPose) || client.wants.pose_hz == 0 || !client.predictions.due(now)) continue;
+    if (!pose) pose = predictor_.at(now);
+    if (!pose) return;
+    hub_.send(client, *pose);
+  }
+}
+
+void StreamsTask::send_state(Time now) {
+  const bool changed = outlets_.state.refresh() && update(outlets_.state.value(), state_);
+  if (!state_beat_.due(now) && !changed) return;
+  state_.stamp = now;
+  hub_.send_all(Stream::kState, state_);
+}
+
+void StreamsTask::send_events(Time now) {
+  if (!event_beat_.due(now)) return;
+  for (const clients::EventMessage& event : events_.news()) hub_.send_all(Stream::kEvents, event);
+}
+
+std::size_t StreamsTask::send_tiles(Time now) {
+  const bool own_fits = own_.take(outlets_.own, kTiles), team_fits = team_.take(outlets_.team, kTiles);
+  if (!own_fits || !team_fits)
+    monitor_.event(now, "clients", "the map is too large for the clients' memory: new tiles are left out");
+  const std::size_t sent = own_.serve(hub_, now, kTileRecords);
+  return sent + team_.serve(hub_, now, kTileRecords - sent);
+}
+
+bool StreamsTask::all_served() {
+  return outlets_.own.settled() && outlets_.team.settled() && own_.all_caught_up(hub_) && team_.all_caught_up(hub_);
+}
+
+void StreamsTask::close(const Clock& clock, const std::function<bool()>& rest) {
+  Time last = clock.now();
+  for (Time now = last; now - last < kPatience; now = clock.now()) {
+    const bool handed_over = rest();
+    const std::size_t waiting = outlets_.own.tiles().size() + outlets_.team.tiles().size();
+    if (serve(now) + waiting > 0) last = now;
+    if (handed_over && all_served()) return;
+    LiveClock::wait_until(now + kClosingStep);
+  }
+}
+
+}  // namespace cairn::app

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/streams/streams_task.hpp"
+
+#include <algorithm>
+
+#include "tests/onboard/app/streams/streams_rig.hpp"
+
+namespace cairn::app {
+namespace {
+
+using test::milliseconds;
+using test::RobotStream;
+using test::Stream;
+using test::wanted;
+
+class StreamsTaskTest : public test::StreamsRig {};
+
+TEST_F(StreamsTaskTest, AClientGetsWhatItAskedFor) {
+  RobotStream poses = connect(wanted({Stream::kPose})), states = connect(wanted({Stream::kState}));
+  run();
+  locate(1);
+  run();
+  EXPECT_EQ(read<clients::HelloMessage>(poses).size(), 1U);
+  locate(2);
+  run();
+  const auto got = read<clients::PoseMessage>(poses);
+  ASSERT_EQ(got.size(), 1U);
+  EXPECT_EQ(got[0].stamp, Time{milliseconds(200)});
+  EXPECT_EQ(read<clients::PoseMessage>(states).size(), 0U);
+  EXPECT_EQ(poses.lost() + states.lost(), 0U);
+}
+
+TEST_F(StreamsTaskTest, TheStateComesAtOnceWithEveryChangeAndOnceASecond) {
+  RobotStream states = connect(wanted({Stream::kState}));
+  run();
+  EXPECT_GE(read<clients::StateMessage>(states).size(), 1U);
+  StateNews news;
+  news.decision.mode = safety::Mode::kNormal;
+  outlets_.state.publish(news);
+  run(1);
+  const auto changed = read<clients::StateMessage>(states);
+  ASSERT_EQ(changed.size(), 1U);
+  EXPECT_EQ(changed[0].mode, clients::RobotMode::kNormal);
+  run(400);  // two seconds
+  EXPECT_EQ(read<clients::StateMessage>(states).size(), 2U);
+}
+
+TEST_F(StreamsTaskTest, PredictionsComeAtTheirRateUntilTheScanIsTooOld) {
+  auto wants = wanted({Stream::kPose});
+  wants.pose_hz = 100;
+  RobotStream poses = connect(wants);
+  run(20);  // 100 ms
+  locate(1);
+  run(200);  // one second
+  const auto got = read<clients::PoseMessage>(poses);
+  const auto predicted = std::ranges::count_if(got, &clients::PoseMessage::predicted);
+  EXPECT_EQ(static_cast<std::ptrdiff_t>(got.size()) - predicted, 1);
+  EXPECT_NEAR(static_cast<double>(predicted), 50, 1);
+  EXPECT_LE(got.back().stamp, Time{milliseconds(600)});
+}
+
+TEST_F(StreamsTaskTest, ScansAreCopiedForThoseWhoWantThemOnly) {
+  run();
+  EXPECT_FALSE(outlets_.scans_wanted);
+  auto wants = wanted({Stream::kScan});
+  wants.scan_hz = 5;
+  {
+    RobotStream scans = connect(wants);
+    run();
+    EXPECT_TRUE(outlets_.scans_wanted);
+    std::vector<client::ScanMessage> got;
+    for (int i = 0; i < 8; ++i) {
+      LocatedScan* scan = outlets_.scans.back();
+      ASSERT_NE(scan, nullptr);
+      scan->stamp = Time{milliseconds(1000 + 100 * i)};
+      scan->points_base.assign(7000, Eigen::Vector3f(1, 2, 3));
+      outlets_.scans.push();
+      run(1);
+      for (auto& message : read<client::ScanMessage>(scans)) got.push_back(std::move(message));
+    }
+    ASSERT_EQ(got.size(), 4U);
+    EXPECT_EQ(got[0].points_base.size(), 7000U);
+    EXPECT_EQ(scans.lost(), 0U);
+  }
+  run();
+  EXPECT_FALSE(outlets_.scans_wanted);
+}
+
+TEST_F(StreamsTaskTest, AScanThatDoesNotFitTheSocketComesInPartsOverSeveralTicks) {
+  RobotStream scans = connect(wanted({Stream::kScan}));
+  run();
+  LocatedScan* scan = outlets_.scans.back();
+  ASSERT_NE(scan, nullptr);
+  scan->points_base.assign(100'000, Eigen::Vector3f(1, 2, 3));
+  outlets_.scans.push();
+  std::vector<client::ScanMessage> got;
+  for (int i = 0; i < 100 && got.empty(); ++i) {
+    run(1);
+    got = read<client::ScanMessage>(scans);
+  }
+  ASSERT_EQ(got.size(), 1U);
+  EXPECT_EQ(got[0].points_base.size(), 100'000U);
+  EXPECT_EQ(scans.lost(), 0U);
+}
+
+TEST_F(StreamsTaskTest, WhoReadsTooSlowlyLosesWholeScans) {
+  RobotStream scans = connect(wanted({Stream::kScan}));
+  run();
+  for (int i = 0; i < 6; ++i) {
+    if (LocatedScan* scan = outlets_.scans.back()) {
+      scan->stamp = Time{milliseconds(1000 + i)};
+      scan->points_base.assign(20'000, Eigen::Vector3f(1, 2, 3));
+      outlets_.scans.push();
+    }
+    run(1);
+  }
+  std::vector<client::ScanMessage> got;
+  for (int i = 0; i < 10; ++i) {
+    for (auto& message : read<client::ScanMessage>(scans)) got.push_back(std::move(message));
+    run(1);
+  }
+  EXPECT_GE(got.size(), 1U);
+  EXPECT_LT(got.size(), 6U);
+  for (const auto& scan : got) EXPECT_EQ(scan.points_base.size(), 20'000U);
+  EXPECT_GT(scans.lost(), 0U);
+}
+
+TEST_F(StreamsTaskTest, EventsOfThePastAndOfThePresent) {
+  monitor_.event({}, "odometry", "lost");
+  run(40);
+  RobotStream events = connect(wanted({Stream::kEvents}));
+  run();
+  EXPECT_EQ(read<clients::EventMessage>(events).size(), 1U);
+  monitor_.event({}, "odometry", "lost");
+  run(40);
+  const auto got = read<clients::EventMessage>(events);
+  ASSERT_EQ(got.size(), 1U);
+  EXPECT_EQ(got[0].count, 2U);
+}
+
+}  // namespace
+}  // namespace cairn::app

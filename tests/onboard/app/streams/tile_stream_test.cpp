@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/streams/tile_stream.hpp"
+
+#include <gmock/gmock.h>
+
+#include "tests/onboard/app/streams/streams_rig.hpp"
+
+namespace cairn::app {
+namespace {
+
+using clients::TileMap;
+using test::RobotStream;
+using test::Stream;
+using test::wanted;
+
+class TileStreamTest : public test::StreamsRig {};
+
+TEST_F(TileStreamTest, AMirrorHasEveryTile) {
+  RobotStream tiles = connect(wanted({Stream::kOwnTiles}));
+  client::MapMirror mirror(TileMap::kOwn, 0.2);
+  run();
+  take_in(tiles, mirror);
+  EXPECT_TRUE(mirror.caught_up());  // with nothing
+  map(0, 100, 900);
+  run();
+  take_in(tiles, mirror);
+  EXPECT_TRUE(mirror.caught_up());
+  EXPECT_EQ(mirror.tiles(), 900U);
+  ASSERT_NE(mirror.origin_of({100}), nullptr);
+  EXPECT_THAT(mirror.origin_of({100})->robots, ::testing::ElementsAre(kSelf));
+}
+
+TEST_F(TileStreamTest, WhoDoesNotReadMissesNoTile) {
+  RobotStream deaf = connect(wanted({Stream::kOwnTiles, Stream::kPose}));
+  client::MapMirror mirror(TileMap::kOwn, 0.2);
+  for (unsigned round = 0; round < 12; ++round) {
+    for (std::uint64_t part = 0; part < 8; ++part) {
+      map(0, 2000 * part, 2000, round % 8);
+      run();
+      locate(static_cast<int>(8 * round + part));
+    }
+  }
+  for (int i = 0; i < 400; ++i) {
+    run();
+    take_in(deaf, mirror);
+  }
+  EXPECT_TRUE(mirror.caught_up());
+  EXPECT_EQ(mirror.tiles(), 16'000U);
+  for (const std::uint64_t key : {0U, 7776U, 15'998U})
+    EXPECT_GT(mapping::read_tile(mirror.map(), {key}).log_odds(3, 1, 2), 0) << "round 11 set x = 3";
+  EXPECT_EQ(deaf.lost(), 0U) << "tiles leave room for poses";
+  for (int i = 0; i < 2000; ++i) {
+    locate(i);
+    run(1);
+  }
+  take_in(deaf, mirror);
+  locate(0);
+  run(1);
+  take_in(deaf, mirror);
+  EXPECT_GT(deaf.lost(), 0U);
+}
+
+TEST_F(TileStreamTest, AMirrorThatComesBackGetsWhatItLacks) {
+  client::MapMirror mirror(TileMap::kOwn, 0.2);
+  auto wants = wanted({Stream::kOwnTiles});
+  {
+    RobotStream first = connect(wants);
+    map(0, 0, 500);
+    run();
+    take_in(first, mirror);
+  }
+  map(0, 490, 20, 5);
+  run();
+  wants.own = mirror.resume();
+  RobotStream second = connect(wants);
+  run();
+  std::size_t got = 0;
+  for (const auto& message : read<clients::TilesMessage>(second)) {
+    got += message.tiles.size();
+    ASSERT_TRUE(mirror.take(message));
+  }
+  EXPECT_EQ(got, 20U);
+  EXPECT_EQ(mirror.tiles(), 510U);
+  EXPECT_TRUE(mirror.caught_up());
+}
+
+TEST_F(TileStreamTest, ANewMapVoidsTheMirror) {
+  RobotStream tiles = connect(wanted({Stream::kOwnTiles}));
+  client::MapMirror mirror(TileMap::kOwn, 0.2);
+  map(0, 0, 50);
+  run();
+  take_in(tiles, mirror);
+  map(1, 40, 20);
+  run();
+  take_in(tiles, mirror);
+  EXPECT_EQ(mirror.tiles(), 20U);
+  EXPECT_EQ(mirror.resume().epoch, 1U);
+}
+
+TEST_F(TileStreamTest, TheLastTilesComeBeforeTheEnd) {
+  RobotStream tiles = connect(wanted({Stream::kOwnTiles}));
+  run();
+  bool asked = false;
+  task_.close(LiveClock(), [&] {
+    if (!asked) map(0, 0, 30);
+    asked = true;
+    return true;
+  });
+  client::MapMirror mirror(TileMap::kOwn, 0.2);
+  take_in(tiles, mirror);
+  EXPECT_EQ(mirror.tiles(), 30U);
+}
+
+}  // namespace
+}  // namespace cairn::app
