@@ -12,6 +12,7 @@
 #include "tools/cli/recording/import_command.hpp"
 #include "tools/cli/recording/record_command.hpp"
 #include "tools/cli/recording/send_command.hpp"
+#include "tools/cli/stream/pose_command.hpp"
 #include "tools/cli/team/team_command.hpp"
 #include "tools/cli/top/top_command.hpp"
 #ifdef CAIRN_HAS_SIMULATOR
@@ -36,6 +37,7 @@ void add_tool_commands(app::Commands& commands) {
   add_faults_command(commands);
   add_team_command(commands);
   add_top_command(commands);
+  add_pose_command(commands);
   add_drive_commands(commands);
 }
 

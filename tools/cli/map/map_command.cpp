@@ -25,6 +25,7 @@
 #include "onboard/report/pictures/map_paint.hpp"
 #include "onboard/report/pictures/map_picture.hpp"
 #include "tools/cli/map/map_check_command.hpp"
+#include "tools/cli/map/map_pull_command.hpp"
 #include "tools/cli/map/save_map.hpp"
 
 namespace cairn::cli {
@@ -204,7 +205,8 @@ CLI::App* add(app::Commands& commands, CLI::App& map, const std::string& name, c
 }  // namespace
 
 void add_map_command(app::Commands& commands) {
-  CLI::App& map = *commands.app.add_subcommand("map", "describes, compares, checks, draws and converts maps");
+  CLI::App& map = *commands.app.add_subcommand(
+      "map", "describes, compares, checks, draws and converts maps, and pulls that of a running core");
   map.require_subcommand(1);
   const auto options = std::make_shared<Options>();
   add(commands, map, "info", "counts, size, volume, entropy and sensor model", options, info);
@@ -226,6 +228,7 @@ void add_map_command(app::Commands& commands) {
       ->check(app::above_zero);
   CLI::App* other = add(commands, map, "export", "writes the map in another format", options, export_map);
   other->add_option("--out", options->out, "file to write: .cairn, .ot, .bt, .ply or .pcd")->required();
+  add_map_pull_command(commands, map);
 }
 
 }  // namespace cairn::cli
