@@ -13,9 +13,6 @@
 namespace cairn::matching {
 namespace {
 
-// Probability of a match after which no other is looked for. By hand, not tuned.
-constexpr double kSure = 0.8;
-
 /// A map in a frame whose z may be upwards, with its features.
 struct Levelled {
   std::unique_ptr<mapping::SemanticOcTree> map;
@@ -76,7 +73,7 @@ Result<MatchResult> TiltedMatcher::match(const std::optional<UncertainPose>& ini
       const int spent = budget.spent();
       auto result = GlobalMatcher(*a->features, *all_b[i].features).match(std::nullopt, budget);
       if (!result) return result;
-      const bool sure = result->probability_correct > kSure;
+      const bool sure = result->accepted;
       if (!best || result->evidence.score > best->evidence.score)
         best = in_own_frames(*std::move(result), turn_a, turns_b[i]);
       best->iterations = budget.spent();

@@ -117,11 +117,11 @@ void print_csv(const Mission& m, int check) {
     const auto& e = h.evidence;
     const Vector6 x = m.error(h.T_a_b.mean);
     const Vector6 sigmas = x.cwiseQuotient(h.T_a_b.covariance.diagonal().cwiseSqrt());
-    std::printf("%s,%d,%d,%d,%.3f,%d,%d,%.1f,%.4f,%.4f,%.4f,%.4f,%d,%.1f,%.5f,%.5f,%.4f,%.4f,%.4f,%.4f,%.4f,%.3f",
+    std::printf("%s,%d,%d,%d,%.3f,%d,%d,%.1f,%.4f,%.4f,%.4f,%.4f,%d,%.1f,%.0f,%.5f,%.5f,%.4f,%.4f,%.4f,%.4f,%.4f,%.3f",
                 m.name.c_str(), m.one_site, check, m.right(h.T_a_b.mean), m.overlap, static_cast<int>(h.standing),
                 h.agreements, h.ground_m2, h.probability_correct, e.overlap, e.inlier_ratio, e.structure_inliers,
-                e.structure_pairs, e.agreeing_m2, e.conflict, e.reverse_conflict, e.weakest_translation, e.uniqueness,
-                e.score, x.head<3>().norm(), x.tail<3>().norm() / kDegree_rad,
+                e.structure_pairs, e.agreeing_m2, e.agreeing_floor_m2, e.conflict, e.reverse_conflict,
+                e.weakest_translation, e.uniqueness, e.score, x.head<3>().norm(), x.tail<3>().norm() / kDegree_rad,
                 x.dot(h.T_a_b.covariance.ldlt().solve(x)) / 6);
     for (const double s : sigmas) std::printf(",%.2f", s);
     std::printf(",%s\n", h.reason.c_str());

@@ -17,7 +17,9 @@ Matrix6 covariance_of_odometry(const MapCheckConfig& config) {
 
 std::optional<SubmapPair> compare(const MapFeatures& first, const MapFeatures& second, Budget& budget,
                                   const MapCheckConfig& config) {
-  const DefaultMatcher matcher(first, second);
+  MatcherConfig matching;
+  matching.evidence.weighed = config.samples;
+  const DefaultMatcher matcher(first, second, matching);
   if (!matcher.comparable()) return std::nullopt;
   const Look as_they_lie = matcher.look({});
   const double shared = as_they_lie.evidence.structure_inliers > 0

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <vector>
@@ -17,7 +18,9 @@ struct MapCheckConfig {
   /// Standard deviations of odometry's error between two submaps.
   double bend_m = 0.03, bend_rad = 0.004;
   double most_conflict = 0.06;  ///< share of structure in the other submap's free space
-  /// Sampled structure that meets the other submap, at least. A pair with less is left out.
+  /// Samples of each submap's structure, at most.
+  std::size_t samples = 1500;
+  /// Of these samples, those that meet the other submap, at least. A pair with less is left out.
   int least_in_common = 120;
 };
 

@@ -9,14 +9,19 @@ namespace cairn::matching {
 
 /// Settings of decide().
 struct AcceptanceConfig {
-  /// Of an accepted match. None of the 9 700 wrong looks of the fit below reaches it: the highest
-  /// has 0.93.
-  double least_probability = 0.95;
-  /// Sampled structure that must agree. Doubled from 60 on tests/bench/matching_missions.
-  int least_structure_pairs = 120;
+  double least_probability = 0.95;  ///< of an accepted match
+  /// Surface of structure that must agree, m², however large the maps are. Less says nothing. Chosen
+  /// by hand, not tuned: 8 % of a floor of offices.
+  double least_agreeing_m2 = 25;
+  /// Of the structure that meets, the share that must agree. A half-turned hall had 0.27. Right poses
+  /// that are probable enough have 0.4 and more.
+  double least_structure_inliers = 0.35;
   /// Least Evidence::weakest_translation. Below it, no surface holds one direction: an endless
   /// corridor has less than 0.02 (tests/fusion/matching/evidence), a lobby more than 0.05.
   double least_weakest_translation = 0.02;
+  /// Least Evidence::agreeing_floor_m2 of an accepted match. Two copies of a furnished room have up to
+  /// 72 (rows `copy` of tests/bench/matching_pairs). So one look at one room never decides.
+  double least_floor_m2 = 80;
 };
 
 /// The answer to one comparison.
@@ -29,16 +34,21 @@ struct Decision {
 /// Decides on the evidence of one comparison. It is accepted if it is probably right, enough
 /// structure agrees, and each direction is held by some surface.
 ///
-/// The probability is logistic in the evidence. It was fitted by maximum likelihood on:
-/// - 13 300 looks at growing maps of 0.1 and 0.2 m (tests/bench/matching_missions, seeds 100 to
-///   106, all kinds of random buildings). Half-turned ones, whose copies nothing gives away, count
-///   a fifth.
-/// - 800 looks on recordings with odometry (tests/bench/team_runs, looks=1).
+/// The probability is logistic in the floor that agrees, in conflict and in uniqueness; a rival
+/// takes its share of it. More floor, less conflict and lesser rivals never make a pose less
+/// probable. docs/theory.md has the equation. It was fitted by maximum likelihood to two kinds of
+/// looks. Those with a score below 0.03 and those that a setting of AcceptanceConfig excludes were
+/// left out.
+/// - 400 looks of tests/bench/matching_pairs (seeds below 5000), with voxels of 0.05, 0.1 and 0.2 m:
+///   right and wrong ones, other places, and mirror images. Looks at other places weigh as much
+///   together as the rest. Mirror images of halls that are symmetric but for their furniture count a
+///   tenth: nothing else tells them from the hall after its furniture was moved.
+/// - 1 000 looks at growing maps (tests/bench/matching_missions, seeds 100 and 101), at 0.3 of the
+///   weight. Wrong ones in half-turned buildings, which nothing gives away, count a fifth of that.
 ///
-/// Of right looks, 47 to 96 % get 0.9 or more, by the kind of building. Of wrong ones, one in 9 700
-/// does (0.93), where no half of a building is a copy of the other. Expected calibration errors are
-/// 0.013 to 0.040 for each kind. Copied geometry can look perfect to any test of one comparison:
-/// see PendingHypotheses.
+/// Structure inliers added nothing to the fit, so they are a bound only. The same holds for how
+/// widely conflict is spread. Copied geometry can look perfect to any test of one comparison: see
+/// PendingHypotheses.
 [[nodiscard]] Decision decide(const Evidence& evidence, const AcceptanceConfig& config = {});
 
 }  // namespace cairn::matching

@@ -71,22 +71,17 @@ struct Meetings {
   std::vector<std::pair<std::uint64_t, int>> places;
 };
 
-/// How many places met, and in how many of them more is contradicted than agrees.
-struct Places {
-  int all = 0, contradicted = 0;
-};
-
-Places places_of(std::vector<std::pair<std::uint64_t, int>> met) {
+/// In how many places more agrees than is contradicted.
+int agreeing_places(std::vector<std::pair<std::uint64_t, int>> met) {
   std::sort(met.begin(), met.end());
-  Places out;
+  int places = 0;
   for (auto from = met.begin(); from != met.end();) {
     int balance = 0;
     const std::uint64_t place = from->first;
     for (; from != met.end() && from->first == place; ++from) balance += from->second;
-    ++out.all;
-    out.contradicted += balance < 0 ? 1 : 0;
+    places += balance > 0 ? 1 : 0;
   }
-  return out;
+  return places;
 }
 
 Meetings meet(const Party& target, const NearestGrid& nearest, const Party& source, std::span<const Surfel> structure,
@@ -182,16 +177,15 @@ Evidence weigh(const Indexed& target, const Indexed& source, const SE3& T, const
   const Party &a = target.party, &b = source.party;
   Evidence out;
   count_pairs(a, target.nearest, b, T, config.pair_cells, out);
-  const Meetings m = meet(a, target.nearest, b, b.structure, T, config);
-  const Meetings reverse = meet(b, source.nearest, a, a.structure, T.inverse(), config);
+  const Meetings m = meet(a, target.nearest, b, b.weighed, T, config);
+  const Meetings reverse = meet(b, source.nearest, a, a.weighed, T.inverse(), config);
   out.score = score(a, target.nearest, b, T, config);
   out.structure_pairs = m.agree;
-  out.agreeing_m2 = b.structure_m2 * share(m.agree, static_cast<double>(b.structure.size()));
+  out.agreeing_m2 = b.structure_m2 * share(m.agree, static_cast<double>(b.weighed.size()));
   out.structure_inliers = share(m.agree, m.agree + m.differ);
   out.conflict = share(m.in_free, m.all());
   out.reverse_conflict = share(reverse.in_free + reverse.beside, reverse.all());
-  const Places there = places_of(m.places), back = places_of(reverse.places);
-  out.spread_conflict = share(there.contradicted + back.contradicted, there.all + back.all);
+  out.agreeing_floor_m2 = agreeing_places(m.places) * static_cast<double>(kPlace_m * kPlace_m);
   if (m.agree > 0)
     out.weakest_translation =
         std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(m.normals / m.agree).eigenvalues()[0]);

@@ -18,8 +18,11 @@ namespace cairn::matching {
 struct EvidenceConfig {
   // Samples of each map, at most, and the least
   std::size_t surfels = 8000;  ///< for the covariance and the book's test; from a prototype
-  /// Surfels of structure, for score and evidence; from a prototype.
+  /// Surfels of structure, for the score; from a prototype.
   std::size_t structure = 1500;
+  /// Surfels of structure on which the evidence of one pose is counted. They are many, because maps
+  /// that are large may share a small part. Chosen by hand, not tuned.
+  std::size_t weighed = 8000;
   /// Of these, for a first impression; chosen by hand, not tuned.
   std::size_t few = 300;
   std::size_t least_structure = 60;  ///< a map with less is not matched; chosen by hand, not tuned
@@ -45,6 +48,7 @@ struct Party {
   std::vector<Surfel> surfels;    ///< all, with facing_free_space() applied
   std::vector<Surfel> sample;     ///< of all surfels
   std::vector<Surfel> structure;  ///< sample of the surfels that are structure
+  std::vector<Surfel> weighed;    ///< larger sample of these, for the evidence of one pose
   std::vector<Surfel> few;        ///< smaller sample of these, for a first impression
   FreeSpace free;                 ///< the map's
   double cell_m = 0;              ///< edge of a fine cell, m
@@ -66,10 +70,10 @@ struct Evidence {
   /// The same of target structure in the source's free space. Structure there that lies more than a
   /// cell beside its partner counts as well.
   double reverse_conflict = 0;
-  /// Share of the places with structure, both ways, in which more is contradicted than agrees; 0…1.
-  /// A place is a column of 1.6 m. Things that were moved contradict much in few places. A wrong pose
-  /// contradicts in many.
-  double spread_conflict = 0;
+  /// Floor over which structure agrees, m²: of the source's places in which more agrees than stands
+  /// in free space. A place is a column of 1.6 m. So a high wall counts no more than a low one, and
+  /// a map of fine voxels no more than one of coarse voxels.
+  double agreeing_floor_m2 = 0;
   /// Smallest eigenvalue of the mean n nᵀ (x, y) of what agrees, 0…½.
   double weakest_translation = 0;
   double score = 0;       ///< see score()

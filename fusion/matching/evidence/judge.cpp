@@ -41,6 +41,7 @@ Party party_of(const MapFeatures& map, const EvidenceConfig& config) {
   Party party{.surfels = {},
               .sample = {},
               .structure = {},
+              .weighed = {},
               .few = {},
               .free = FreeSpace(map.map()),
               .cell_m = static_cast<double>(map.fine_m())};
@@ -49,6 +50,7 @@ Party party_of(const MapFeatures& map, const EvidenceConfig& config) {
   party.structure_m2 = static_cast<double>(structure.size()) * party.cell_m * party.cell_m;
   party.sample = sample(std::span<const Surfel>(party.surfels), config.surfels);
   party.structure = sample(std::span<const Surfel>(structure), config.structure);
+  party.weighed = sample(std::span<const Surfel>(structure), config.weighed);
   party.few = sample(std::span<const Surfel>(structure), config.few);
   return party;
 }

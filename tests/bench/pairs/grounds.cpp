@@ -55,6 +55,16 @@ void props(Mesh& mesh, double l, double w, Random& random) {
   }
 }
 
+/// Bays that three of four halls have on one side only: stairs, a gallery, a porch.
+void bays(Mesh& mesh, double l, double w, double h, Random& random) {
+  const bool far = random.uniform() < 0.5;
+  for (double x = random.uniform(1, 4); x < l - 5;) {
+    const double length = random.uniform(1.5, 5), depth = random.uniform(0.6, 1.3), high = random.uniform(1.5, h);
+    mesh.box({x + 0.5 * length, far ? w - 0.5 * depth : 0.5 * depth, 0, 0}, length, depth, high, Material::kPlaster);
+    x += length + random.uniform(1, 4);
+  }
+}
+
 World hall(std::uint64_t seed) {
   Random random(seed, kHallStream);
   World world;
@@ -63,6 +73,7 @@ World hall(std::uint64_t seed) {
   const double bay = random.uniform(4, 7), inset = random.uniform(1.5, 3), thick = random.uniform(0.4, 0.8);
   for (double x = bay; x < l - 0.5 * bay; x += bay)
     for (const double y : {inset, w - inset}) world.mesh.box({x, y, 0, 0}, thick, thick, h, Material::kConcrete);
+  if (seed % 4 != 0) bays(world.mesh, l, w, h, random);
   if (random.uniform() < 0.6) seats(world.mesh, l, w, random.uniform(1.4, 2.2));
   if (random.uniform() < 0.6)
     world.mesh.box({0.06 * l, 0.5 * w, 0, 0}, 0.1 * l, 0.6 * w, random.uniform(0.5, 1.1), Material::kWood);

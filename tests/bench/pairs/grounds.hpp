@@ -9,8 +9,10 @@ namespace cairn::pairs {
 
 /// Kinds of places.
 enum class Kind {
-  kRooms,    ///< a floor of rooms and corridors, 32 to 48 × 20 to 30 m
-  kHall,     ///< a hall with pillars, a stage and rows of seats, nearly symmetric, 24 to 45 × 16 to 30 m
+  kRooms,  ///< a floor of rooms and corridors, 32 to 48 × 20 to 30 m
+  /// A hall with pillars, a stage and rows of seats, 24 to 45 × 16 to 30 m. With a seed that 4 divides,
+  /// it is symmetric but for its furniture.
+  kHall,
   kOutdoor,  ///< houses, trees and cars on rolling ground, 80 m
   kTown,     ///< the same, 400 m
 };

@@ -23,11 +23,12 @@ constexpr int kBins = 10;
 
 void write(const Answer& x, std::uint64_t seed) {
   const matching::Evidence& e = x.result.evidence;
-  std::printf("%s,%s,%.2f,%.1f,%.0f,%.1f,%.3f,%d,%d,%.4f,%.3f,%.4f,%d,%.1f,%.4f,%.4f,%.4f,%.4f,%.4f,%.0f,%d\n",
-              x.type.c_str(), x.kind.c_str(), x.voxel_m, x.moved_m, x.lean_deg, x.dz_m, x.overlap, x.right,
-              x.result.accepted, x.result.probability_correct, e.overlap, e.structure_inliers, e.structure_pairs,
-              e.agreeing_m2, e.conflict, e.reverse_conflict, e.weakest_translation, e.uniqueness, e.score, x.ms,
-              static_cast<int>(seed));
+  std::printf(
+      "%s,%s,%.2f,%.1f,%.0f,%.1f,%.3f,%d,%d,%.4f,%.3f,%.3f,%.4f,%d,%.1f,%.0f,%.4f,%.4f,%.4f,%.4f,%.4f,%.0f,%d\n",
+      x.type.c_str(), x.kind.c_str(), x.voxel_m, x.moved_m, x.lean_deg, x.dz_m, x.overlap, x.right, x.result.accepted,
+      x.result.probability_correct, e.overlap, e.inlier_ratio, e.structure_inliers, e.structure_pairs, e.agreeing_m2,
+      e.agreeing_floor_m2, e.conflict, e.reverse_conflict, e.weakest_translation, e.uniqueness, e.score, x.ms,
+      static_cast<int>(seed));
   std::fflush(stdout);
 }
 
@@ -47,8 +48,9 @@ std::array<double, 2> memory_mb() {
 Results::Results(bool csv) : csv_(csv) {
   if (csv)
     std::puts(
-        "type,kind,voxel,moved,lean,dz,true_overlap,right,accepted,p,overlap,structure_inliers,structure_pairs,"
-        "agreeing_m2,conflict,reverse_conflict,weakest,uniqueness,score,ms,seed");
+        "type,kind,voxel,moved,lean,dz,true_overlap,right,accepted,p,overlap,inlier_ratio,structure_inliers,"
+        "structure_pairs,agreeing_m2,floor_m2,conflict,reverse_conflict,weakest,uniqueness,score,ms,"
+        "seed");
 }
 
 void Results::match(Answer about, const Chart& a, const Chart& b, const std::optional<UncertainPose>& initial,
@@ -126,7 +128,7 @@ void Results::print() const {
           [&](const Answer& x) { return x.type == type && x.kind == kind && x.overlap >= kLeast[3]; });
     row(type + ", all", [&](const Answer& x) { return x.type == type && x.overlap >= kLeast.back(); });
   }
-  for (const std::string type : {"plain", "mirrored", "copy", "turned"})
+  for (const std::string type : {"plain", "mirrored", "symmetric", "copy", "turned"})
     row(type, [&](const Answer& x) { return x.type == type; });
   for (const double voxel : kVoxels_m) calibration(voxel);
   std::printf("  %.0f MB of memory at most\n", memory_mb()[1]);

@@ -17,7 +17,8 @@ inline constexpr std::array kVoxels_m{0.1, 0.2, 0.05};
 inline constexpr std::array kMoved_m{0.0, 0.5, 1.2};
 inline constexpr std::array kKindNames{"rooms", "hall", "outdoor"};
 
-/// One pair of maps and what the matcher said. `type`: global, local, plain, mirrored, copy or turned.
+/// One pair of maps and what the matcher said. `type`: global, local, plain, mirrored, symmetric (mirrored, of a hall
+/// that is symmetric but for its furniture), copy or turned.
 struct Answer {
   std::string type, kind;
   double voxel_m = 0, moved_m = 0, lean_deg = 0, dz_m = 0, overlap = 0, ms = 0;

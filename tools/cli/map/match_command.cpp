@@ -83,6 +83,8 @@ report::Json to_json(const MatchResult& r, double seconds) {
           {"book_accepted", r.book_accepted},
           {"structure_inliers", e.structure_inliers},
           {"structure_pairs", e.structure_pairs},
+          {"agreeing_m2", e.agreeing_m2},
+          {"agreeing_floor_m2", e.agreeing_floor_m2},
           {"conflict", e.conflict},
           {"reverse_conflict", e.reverse_conflict},
           {"weakest_translation", e.weakest_translation},

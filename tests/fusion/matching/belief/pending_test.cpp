@@ -16,7 +16,7 @@ SE3 at(double x, double yaw = 0) { return planar_pose(x, 1, yaw); }
 Look agreeing(const SE3& T, double ground_m2) {
   Look look{{T, 1e-4 * Matrix6::Identity()}, {}};
   look.evidence.structure_inliers = 0.8;
-  look.evidence.structure_pairs = 450;
+  look.evidence.agreeing_floor_m2 = 80;
   look.evidence.agreeing_m2 = ground_m2;
   look.evidence.weakest_translation = 0.4;
   look.evidence.reverse_conflict = 0.005;
@@ -56,7 +56,7 @@ TEST(Pending, RepeatedAgreementOnNewGroundIs) {
 
 Look certain(const SE3& T, double ground_m2) {
   Look look = agreeing(T, ground_m2);
-  look.evidence.structure_pairs = 2000;
+  look.evidence.agreeing_floor_m2 = 250;
   return look;
 }
 
@@ -112,15 +112,40 @@ TEST(Pending, AGuessDoesNotDecideBetweenPlacesThatAreEquallyGood) {
 }
 
 TEST(Pending, AGuessRulesOutALesserRival) {
-  Look rival = agreeing(at(7), 100);
+  // In small maps, a rival with three quarters of the score leaves too little probability to agree.
+  const auto in_large_maps = [](const SE3& T, double ground_m2) {
+    Look look = agreeing(T, ground_m2);
+    look.evidence.agreeing_floor_m2 = 400;
+    return look;
+  };
+  Look rival = in_large_maps(at(7), 100);
   rival.evidence.conflict = 0.01;
   rival.evidence.score = 0.45;
   for (const bool guessed : {false, true}) {
     PendingHypotheses pending;
     for (const double ground : {100.0, 200.0, 300.0})
-      pending.take({agreeing(at(0), ground), rival}, guessed ? std::optional(guess_at(at(0), 0.3)) : std::nullopt);
+      pending.take({in_large_maps(at(0), ground), rival}, guessed ? std::optional(guess_at(at(0), 0.3)) : std::nullopt);
     EXPECT_EQ(pending.accepted() != nullptr, guessed);
   }
+}
+
+TEST(Pending, CopiesOfAWholeBuildingAbstainHoweverLargeTheyAre) {
+  PendingHypotheses pending;
+  for (const double ground : {100.0, 200.0, 300.0, 400.0}) {
+    std::vector<Look> looks{agreeing(at(0), ground), agreeing(at(7), ground)};
+    for (Look& look : looks) look.evidence.agreeing_floor_m2 = 10 * ground;
+    pending.take(looks);
+    ASSERT_EQ(pending.accepted(), nullptr);
+    for (const Hypothesis& h : pending.all()) EXPECT_LT(h.probability_correct, 0.5);
+  }
+}
+
+TEST(Pending, ACopyThatIsSeenLateSuspendsWhatWasAccepted) {
+  PendingHypotheses pending;
+  for (const double ground : {100.0, 200.0, 300.0}) pending.take({certain(at(0), ground)});
+  ASSERT_NE(pending.accepted(), nullptr);
+  pending.take({certain(at(0), 400), certain(at(7), 400)});
+  EXPECT_EQ(pending.accepted(), nullptr);
 }
 
 TEST(Pending, LittleGroundDoesNotCount) {

@@ -8,7 +8,9 @@ namespace {
 
 Evidence convincing() {
   Evidence e;
-  e.structure_pairs = 900;
+  e.structure_inliers = 0.8;
+  e.agreeing_m2 = 300;
+  e.agreeing_floor_m2 = 200;
   e.weakest_translation = 0.2;
   return e;
 }
@@ -17,13 +19,51 @@ TEST(Decide, NeedsEverySettingMet) {
   const Decision decision = decide(convincing());
   ASSERT_TRUE(decision.accepted) << decision.reason;
   EXPECT_FALSE(decide(convincing(), {.least_probability = decision.probability_correct + 1e-6}).accepted);
-  EXPECT_FALSE(decide(convincing(), {.least_structure_pairs = 901}).accepted);
+  EXPECT_FALSE(decide(convincing(), {.least_agreeing_m2 = 301}).accepted);
+  EXPECT_FALSE(decide(convincing(), {.least_structure_inliers = 0.81}).accepted);
   EXPECT_FALSE(decide(convincing(), {.least_weakest_translation = 0.21}).accepted);
+  EXPECT_FALSE(decide(convincing(), {.least_floor_m2 = 201}).accepted);
 }
 
 TEST(Decide, LackOfStructureOrOfADirectionIsAtMostAnEvenChance) {
-  EXPECT_LE(decide(convincing(), {.least_structure_pairs = 901}).probability_correct, 0.5);
+  EXPECT_LE(decide(convincing(), {.least_agreeing_m2 = 301}).probability_correct, 0.5);
+  EXPECT_LE(decide(convincing(), {.least_structure_inliers = 0.81}).probability_correct, 0.5);
   EXPECT_LE(decide(convincing(), {.least_weakest_translation = 0.21}).probability_correct, 0.5);
+}
+
+TEST(Decide, OneFurnishedRoomIsNotEnoughHoweverWellItFits) {
+  Evidence room = convincing();
+  room.structure_inliers = 0.95;
+  room.agreeing_m2 = room.agreeing_floor_m2 = 70;
+  EXPECT_FALSE(decide(room).accepted);
+}
+
+TEST(Decide, AsMuchOfALargeMapCountsAsOfASmallOne) {
+  Evidence small = convincing(), large = convincing();
+  small.overlap = 0.9;
+  small.structure_pairs = 1400;
+  large.overlap = 0.05;
+  large.structure_pairs = 70;
+  EXPECT_TRUE(decide(large).accepted);
+  EXPECT_EQ(decide(large).probability_correct, decide(small).probability_correct);
+}
+
+TEST(Decide, MovedFurnitureIsNoContradictionButAHalfTurnIs) {
+  Evidence changed = convincing(), turned_about = convincing();
+  changed.agreeing_floor_m2 = 350;
+  changed.conflict = 0.01;  // eight boxes of 1.2 m in a floor of rooms
+  changed.reverse_conflict = 0.02;
+  EXPECT_TRUE(decide(changed).accepted);
+  turned_about.structure_inliers = 0.27;  // a hall, half-turned
+  EXPECT_FALSE(decide(turned_about).accepted);
+}
+
+TEST(Decide, ARivalThatIsAsGoodLeavesAnEvenChanceHoweverMuchAgrees) {
+  Evidence rivalled = convincing();
+  rivalled.agreeing_floor_m2 = 1e5;
+  rivalled.uniqueness = 0;
+  EXPECT_FALSE(decide(rivalled).accepted);
+  EXPECT_LE(decide(rivalled).probability_correct, 0.5);
 }
 
 TEST(Decide, ConflictAndRivalsMakeItLessProbable) {

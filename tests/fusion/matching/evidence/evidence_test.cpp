@@ -47,6 +47,7 @@ TEST(Evidence, TheTruthAgreesAndOtherPosesContradict) {
     EXPECT_LT(score(p.a, p.nearest, p.b, wrong), best - 0.2);
     const Evidence e = p.weigh(wrong);
     EXPECT_GT(e.conflict + e.reverse_conflict, truth.conflict + truth.reverse_conflict);
+    EXPECT_LT(e.agreeing_floor_m2, truth.agreeing_floor_m2);
     EXPECT_FALSE(decide(e).accepted);
   }
 }
@@ -67,6 +68,22 @@ TEST(Evidence, NothingInCommonIsNoEvidence) {
   EXPECT_EQ(e.inlier_ratio, 0);
   EXPECT_EQ(e.structure_pairs, 0);
   EXPECT_FALSE(decide(e).accepted);
+}
+
+TEST(Evidence, WhatAgreesInSquareMetresDependsLittleOnVoxelsAndSamples) {
+  const auto look = [](double resolution_m, std::size_t weighed) {
+    const auto maps = support::two_robots(support::lobby(), {0, 2.5, 12}, {1.2, 3.6, 12}, 5, 2.0, resolution_m);
+    const auto a = MapFeatures::build(*maps.a), b = MapFeatures::build(*maps.b);
+    EXPECT_TRUE(a && b);
+    EvidenceConfig config;
+    config.weighed = weighed;
+    return Judge(*a, *b, config).look(maps.T_a_b, default_prior_covariance()).evidence;
+  };
+  const Evidence usual = look(0.1, 8000), few = look(0.1, 1000), coarse = look(0.2, 8000);
+  EXPECT_GT(usual.agreeing_floor_m2, 30);
+  EXPECT_NEAR(few.agreeing_m2 / usual.agreeing_m2, 1, 0.1);
+  EXPECT_NEAR(few.agreeing_floor_m2 / usual.agreeing_floor_m2, 1, 0.2);
+  EXPECT_NEAR(coarse.agreeing_floor_m2 / usual.agreeing_floor_m2, 1, 0.3);
 }
 
 TEST(Covariance, IsLargeWhereNothingHolds) {

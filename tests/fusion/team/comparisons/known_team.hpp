@@ -77,7 +77,7 @@ struct KnownTeam {
 inline matching::Look agreeing(const SE3& T_a_b, double ground_m2 = 300) {
   matching::Look look{.T_a_b = {T_a_b, 1e-4 * Matrix6::Identity()}, .evidence = {}};
   look.evidence.structure_inliers = 0.8;
-  look.evidence.structure_pairs = 450;
+  look.evidence.agreeing_floor_m2 = 80;
   look.evidence.agreeing_m2 = ground_m2;
   look.evidence.weakest_translation = 0.4;
   look.evidence.reverse_conflict = 0.005;
