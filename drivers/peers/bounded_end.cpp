@@ -19,7 +19,7 @@ void request(int /*number*/) {
 
 /// Makes nothing but system calls, as a handler must.
 void leave(int /*number*/) {
-  constexpr std::string_view kWhy = "cairn-peers: the network's threads do not end in time; leaving without them\n";
+  constexpr std::string_view kWhy = "cairn: the network's threads do not end in time; leaving without them\n";
   (void)!::write(STDERR_FILENO, kWhy.data(), kWhy.size());
   ::_exit(0);
 }

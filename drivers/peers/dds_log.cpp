@@ -6,18 +6,12 @@
 #include <cstdio>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 namespace cairn::peer_link {
-namespace {
 
-void print(const std::vector<std::string>& lines) {
-  for (const std::string& line : lines) std::fprintf(stderr, "cairn-peers: DDS: %s\n", line.c_str());
-}
-
-}  // namespace
-
-DdsLog::DdsLog(const Clock& clock) : clock_(clock) {
+DdsLog::DdsLog(const Clock& clock, std::string program) : clock_(clock), program_(std::move(program)) {
   const auto sink = [](void* self, const dds_log_data_t* data) {
     // The message proper follows a header with time and thread.
     static_cast<DdsLog*>(self)->write({data->message, data->size});
@@ -30,6 +24,10 @@ DdsLog::~DdsLog() {
   dds_set_log_sink(nullptr, nullptr);
   dds_set_trace_sink(nullptr, nullptr);
   sum_up();
+}
+
+void DdsLog::print(const std::vector<std::string>& lines) const {
+  for (const std::string& line : lines) std::fprintf(stderr, "%s: DDS: %s\n", program_.c_str(), line.c_str());
 }
 
 void DdsLog::sum_up() {

@@ -2,6 +2,9 @@
 #pragma once
 
 #include <mutex>
+#include <string>
+#include <string_view>
+#include <vector>
 
 #include "drivers/peers/log_limiter.hpp"
 #include "hal/clock.hpp"
@@ -12,8 +15,8 @@ namespace cairn::peer_link {
 /// writes a line for each malformed packet. There is one log in a process, so there may be one object.
 class DdsLog {
  public:
-  /// `clock` must outlive it.
-  explicit DdsLog(const Clock& clock);
+  /// Lines begin with `program`. `clock` must outlive it.
+  DdsLog(const Clock& clock, std::string program);
   DdsLog(const DdsLog&) = delete;
   DdsLog& operator=(const DdsLog&) = delete;
   /// Gives the log back to Cyclone, after the last summary.
@@ -27,7 +30,10 @@ class DdsLog {
  private:
   void write(std::string_view line);
 
+  void print(const std::vector<std::string>& lines) const;
+
   const Clock& clock_;
+  std::string program_;
   std::mutex mutex_;  // Cyclone's threads write
   LogLimiter limiter_;
 };

@@ -60,7 +60,7 @@ std::string address_fault(const std::string& text) {
 int run(const Options& options) {
   limit_udp({options.bytes_per_second});
   const LiveClock clock;
-  DdsLog log(clock);  // before the team: it outlives Cyclone's threads
+  DdsLog log(clock, "cairn-peers");  // before the team: it outlives Cyclone's threads
   auto team = DdsTeam::open(options.dds);
   if (!team) {
     fmt::print(stderr, "cairn-peers: {}\n", to_string(team.error()));

@@ -55,6 +55,8 @@ class RobotStream {
   /// Records that this client was too slow for, in all connections. Tiles are never among them.
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
   [[nodiscard]] bool connected() const { return link_.has_value(); }
+  /// Readable when a message has come: for poll(). -1: no core is there.
+  [[nodiscard]] int readable_fd() const { return link_ ? link_->readable_fd() : -1; }
 
  private:
   RobotStream(std::filesystem::path socket, const SubscribeMessage& wants)

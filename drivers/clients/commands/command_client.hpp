@@ -26,6 +26,9 @@ class CommandClient {
   /// Sends a velocity: v in m/s forward, w in rad/s to the left, valid for Command::kMostValid. Does not wait; what
   /// became of it comes with next_answer(). False: the core is gone, or does not read.
   bool drive(double v, double w);
+  /// Any command. Does not wait; the answer comes with next_answer(). Number, time and name are set here. False: as of
+  /// drive().
+  bool send(Command command);
   /// Ends the stop that the last answer told of, and waits until the motors are enabled. Errors: kLinkDown (the core is
   /// gone, or says nothing for `patience`). The answer may be a refusal.
   Result<Answer> arm(Duration patience);
@@ -39,11 +42,12 @@ class CommandClient {
   Result<Answer> next_answer(Duration timeout);
   /// The newest answer.
   [[nodiscard]] const Answer& last() const { return last_; }
+  /// Readable when an answer has come: for poll().
+  [[nodiscard]] int readable_fd() const { return socket_.readable_fd(); }
 
  private:
   CommandClient(LocalClient socket, std::filesystem::path path, std::string_view name, const Clock& clock)
       : socket_(std::move(socket)), path_(std::move(path)), name_(name), clock_(&clock) {}
-  bool send(Command command);
   [[nodiscard]] Error gone() const;
 
   LocalClient socket_;

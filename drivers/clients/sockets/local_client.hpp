@@ -34,6 +34,8 @@ class LocalClient {
   };
   /// Waits for the next message, at most `timeout`; it is in `bytes`, cut after `most` + 1 bytes.
   Got receive(std::vector<std::byte>& bytes, std::size_t most, Duration timeout);
+  /// Readable when a message has come: for poll().
+  [[nodiscard]] int readable_fd() const { return fd_; }
 
  private:
   explicit LocalClient(int fd) : fd_(fd) {}
