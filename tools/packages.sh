@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # The only list of Debian 12 packages. Installs the missing packages of the named groups:
-#   tools/packages.sh GROUP…          build test ci cross fresh bench vm protocol docs
+#   tools/packages.sh GROUP…          build test ci cross fresh bench vm protocol docs foreign_dds
 #   tools/packages.sh --list GROUP…   only prints the packages
 # If no package is missing, it changes nothing. If one is missing, it needs root or sudo. It never asks.
 set -euo pipefail
@@ -12,6 +12,8 @@ declare -rA packages=(
            libfmt-dev libcli11-dev nlohmann-json3-dev libexpected-dev libzstd-dev libxxhash-dev libpng-dev libssl-dev
            libgpiod-dev libembree-dev cyclonedds-dev cyclonedds-tools libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev"
   [test]="libgtest-dev libgmock-dev libbenchmark-dev"
+  # the proof that another vendor's DDS reads cairn-ros (tests/tools/ros/process/foreign_test.cpp)
+  [foreign_dds]="libfastrtps-dev libfastcdr-dev"
   [bench]="libbenchmark-dev jq"
   # tools/protocol.sh alone: PCL's libraries without libpcl-dev, which depends on VTK, Qt and Java; see there for the headers
   [protocol]="libpcl-registration1.13 libpcl-features1.13 libpcl-filters1.13 libpcl-search1.13 libpcl-kdtree1.13

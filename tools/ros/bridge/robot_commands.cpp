@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/ros/bridge/robot_commands.hpp"
+
+namespace cairn::ros {
+
+Result<RobotCommands> RobotCommands::open(RosParticipant& participant, const std::string& name, CommandRelay& relay) {
+  const std::string at = "/" + name + "/";
+  const auto cmd_vel = Reader<Twist>::open(participant, at + "cmd_vel", TopicUse::kCommand);
+  const auto stamped = Reader<TwistStamped>::open(participant, at + "cmd_vel_stamped", TopicUse::kCommand);
+  const auto arm = Reader<BoolMessage>::open(participant, at + "arm", TopicUse::kEvent);
+  const auto stop = Reader<BoolMessage>::open(participant, at + "stop", TopicUse::kEvent);
+  if (!cmd_vel) return cmd_vel.error();
+  if (!stamped) return stamped.error();
+  if (!arm) return arm.error();
+  if (!stop) return stop.error();
+  return RobotCommands({*cmd_vel, *stamped, *arm, *stop}, relay);
+}
+
+/// Stops come last: what was asked before them moves nothing.
+void RobotCommands::take(Duration held_up, Duration utc, std::optional<std::uint32_t> epoch) {
+  Velocity velocity;
+  readers_.cmd_vel.take([&](const Twist& twist, Duration /*written*/) {
+    const Verdict verdict = judge(twist, velocity);
+    drive(verdict, velocity, held_up);
+  });
+  readers_.cmd_vel_stamped.take([&](const TwistStamped& twist, Duration /*written*/) {
+    const Verdict verdict = judge(twist, utc, velocity);
+    drive(verdict, velocity, held_up);
+  });
+  readers_.arm.take(
+      [&](const BoolMessage& arm, Duration written) { this->arm(arm.data, judge_age(written, utc), epoch); });
+  readers_.stop.take([&](const BoolMessage& stop, Duration /*written*/) {
+    if (stop.data) relay_->stop();
+  });
+}
+
+void RobotCommands::drive(Verdict verdict, const Velocity& velocity, Duration held_up) {
+  if (verdict == Verdict::kTake)
+    relay_->drive(velocity, held_up);
+  else
+    relay_->refuse("velocity", to_string(verdict));
+}
+
+void RobotCommands::arm(bool yes, Verdict age, std::optional<std::uint32_t> epoch) {
+  if (!yes) return relay_->disarm();
+  if (age != Verdict::kTake) return relay_->refuse("arm", to_string(age));
+  if (!epoch) return relay_->refuse("arm", "the core has not said how it is");
+  relay_->arm(*epoch);
+}
+
+}  // namespace cairn::ros

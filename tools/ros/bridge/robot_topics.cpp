@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/ros/bridge/robot_topics.hpp"
+
+#include "hal/clock.hpp"
+#include "tools/ros/messages/odometry.hpp"
+#include "tools/ros/messages/points.hpp"
+
+namespace cairn::ros {
+namespace {
+
+constexpr Duration kDiagnosticsPeriod = std::chrono::seconds(1);
+
+}  // namespace
+
+Result<std::unique_ptr<RobotTopics>> RobotTopics::open(RosParticipant& participant, TopicOptions options) {
+  const std::string at = "/" + options.name + "/";
+  const auto odom = Writer<Odometry>::open(participant, at + "odom", TopicUse::kStream);
+  const auto tf = Writer<TfMessage>::open(participant, "/tf", TopicUse::kTf);
+  const auto tf_static = Writer<TfMessage>::open(participant, "/tf_static", TopicUse::kLatched);
+  const auto points = Writer<PointCloud2>::open(participant, at + "points", TopicUse::kStream);
+  const auto diagnostics = Writer<DiagnosticArray>::open(participant, "/diagnostics", TopicUse::kEvent);
+  const auto map = MapFeed::open(participant, at + "map", clients::TileMap::kOwn, options.map, options.map_period);
+  if (!odom) return odom.error();
+  if (!tf) return tf.error();
+  if (!tf_static) return tf_static.error();
+  if (!points) return points.error();
+  if (!diagnostics) return diagnostics.error();
+  if (!map) return map.error();
+  const Writers writers{*odom, *tf, *tf_static, *points, *diagnostics};
+  std::unique_ptr<RobotTopics> topics(new RobotTopics(participant, std::move(options), writers, *map));
+  topics->utc_.greeted(LiveClock::realtime_offset(), LiveClock::realtime_offset());
+  return topics;
+}
+
+Result<void> RobotTopics::take(const client::StreamMessage& message, Time now) {
+  arena_.clear();
+  health_.heard(now);
+  return std::visit([this](const auto& one) { return write(one); }, message);
+}
+
+Result<void> RobotTopics::write(const client::HelloMessage& hello) {
+  utc_.greeted(hello.realtime_offset, LiveClock::realtime_offset());
+  health_.core_came();
+  pose_.reset();  // another core may count its time anew
+  const Time now = LiveClock().now();
+  (void)writers_.tf_static.write(tf_static_of(hello.sensors, frames_, now, utc_.value(), arena_));
+  own_.begin(hello);
+  if (hello.robot_id != 0 && !team_) {
+    const auto map = MapFeed::open(*participant_, "/" + options_.name + "/team_map", clients::TileMap::kTeam,
+                                   options_.map, options_.map_period);
+    if (!map) return map.error();
+    team_.emplace(*map);
+  }
+  if (team_) team_->begin(hello);
+  return {};
+}
+
+/// Poses of scans that come after later predictions are left out: ROS wants one line of time.
+Result<void> RobotTopics::write(const client::PoseMessage& pose) {
+  health_.take(pose);
+  if (pose_ && pose.stamp <= *pose_) return {};
+  pose_ = pose.stamp;
+  (void)writers_.odom.write(odometry_of(pose, frames_, utc_.value(), arena_));
+  (void)writers_.tf.write(tf_of(pose, frames_, utc_.value(), arena_));
+  return {};
+}
+
+Result<void> RobotTopics::write(const client::StateMessage& state) {
+  health_.take(state);
+  return {};
+}
+
+Result<void> RobotTopics::write(const client::TilesMessage& tiles) {
+  if (const auto taken = own_.take(tiles); !taken) return taken;
+  return team_ ? team_->take(tiles) : Result<void>{};
+}
+
+Result<void> RobotTopics::write(const client::ScanMessage& scan) {
+  (void)writers_.points.write(points_of(scan, frames_, utc_.value(), arena_));
+  return {};
+}
+
+Result<void> RobotTopics::write(const client::EventMessage& event) {
+  health_.take(event);
+  return {};
+}
+
+Result<void> RobotTopics::write(client::CoreGone /*gone*/) {
+  health_.core_gone();
+  diagnosed_.reset();  // say it now
+  return {};
+}
+
+Result<void> RobotTopics::write(std::monostate /*nothing*/) { return {}; }
+
+Result<void> RobotTopics::tick(Time now, const std::vector<Diagnosis>& others) {
+  arena_.clear();
+  utc_.follow(LiveClock::realtime_offset());
+  if (!diagnosed_ || now - *diagnosed_ >= kDiagnosticsPeriod) write_diagnostics(now, others);
+  return write_maps(now);
+}
+
+Result<void> RobotTopics::write_maps(Time now) {
+  // The newest pose's time: a frame of then is known to all who listen to /tf.
+  const Time stamp = pose_.value_or(now);
+  const auto own = own_.tick(now, header_of(stamp, utc_.value(), frames_.odom, arena_), arena_);
+  if (!own || !team_) return own;
+  return team_->tick(now, header_of(stamp, utc_.value(), frames_.team, arena_), arena_);
+}
+
+void RobotTopics::write_diagnostics(Time now, const std::vector<Diagnosis>& others) {
+  diagnosed_ = now;
+  std::vector<Diagnosis> all = health_.diagnoses(now);
+  all.push_back(traffic());
+  all.insert(all.end(), others.begin(), others.end());
+  (void)writers_.diagnostics.write(diagnostics_of(all, options_.name, now, utc_.value(), arena_));
+}
+
+Diagnosis RobotTopics::traffic() const {
+  const auto& [odom, tf, tf_static, points, diagnostics] = writers_;
+  const std::uint64_t lost = odom.lost() + tf.lost() + points.lost() + own_.writer().lost();
+  Diagnosis traffic{.level = lost == 0 ? DiagnosticLevel::kOk : DiagnosticLevel::kWarn,
+                    .name = "cairn-ros",
+                    .message = lost == 0 ? "all was sent" : "readers do not keep up"};
+  traffic.values = {{"odom", std::to_string(odom.written())},
+                    {"points", std::to_string(points.written())},
+                    {"map", std::to_string(own_.writer().written())},
+                    {"lost", std::to_string(lost)}};
+  return traffic;
+}
+
+client::SubscribeMessage RobotTopics::wants() const {
+  using clients::Stream;
+  client::SubscribeMessage wants;
+  for (const Stream stream : {Stream::kPose, Stream::kState, Stream::kOwnTiles, Stream::kEvents}) wants.add(stream);
+  if (team_) wants.add(Stream::kTeamTiles);
+  if (writers_.points.read_by_anybody()) wants.add(Stream::kScan);
+  wants.pose_hz = options_.pose_hz;
+  wants.own = own_.resume();
+  if (team_) wants.team = team_->resume();
+  return wants;
+}
+
+}  // namespace cairn::ros
