@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hal/files/file.hpp"
@@ -16,11 +17,13 @@
 
 namespace cairn::faults {
 
-/// The real program `cairn` as a child. What it says goes into a file. It is killed with the object.
+/// The real program `cairn`, or another of this build, as a child. What it says goes into a file. It is killed with the
+/// object.
 class CairnChild {
  public:
-  CairnChild(std::vector<std::string> arguments, std::filesystem::path says) : says_(std::move(says)) {
-    arguments.insert(arguments.begin(), places::program("cairn"));
+  CairnChild(std::vector<std::string> arguments, std::filesystem::path says, std::string_view program = "cairn")
+      : says_(std::move(says)) {
+    arguments.insert(arguments.begin(), places::program(program));
     std::vector<char*> words;
     for (std::string& argument : arguments) words.push_back(argument.data());
     words.push_back(nullptr);

@@ -39,8 +39,9 @@ mapfile -t drivers < <(code drivers)
 mapfile -t onboard < <(code onboard)
 mapfile -t fusion < <(code fusion)
 mapfile -t tools < <(code tools)
+mapfile -t examples < <(code examples)
 mapfile -t tests < <(code tests)
-product=("${hal[@]}" "${drivers[@]}" "${onboard[@]}" "${fusion[@]}" "${tools[@]}")
+product=("${hal[@]}" "${drivers[@]}" "${onboard[@]}" "${fusion[@]}" "${tools[@]}" "${examples[@]}")
 all=("${product[@]}" "${tests[@]}")
 ((${#hal[@]} > 0)) || { echo "check_layers.sh: no source files below $PWD" >&2; exit 2; }
 
@@ -56,6 +57,8 @@ not_clients=$(printf '%s\n' drivers/*/ | xargs -n 1 basename | grep -vx clients 
 deny "onboard/client knows only hal, drivers/clients, onboard/mapping and fusion/peers" "let it see messages and maps only" \
   "$(inc "(drivers/($not_clients)|fusion/(matching|merging|team)|onboard/(app|odometry|report|safety|scheduler)|tools)/|onboard/robot\.")" \
   "$none" "${client[@]}"
+deny "examples know what other programs may know" "use hal, drivers/clients and onboard/client" \
+  "$(inc "(drivers/($not_clients)|fusion|onboard/(app|odometry|report|safety|scheduler)|tools|tests)/")" "$none" "${examples[@]}"
 deny "onboard knows neither tools nor tests" "move what is needed into the room that owns it" \
   "$(inc '(tools|tests)/')" "$none" "${onboard[@]}"
 deny "the program does not know tests" "move what is needed out of tests/" "$(inc 'tests/')" "$none" "${product[@]}"
@@ -81,7 +84,7 @@ deny "decoding is pure: it never knows its transport" "decode a std::span; the t
 
 # Folders
 readonly max_files=30
-mapfile -t crowded < <(find hal drivers onboard fusion tools tests -type f -not -path '*/corpus/*' 2>/dev/null |
+mapfile -t crowded < <(find hal drivers onboard fusion tools examples tests -type f -not -path '*/corpus/*' 2>/dev/null |
   sed 's#/[^/]*$##' | sort | uniq -c | awk -v max="$max_files" '$1 > max {print $2 ": " $1 " files"}')
 deny_files "a folder has at most $max_files files" "make folders of what belongs together" "${crowded[@]}"
 # Who includes whom, folder by folder; tsort names a circle where there is one.
@@ -120,7 +123,7 @@ deny "OctoMap's own readers recurse without bounds on hostile files" "read maps 
   '(AbstractOcTree|AbstractOccupancyOcTree|OcTree)::read|(\.|->)read(Binary|BinaryData|Data)\(' '^tests/' "${all[@]}"
 
 # Results must be the same on every machine and every run
-mapfile -t builds < <(find CMakeLists.txt CMakePresets.json hal drivers onboard fusion tools tests toolchains \
+mapfile -t builds < <(find CMakeLists.txt CMakePresets.json hal drivers onboard fusion tools examples tests toolchains \
   \( -name CMakeLists.txt -o -name '*.cmake' -o -name CMakePresets.json \) -type f 2>/dev/null)
 deny "builds run on every machine of their kind and give the same bits" \
   "dispatch per function at run time, or use a toolchain file" \

@@ -11,7 +11,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 tools/packages.sh build test ci
-mapfile -t sources < <(find hal drivers onboard fusion tools tests \( -name '*.hpp' -o -name '*.cpp' \) -type f 2>/dev/null | sort)
+mapfile -t sources < <(find hal drivers onboard fusion tools examples tests \( -name '*.hpp' -o -name '*.cpp' \) -type f 2>/dev/null | sort)
 mapfile -t scripts < <(find tools toolchains tests .ci \( -name '*.sh' -o -path .ci/run \) -type f | sort)
 bad=0
 

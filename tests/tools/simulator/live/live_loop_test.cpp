@@ -4,10 +4,14 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 
+#include <algorithm>
 #include <fstream>
 #include <functional>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
+#include <sstream>
+#include <vector>
 
 #include "drivers/clients/commands/command_client.hpp"
 #include "drivers/recording/formats/trajectory_file.hpp"
@@ -38,10 +42,11 @@ class FullLiveLoop : public testing::Test {
  protected:
   [[nodiscard]] std::string path(const char* name) const { return (folder / name).string(); }
   void SetUp() override {
-    world.emplace(std::vector<std::string>{"simulate", "--live", "--scene", "lobby", "--to", support::own_address(),
-                                           "--can", "unix:" + path("can"), "--estop", path("estop"), "--truth",
-                                           path("truth.tum"), "--profile-out", path("robot.yaml")},
-                  folder / "world.log");
+    world.emplace(
+        std::vector<std::string>{"simulate", "--live", "--scene", "carpark", "--start", "9,24,2.9", "--to",
+                                 support::own_address(), "--can", "unix:" + path("can"), "--estop", path("estop"),
+                                 "--truth", path("truth.tum"), "--profile-out", path("robot.yaml")},
+        folder / "world.log");
     ASSERT_TRUE(becomes_true([&] { return std::filesystem::exists(folder / "robot.yaml"); })) << world->said();
     core.emplace(std::vector<std::string>{"run", "--config", path("robot.yaml"), "--sockets", folder.path().string(),
                                           "--record", path("recording"), "--out", path("run")},
@@ -81,6 +86,34 @@ class FullLiveLoop : public testing::Test {
   std::optional<CairnChild> world, core;
   std::optional<CommandClient> client;
 };
+
+/// A busy machine may stop the robot in the middle; then it begins a new square where it stands.
+TEST_F(FullLiveLoop, TheSquareOfTheExampleIsASquareInTheWorld) {
+  client.reset();  // one program at a time commands
+  std::string corners;
+  ASSERT_TRUE(becomes_true([&] {
+    CairnChild square({folder.path().string(), "0.8"}, folder / "square.log", "drive_square");
+    EXPECT_TRUE(becomes_true([&] { return square.ended(); }));
+    if (square.wait() == 0) corners = square.said();
+    return !corners.empty();
+  })) << core->said();
+  EXPECT_EQ(end(*core), 0) << core->said();
+  EXPECT_EQ(end(*world), 0) << world->said();
+  const auto truth = recording::read_tum(folder / "truth.tum").value();
+  const auto pose_at = [&](Time t) {
+    return std::ranges::lower_bound(truth, t, {}, &recording::StampedPose::stamp)->pose;
+  };
+  std::istringstream lines(corners);
+  std::vector<SE3> reached;
+  for (std::string line; std::getline(lines, line);) reached.push_back(pose_at(Time(Duration(std::stoll(line)))));
+  ASSERT_EQ(reached.size(), 4U) << corners;
+  for (std::size_t i = 1; i < reached.size(); ++i) {
+    const Vector6 side = (reached[i - 1].inverse() * reached[i]).xyz_rpy();
+    EXPECT_NEAR(side[0], 0.8, 0.15) << corners;
+    EXPECT_NEAR(side[1], 0, 0.15) << corners;
+    EXPECT_NEAR(side[5], std::numbers::pi / 2, 2 * std::numbers::pi / 180) << corners;
+  }
+}
 
 TEST_F(FullLiveLoop, DrivesStopsAndIsItsReplay) {
   ASSERT_TRUE(becomes_true([&] { return arm(); })) << core->said();
