@@ -7,3 +7,8 @@ cairn_quality(team_runs
   LINK cairn_team cairn_app cairn_team_figures PkgConfig::XXHASH)
 cairn_quality(core_with_peers SOURCES core_with_peers.cpp LINK cairn_team cairn_app cairn_peer_link)
 cairn_quality(core_with_clients SOURCES core_with_clients.cpp LINK cairn_app cairn_client)
+find_package(fastcdr QUIET)
+find_package(fastrtps QUIET)
+if(fastrtps_FOUND AND fastcdr_FOUND)
+  cairn_quality(ros_drive SOURCES ros/ros_drive.cpp LINK cairn_recording fastrtps fastcdr octomap octomath)
+endif()

@@ -14,7 +14,7 @@ constexpr Duration kDiagnosticsPeriod = std::chrono::seconds(1);
 
 Result<std::unique_ptr<RobotTopics>> RobotTopics::open(RosParticipant& participant, TopicOptions options) {
   const std::string at = "/" + options.name + "/";
-  const auto odom = Writer<Odometry>::open(participant, at + "odom", TopicUse::kStream);
+  const auto odom = Writer<Odometry>::open(participant, at + "odom", TopicUse::kEvent);
   const auto tf = Writer<TfMessage>::open(participant, "/tf", TopicUse::kTf);
   const auto tf_static = Writer<TfMessage>::open(participant, "/tf_static", TopicUse::kLatched);
   const auto points = Writer<PointCloud2>::open(participant, at + "points", TopicUse::kStream);
