@@ -14,6 +14,9 @@ using clients::Record;
 using clients::RecordKind;
 
 constexpr Duration kRetry = std::chrono::milliseconds(50);  // from one attempt to find a core to the next
+// Where many programs connect at once: so many further attempts, half a second in all.
+constexpr Duration kStep = std::chrono::milliseconds(5);
+constexpr int kCrowded = 100;
 
 template <class Message>
 Result<StreamMessage> as_message(Result<Message> message) {
@@ -25,7 +28,12 @@ Result<StreamMessage> as_message(Result<Message> message) {
 
 Result<RobotStream> RobotStream::connect(const std::filesystem::path& socket, const SubscribeMessage& wants) {
   RobotStream stream(socket, wants);
-  if (const auto joined = stream.join(); !joined) return joined.error();
+  auto joined = stream.join();
+  for (int i = 0; i < kCrowded && !joined && joined.error().code == Errc::kLimit; ++i) {
+    LiveClock::wait_until(LiveClock().now() + kStep);
+    joined = stream.join();
+  }
+  if (!joined) return joined.error();
   return stream;
 }
 

@@ -5,6 +5,8 @@
 //   core_with_clients RECORDING [key=value …]
 //   RECORDING: with lidar.pcap of a VLP-16
 //   keys: seconds (60), rounds (2)
+#include <unistd.h>
+
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
@@ -22,7 +24,6 @@
 #include "onboard/app/run.hpp"
 #include "onboard/client/robot_stream.hpp"
 #include "tests/support/loopback_lidar.hpp"
-#include "tests/support/temporary_folder.hpp"
 
 namespace cairn::bench {
 namespace {
@@ -111,9 +112,10 @@ std::vector<Packet> packets_of(const fs::path& folder) {
 }
 
 void play(const std::vector<Packet>& packets, bool with_clients) {
-  const support::TemporaryFolder folder;
+  const fs::path folder = fs::temp_directory_path() / ("core_with_clients_" + std::to_string(::getpid()));
+  fs::remove_all(folder);
+  fs::create_directory(folder);
   std::ofstream(folder / "robot.yaml") << support::LoopbackLidar::profile("[0.2, 0, 0.6, 0, 0, 0]");
-  fs::create_directory(folder / "s");
   app::RunOptions options;
   options.config = folder / "robot.yaml";
   options.out = folder / "out";
@@ -156,6 +158,7 @@ void play(const std::vector<Packet>& packets, bool with_clients) {
       std::printf("  %s missed %llu", task.spec.name.c_str(), static_cast<unsigned long long>(task.stats.misses));
   std::printf("\n");
   std::fflush(stdout);
+  fs::remove_all(folder);
 }
 
 }  // namespace

@@ -20,6 +20,8 @@ Result<LocalClient> LocalClient::connect(const std::filesystem::path& path) {
   if (errno == ENOENT || errno == ECONNREFUSED)
     return Error{
         Errc::kNotFound, "no core serves this socket", path.string(), {}, "start one with: cairn run --sockets FOLDER"};
+  if (errno == EAGAIN)
+    return Error{Errc::kLimit, "many programs connect to the core at once", path.string(), {}, "try again"};
   return local_error("cannot connect to the core", path);
 }
 

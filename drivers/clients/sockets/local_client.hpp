@@ -14,7 +14,8 @@ namespace cairn::clients {
 /// A client's end of robot.sock or command.sock.
 class LocalClient {
  public:
-  /// Errors: kInvalidConfig (the path is too long), kNotFound (no core serves it), kIo (the system refused, such as a
+  /// Errors: kInvalidConfig (the path is too long), kNotFound (no core serves it), kLimit (many
+  /// connect at once: try again), kIo (the system refused, such as a
   /// user who is not in the socket's group).
   [[nodiscard]] static Result<LocalClient> connect(const std::filesystem::path& path);
   LocalClient(LocalClient&& other) noexcept;

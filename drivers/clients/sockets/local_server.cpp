@@ -17,7 +17,7 @@ namespace cairn::clients {
 namespace {
 
 constexpr ::mode_t kOwnerAndGroup = 0660, kOwner = 0600;
-constexpr int kBacklog = 16;
+constexpr int kBacklog = 64;
 
 /// Gives the socket to a group that the system knows. Others than the owner get in only after that.
 bool share(const std::filesystem::path& path, const std::string& group) {
@@ -112,12 +112,15 @@ LocalServer::Received LocalServer::receive_from(Client& client, std::vector<std:
 }
 
 LocalServer::Received LocalServer::receive(std::vector<std::byte>& bytes, std::size_t most) {
-  if (const auto joined = accept_one()) return {Got::kJoined, *joined};
-  for (std::size_t i = 0; i < places_.size() && count_ > 0; ++i) {
-    Client& client = places_[turn_];
-    turn_ = (turn_ + 1) % places_.size();
-    if (client.id == 0) continue;
-    if (const Received received = receive_from(client, bytes, most); received.got != Got::kNothing) return received;
+  for (std::size_t i = 0; i <= places_.size(); ++i) {
+    const std::size_t turn = turn_;
+    turn_ = (turn_ + 1) % (places_.size() + 1);
+    if (turn == places_.size()) {
+      if (const auto joined = accept_one()) return {Got::kJoined, *joined};
+    } else if (places_[turn].id != 0) {
+      const Received received = receive_from(places_[turn], bytes, most);
+      if (received.got != Got::kNothing) return received;
+    }
   }
   return {};
 }

@@ -49,7 +49,8 @@ class LocalServer {
   LocalServer& operator=(const LocalServer&) = delete;
   ~LocalServer();
 
-  /// The next thing that happened. Clients take turns. A record is in `bytes`, cut after `most` + 1 bytes.
+  /// The next thing that happened. Clients take turns, and so do those who want to join. A record is in `bytes`, cut
+  /// after `most` + 1 bytes.
   Received receive(std::vector<std::byte>& bytes, std::size_t most);
   /// False: the client is gone, or has not read what was sent before.
   bool send(ClientId client, std::span<const std::byte> message);

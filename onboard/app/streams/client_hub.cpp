@@ -27,10 +27,14 @@ Result<ClientHub> ClientHub::open(const std::filesystem::path& folder, const cli
 }
 
 void ClientHub::receive(Time now) {
+  int joins = 0;
   for (std::size_t i = 0; i < kMostInATick * (clients_.size() + 1); ++i) {
     const LocalServer::Received received = server_.receive(received_, kMostReceived);
     if (received.got == LocalServer::Got::kNothing) break;
-    if (received.got == LocalServer::Got::kJoined) greet(received.client);
+    if (received.got == LocalServer::Got::kJoined) {
+      greet(received.client);
+      if (++joins == kMostJoins) break;  // all others have had their turns
+    }
     if (received.got == LocalServer::Got::kRecord) take(received.client, now);
     if (received.got == LocalServer::Got::kLeft)
       std::erase_if(clients_, [&](const StreamClient& client) { return client.id == received.client; });

@@ -44,6 +44,7 @@ class ClientHub {
  public:
   static constexpr std::size_t kMostClients = 32;
   static constexpr std::size_t kMostInATick = 4;  ///< records that a client may send, on average of all
+  static constexpr int kMostJoins = 2;            ///< clients that may join in a tick
 
   /// Serves `folder`/robot.sock. Every new client is greeted with `hello`. `monitor` must outlive the hub. Errors: see
   /// clients::LocalServer::open().

@@ -7,11 +7,11 @@
 
 namespace cairn::app {
 
-void ScanStream::serve(ClientHub& hub, SpscQueue<LocatedScan>& scans) {
+void ScanStream::serve(ClientHub& hub, SpscQueue<LocatedScan>& scans, std::size_t records) {
   for (; const LocatedScan* scan = scans.front(); scans.pop(), begun_ = false) {
     if (!begun_) begin(hub, *scan);
     bool all = true;
-    for (StreamClient& client : hub.clients()) all = send(hub, client, *scan) && all;
+    for (StreamClient& client : hub.clients()) all = send(hub, client, *scan, records) && all;
     if (!all && scans.size() < 2) return;
     for (StreamClient& client : hub.clients())
       if (client.scan_points) ++client.sequence;  // a part is lost, and the rest is of no use
@@ -27,7 +27,7 @@ void ScanStream::begin(ClientHub& hub, const LocatedScan& scan) {
 }
 
 /// True: the client has the scan, or does not want it.
-bool ScanStream::send(ClientHub& hub, StreamClient& client, const LocatedScan& scan) {
+bool ScanStream::send(ClientHub& hub, StreamClient& client, const LocatedScan& scan, std::size_t& records) {
   if (!client.scan_points) return true;
   clients::ScanPart part;
   part.stamp = scan.stamp;
@@ -37,6 +37,8 @@ bool ScanStream::send(ClientHub& hub, StreamClient& client, const LocatedScan& s
   part.first = *client.scan_points;
   const std::size_t total = std::min<std::size_t>(scan.points_base.size(), clients::ScanPart::kMaxPoints);
   do {
+    if (records == 0) return false;
+    --records;
     clients::begin_record(clients::RecordKind::kScan, client.sequence, record_);
     const std::uint32_t taken = encode(part, scan.points_base, record_);
     clients::end_record(record_);

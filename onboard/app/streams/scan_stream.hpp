@@ -13,12 +13,12 @@ namespace cairn::app {
 /// that has not taken a scan when the next one is there loses the rest of it.
 class ScanStream {
  public:
-  /// Sends what clients take now.
-  void serve(ClientHub& hub, SpscQueue<LocatedScan>& scans);
+  /// Sends what clients take now, in at most `records` records for all of them.
+  void serve(ClientHub& hub, SpscQueue<LocatedScan>& scans, std::size_t records);
 
  private:
   void begin(ClientHub& hub, const LocatedScan& scan);
-  bool send(ClientHub& hub, StreamClient& client, const LocatedScan& scan);
+  bool send(ClientHub& hub, StreamClient& client, const LocatedScan& scan, std::size_t& records);
 
   bool begun_ = false;             // the scan in front
   std::vector<std::byte> record_;  // reused

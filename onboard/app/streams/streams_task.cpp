@@ -13,7 +13,7 @@ using clients::Stream;
 using clients::TileMap;
 
 // In one tick. Encoding a tile takes a microsecond, making and sending a full record some tens.
-constexpr std::size_t kTiles = 512, kTileRecords = 8;
+constexpr std::size_t kTiles = 512, kTileRecords = 8, kScanRecords = 16;
 constexpr double kEvents_hz = 10;
 constexpr Duration kClosingStep = std::chrono::milliseconds(1);
 
@@ -37,7 +37,7 @@ std::size_t StreamsTask::serve(Time now) {
   send_predictions(now);
   send_state(now);
   send_events(now);
-  scans_.serve(hub_, outlets_.scans);
+  scans_.serve(hub_, outlets_.scans, kScanRecords);
   return send_tiles(now);
 }
 

@@ -26,6 +26,21 @@ TEST_F(ClientHubTest, GarbageEndsAConnectionAndIsCountedOnce) {
   EXPECT_EQ(monitor_.events()[0].count, 5U);
 }
 
+TEST_F(ClientHubTest, ThoseWhoJoinKeepNobodyFromBeingHeard) {
+  RobotStream first = connect(wanted({Stream::kPose}));
+  run(1);
+  std::vector<clients::LocalClient> crowd;
+  for (int i = 0; i < 20; ++i) crowd.push_back(clients::LocalClient::connect(folder_ / "robot.sock").value());
+  EXPECT_TRUE(first.subscribe(wanted({Stream::kEvents})));
+  monitor_.event({}, "odometry", "lost");
+  run(2);
+  EXPECT_EQ(outlets_.scans_wanted, false);
+  EXPECT_TRUE(first.subscribe(wanted({Stream::kScan})));
+  run(2);
+  EXPECT_EQ(outlets_.scans_wanted, true) << "while others wait to join";
+  EXPECT_LE(read<clients::HelloMessage>(first).size(), 1U);
+}
+
 TEST_F(ClientHubTest, ThereIsRoomForSoManyClients) {
   std::vector<RobotStream> streams;
   for (std::size_t i = 0; i < ClientHub::kMostClients; ++i) {

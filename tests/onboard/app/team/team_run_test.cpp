@@ -18,6 +18,8 @@
 #include "hal/workers.hpp"
 #include "onboard/app/live/live_view.hpp"
 #include "onboard/app/run.hpp"
+#include "onboard/client/map_mirror.hpp"
+#include "onboard/client/robot_stream.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "tests/support/local_socket.hpp"
 #include "tests/support/scenes.hpp"
@@ -147,6 +149,35 @@ class Observed {
   LiveView view_;
 };
 
+/// The team's map as a client has it, who reads until the core is gone.
+void mirror_team(const fs::path& socket, const std::atomic<bool>& over, std::optional<client::MapMirror>& mirror) {
+  clients::SubscribeMessage wants;
+  wants.add(clients::Stream::kTeamTiles);
+  auto stream = client::RobotStream::connect(socket, wants);
+  for (const LiveClock clock; !stream && !over; stream = client::RobotStream::connect(socket, wants))
+    LiveClock::wait_until(clock.now() + std::chrono::milliseconds(5));
+  while (stream) {
+    const auto next = stream->next(std::chrono::seconds(600));
+    if (!next || std::holds_alternative<client::CoreGone>(*next)) break;
+    if (const auto* hello = std::get_if<clients::HelloMessage>(&*next))
+      mirror.emplace(clients::TileMap::kTeam, hello->resolution_m);
+    const auto* tiles = std::get_if<clients::TilesMessage>(&*next);
+    EXPECT_TRUE(tiles == nullptr || mirror->take(*tiles));
+  }
+}
+
+void expect_mirrored(const mapping::SemanticOcTree& map, const client::MapMirror& mirror) {
+  const auto known = mapping::known_tiles(map, 1'000'000);
+  EXPECT_GT(known.size(), kLeastTiles);
+  EXPECT_EQ(known, mapping::known_tiles(mirror.map(), 1'000'000));
+  for (const mapping::TileKey tile : known) {
+    ASSERT_EQ(mapping::read_tile(map, tile), mapping::read_tile(mirror.map(), tile));
+    ASSERT_NE(mirror.origin_of(tile), nullptr);
+    const std::uint64_t robot = tile == tile_at(60, 60, 1, 0.1) ? 2 : 1;
+    EXPECT_THAT(mirror.origin_of(tile)->robots, ElementsAre(robot));
+  }
+}
+
 class TeamRun : public testing::Test {
  protected:
   TeamRun() {
@@ -166,6 +197,7 @@ class TeamRun : public testing::Test {
 TEST_F(TeamRun, IsRepeatedToTheBitThoughThePeerProcessDies) {
   record_drive(folder_ / "drive");
   options_.record = folder_ / "recorded";
+  options_.sockets = folder_ / "s";
   Peer peer(folder_ / "p.sock");
   std::atomic<bool> over = false, map_known = false;
   Observed observed(options_, folder_ / "v.sock", [&](const Observed& run) {
@@ -173,11 +205,14 @@ TEST_F(TeamRun, IsRepeatedToTheBitThoughThePeerProcessDies) {
     return run.located() >= kLeastPlayed && map_known && second != nullptr && second->merged && second->tiles > 0;
   });
   Result<std::unique_ptr<RunResult>> result = Error{Errc::kNotFound, "the run has not begun"};
-  Workers both(2);
-  both.for_each(2, [&](std::size_t side) {
+  std::optional<client::MapMirror> mirror;
+  Workers three(3);
+  three.for_each(3, [&](std::size_t side) {
     if (side == 0) {
       result = run(options_);
       over = true;
+    } else if (side == 2) {
+      mirror_team(options_.sockets / "robot.sock", over, mirror);
     } else {
       peer.speak([&] {
         map_known = peer.known_items() > kLeastTiles;
@@ -201,6 +236,8 @@ TEST_F(TeamRun, IsRepeatedToTheBitThoughThePeerProcessDies) {
   const auto* pillar = map->search(map->keyToCoord(octomap::OcTreeKey(32768 + 600 + 3, 32768 + 600 + 4, 32768 + 8)));
   ASSERT_NE(pillar, nullptr);
   EXPECT_TRUE(map->isNodeOccupied(pillar)) << "and the robot the peer's pillar";
+  ASSERT_TRUE(mirror);
+  expect_mirrored(*map, *mirror);
 
   for (const Pace pace : {Pace::kMaximum, Pace::kRecorded}) {
     RunOptions again;
