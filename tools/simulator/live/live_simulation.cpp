@@ -9,6 +9,7 @@
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "drivers/velodyne/transport/udp_sender.hpp"
 #include "hal/files/file.hpp"
+#include "onboard/scheduler/threads.hpp"
 #include "tools/simulator/live/live_devices.hpp"
 #include "tools/simulator/live/live_stage.hpp"
 #include "tools/simulator/simulated_profile.hpp"
@@ -17,6 +18,8 @@ namespace cairn::simulator {
 namespace {
 
 namespace fs = std::filesystem;
+
+constexpr double kOrdinary_hz = 50;  // a thread without real-time rights is seldom later than 20 ms
 
 /// With the devices that the user has not named. Their paths do not depend on the working folder.
 Result<LiveConfig> with_named_devices(LiveConfig config) {
@@ -78,7 +81,8 @@ struct Opened {
 
 Result<void> keep_profile(const LiveConfig& config, const LiveDevices& devices) {
   if (config.profile.empty()) return {};
-  return write_file_atomic(config.profile, to_yaml(live_profile(config, devices)));
+  const bool real_time = scheduler::probe_privileges(app::ScheduleProfile().safety.priority).empty();
+  return write_file_atomic(config.profile, to_yaml(live_profile(config, devices, real_time)));
 }
 
 LiveWorld::Scene scene_of(const LiveStage& stage) { return {stage.world, stage.plan, stage.tracer}; }
@@ -124,7 +128,7 @@ int UdpTarget::position_port() const {
   return data_port + kApart <= kLast ? data_port + kApart : data_port - kApart;
 }
 
-app::RobotProfile live_profile(const LiveConfig& config, const LiveDevices& devices) {
+app::RobotProfile live_profile(const LiveConfig& config, const LiveDevices& devices, bool real_time) {
   SimulationConfig simulated;
   simulated.sensors = {true, false, false, false, true, true};
   simulated.lidar = config.lidar;
@@ -137,6 +141,7 @@ app::RobotProfile live_profile(const LiveConfig& config, const LiveDevices& devi
   profile.gpio.driver.chip = std::string(gpio::kFileChip) + devices.estop.parent_path().string();
   profile.gpio.driver.estop_line = devices.estop.filename().string();
   profile.gpio.driver.trigger_line.clear();
+  if (!real_time) profile.schedule.safety.rate_hz = profile.schedule.drive.rate_hz = kOrdinary_hz;
   return profile;
 }
 

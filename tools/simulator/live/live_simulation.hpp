@@ -66,7 +66,8 @@ struct LiveSummary {
 /// file, each with the remedy.
 Result<LiveSummary> simulate_live(const LiveConfig& config, const LiveConsole& console);
 
-/// The profile of a robot whose devices are these.
-[[nodiscard]] app::RobotProfile live_profile(const LiveConfig& config, const LiveDevices& devices);
+/// The profile of a robot whose devices are these. Without real-time rights (`real_time` false), safety and drive have
+/// periods that an ordinary thread can keep: otherwise each late tick holds the robot.
+[[nodiscard]] app::RobotProfile live_profile(const LiveConfig& config, const LiveDevices& devices, bool real_time);
 
 }  // namespace cairn::simulator

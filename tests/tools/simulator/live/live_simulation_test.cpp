@@ -5,6 +5,7 @@
 
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "onboard/app/door/door.hpp"
+#include "onboard/scheduler/task_spec.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace cairn::simulator {
@@ -78,6 +79,14 @@ TEST(LiveSimulation, WhatCannotBeOpenedEndsItBeforeItStarts) {
   config.profile = folder / "missing/robot.yaml";
   EXPECT_FALSE(simulate_live(config, console));
   EXPECT_FALSE(std::filesystem::exists(folder / "estop")) << "nothing is left";
+}
+
+TEST(LiveSimulation, WithoutRealTimeRightsSafetyAndDriveTakeTheirTime) {
+  const LiveDevices devices{{}, {}, "unix:/x/can", "/x/estop", false};
+  const app::RobotProfile fast = live_profile({}, devices, true), slow = live_profile({}, devices, false);
+  EXPECT_EQ(fast.schedule.safety.rate_hz, app::ScheduleProfile().safety.rate_hz);
+  EXPECT_LT(slow.schedule.safety.rate_hz, fast.schedule.safety.rate_hz);
+  EXPECT_TRUE(scheduler::validate(slow.schedule.tasks(false), 2));
 }
 
 TEST(LiveSimulation, PositionPacketsHaveAPortBesideThatOfTheData) {
