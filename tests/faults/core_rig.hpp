@@ -87,6 +87,7 @@ class CoreRig {
   }
   [[nodiscard]] const safety::FailsafeDecision& decision() const { return safety_->decision(); }
   [[nodiscard]] bool drives() const { return decision().mode == safety::Mode::kNormal && left_speed() > 0.4; }
+  [[nodiscard]] app::DriveTask& drive_task() { return drive_; }
   /// Of both tasks.
   [[nodiscard]] std::uint64_t ticks() const { return 2 * index_; }
 

@@ -58,6 +58,20 @@ TEST_F(DriveTaskTest, AStopOfAnyClientIsLatched) {
   EXPECT_NEAR(rig_.left_speed(), 0.3, 0.01);
 }
 
+TEST_F(DriveTaskTest, OthersCanSeeTheStatusOfTheDrive) {
+  LatestValue<std::optional<DriveStatus>> status;
+  rig_.drive_task().publish_to(status);
+  drive_for(100ms, 0.3);
+  ASSERT_TRUE(status.refresh());
+  ASSERT_TRUE(status.value());
+  EXPECT_EQ(status.value()->level, DriveLevel::kNormal);
+  say(2, Command::Verb::kStop);
+  rig_.go(100ms);
+  ASSERT_TRUE(status.refresh());
+  EXPECT_EQ(status.value()->level, DriveLevel::kStop);
+  EXPECT_EQ(status.value()->cause, DriveCause::kRequested);
+}
+
 TEST_F(DriveTaskTest, ArmingWithThePressedEStopIsRefused) {
   rig_.line.move(false, rig_.bus.now);
   rig_.go(500ms);
