@@ -107,7 +107,10 @@ endfunction()
 function(cairn_library name)
   cmake_parse_arguments(A "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
   add_library(cairn_${name} STATIC ${A_SOURCES})
-  target_link_libraries(cairn_${name} PUBLIC cairn_flags ${A_PUBLIC} PRIVATE ${A_PRIVATE})
+  # Programs of others get the headers and the language, and neither our warnings nor our hardening.
+  target_link_libraries(cairn_${name} PUBLIC $<BUILD_INTERFACE:cairn_flags> ${A_PUBLIC} PRIVATE ${A_PRIVATE})
+  target_compile_features(cairn_${name} PUBLIC cxx_std_20)
+  target_include_directories(cairn_${name} SYSTEM INTERFACE $<INSTALL_INTERFACE:include> $<INSTALL_INTERFACE:include/cairn>)
   cairn_unite(cairn_${name})
 endfunction()
 

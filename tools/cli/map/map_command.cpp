@@ -24,6 +24,7 @@
 #include "onboard/report/json/report_json.hpp"
 #include "onboard/report/pictures/map_paint.hpp"
 #include "onboard/report/pictures/map_picture.hpp"
+#include "tools/cli/map/costmap_command.hpp"
 #include "tools/cli/map/map_check_command.hpp"
 #include "tools/cli/map/map_pull_command.hpp"
 #include "tools/cli/map/save_map.hpp"
@@ -229,6 +230,7 @@ void add_map_command(app::Commands& commands) {
   CLI::App* other = add(commands, map, "export", "writes the map in another format", options, export_map);
   other->add_option("--out", options->out, "file to write: .cairn, .ot, .bt, .ply or .pcd")->required();
   add_map_pull_command(commands, map);
+  add_costmap_command(commands, map);
 }
 
 }  // namespace cairn::cli
