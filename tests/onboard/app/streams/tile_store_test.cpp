@@ -23,7 +23,7 @@ std::vector<std::uint64_t> keys_after(const TileStore& store, std::uint64_t vers
 
 TEST(TileStore, GivesTilesInTheOrderOfTheirLastChange) {
   TileStore store;
-  for (const std::uint64_t key : {5, 3, 9}) EXPECT_TRUE(store.put(stored_tile(key, 1)));
+  for (const std::uint64_t key : {5U, 3U, 9U}) EXPECT_TRUE(store.put(stored_tile(key, 1)));
   EXPECT_THAT(keys_after(store, 0), ElementsAre(5, 3, 9));
   const std::uint64_t seen = store.version();
   EXPECT_TRUE(store.put(stored_tile(5, 2)));
