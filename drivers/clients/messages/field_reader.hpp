@@ -46,12 +46,14 @@ class FieldReader {
   [[nodiscard]] std::string text(std::size_t most);
   /// x y z qx qy qz qw; the quaternion has length 1.
   [[nodiscard]] SE3 pose();
+  /// The next `n` bytes, in the caller's memory; empty once something was wrong.
   [[nodiscard]] std::span<const std::byte> bytes(std::size_t n) {
     const auto part = good_ ? in_.read_bytes(n) : std::nullopt;
     good_ = part.has_value();
     return part.value_or(std::span<const std::byte>{});
   }
 
+  /// What has to hold of the fields so far.
   void require(bool holds) { good_ = good_ && holds; }
   [[nodiscard]] bool good() const { return good_; }
   [[nodiscard]] std::size_t remaining() const { return in_.remaining(); }

@@ -21,6 +21,7 @@ struct HelloMessage {
   std::uint64_t session = 0;   ///< of this run: another one with every start
   Duration realtime_offset{};  ///< added to a stamp it gives UTC
   double resolution_m = 0;     ///< edge of a voxel of both maps, above 0
+  /// Where a sensor is mounted.
   struct Sensor {
     std::string name;
     SE3 T_base_sensor;

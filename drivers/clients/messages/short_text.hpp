@@ -22,6 +22,7 @@ class ShortText {
   ShortText() = default;
   explicit ShortText(std::string_view text) { append(text); }
 
+  /// As much as still fits.
   ShortText& append(std::string_view text) {
     const std::size_t taken = std::min(text.size(), kMost - size_);
     std::copy_n(text.begin(), taken, text_.begin() + size_);

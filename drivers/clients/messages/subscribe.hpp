@@ -35,7 +35,9 @@ struct SubscribeMessage {
   };
   Resume own, team;
 
+  /// Whether a stream is asked for.
   [[nodiscard]] bool wants(Stream stream) const { return (streams & static_cast<std::uint32_t>(stream)) != 0; }
+  /// Asks for one more stream.
   void add(Stream stream) { streams |= static_cast<std::uint32_t>(stream); }
 };
 

@@ -20,6 +20,7 @@ struct TilesMessage {
   static constexpr RecordKind kKind = RecordKind::kTiles;
   static constexpr std::size_t kMaxTileBytes = 2048, kMaxContributors = 8;
 
+  /// One tile.
   struct Tile {
     std::uint64_t key = 0;      ///< path from the root of the tree, three bits a level; below 2³⁹
     std::uint64_t version = 0;  ///< counts changes within a session, ascending in a record and from one to the next
@@ -44,6 +45,7 @@ class TilesWriter {
   /// False: the record is full.
   bool add(const TilesMessage::Tile& tile);
   [[nodiscard]] std::size_t tiles() const { return tiles_; }
+  /// Ends the record; `caught_up`: the client has everything with it.
   void finish(bool caught_up);
 
  private:

@@ -17,6 +17,7 @@ namespace cairn::clients {
 /// allocates: a task with a deadline may use it. What waits for a client is bounded in the kernel.
 class LocalServer {
  public:
+  /// How a socket is served.
   struct Options {
     std::filesystem::path path;
     std::size_t most_clients = 8;    ///< one more is turned away
@@ -35,6 +36,7 @@ class LocalServer {
     kJoined,   ///< `client` is new
     kLeft,     ///< `client` has gone, or was dropped
   };
+  /// One thing that happened, and to whom.
   struct Received {
     Got got = Got::kNothing;
     ClientId client = 0;

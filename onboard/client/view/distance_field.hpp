@@ -18,6 +18,7 @@ namespace cairn::client {
 
 /// A block around the robot, and how far each of its voxels is from the nearest occupied one in the block.
 struct DistanceField {
+  /// How large the block is.
   struct Extent {
     double side_m = 8, up_m = 2, down_m = 1;  ///< half the horizontal edge; above and below base_link
   };
