@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/clients/messages/pose.hpp"
 
+#include <algorithm>
+
 #include "drivers/clients/messages/field_reader.hpp"
 
 namespace cairn::clients {
@@ -10,8 +12,10 @@ constexpr unsigned kPredicted = 1, kLost = 2, kFlags = kPredicted | kLost;
 constexpr std::uint8_t kDirections = 6;
 
 void append_covariance(std::vector<std::byte>& out, const Matrix6& m) {
+  // A filter's rounding may leave a variance a little below zero, which no reader would take. What is no number stays.
   for (Eigen::Index row = 0; row < 6; ++row)
-    for (Eigen::Index column = row; column < 6; ++column) append_le(out, m(row, column));
+    for (Eigen::Index column = row; column < 6; ++column)
+      append_le(out, row == column ? std::max(m(row, column), 0.0) : m(row, column));
 }
 
 Matrix6 read_covariance(FieldReader& in) {

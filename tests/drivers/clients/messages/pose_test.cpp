@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/clients/messages/pose.hpp"
 
+#include <limits>
+
 #include "tests/drivers/clients/messages/message_checks.hpp"
 
 namespace cairn::clients {
@@ -38,8 +40,19 @@ TEST(PoseMessage, ComesBackAsItWasSent) {
 }
 
 TEST(PoseMessage, NoVarianceIsNegative) {
+  auto body = test::body_of(some_pose());
+  constexpr std::size_t kHighestByteOfRoll = 72 + 15 * 8 + 7;
+  body[kHighestByteOfRoll] |= std::byte{0x80};
+  EXPECT_FALSE(decode_pose(body));
+}
+
+TEST(PoseMessage, AVarianceThatRoundingLeftBelowZeroIsSentAsZero) {
   PoseMessage pose = some_pose();
-  pose.T_odom_base.covariance(3, 3) = -1e-9;
+  pose.T_odom_base.covariance(3, 3) = -1e-18;
+  const auto got = decode_pose(test::body_of(pose));
+  ASSERT_TRUE(got);
+  EXPECT_EQ(got->T_odom_base.covariance(3, 3), 0);
+  pose.T_odom_base.covariance(3, 3) = std::numeric_limits<double>::quiet_NaN();
   EXPECT_FALSE(decode_pose(test::body_of(pose)));
 }
 
