@@ -43,6 +43,8 @@ void encode(const StateMessage& message, std::vector<std::byte>& out) {
   const std::size_t faults = std::min(message.faults.size(), StateMessage::kMaxFaults);
   append_le(out, static_cast<std::uint8_t>(faults));
   for (std::size_t i = 0; i < faults; ++i) append_text(out, message.faults[i], StateMessage::kMaxText);
+  append_le(out, static_cast<std::uint8_t>(message.T_team_odom.has_value()));
+  if (message.T_team_odom) append_pose(out, *message.T_team_odom);
 }
 
 Result<StateMessage> decode_state(std::span<const std::byte> body) {
@@ -63,6 +65,7 @@ Result<StateMessage> decode_state(std::span<const std::byte> body) {
   message.shed = in.text(StateMessage::kMaxText);
   const auto faults = in.up_to(static_cast<std::uint8_t>(StateMessage::kMaxFaults));
   for (unsigned i = 0; i < faults && in.good(); ++i) message.faults.push_back(in.text(StateMessage::kMaxText));
+  if (in.up_to(std::uint8_t{1}) != 0) message.T_team_odom = in.pose();
   if (!in.complete()) return in.error("not a state");
   return message;
 }

@@ -9,6 +9,7 @@
 
 #include "drivers/clients/messages/record.hpp"
 #include "hal/drive.hpp"
+#include "hal/se3.hpp"
 #include "hal/time.hpp"
 
 namespace cairn::clients {
@@ -38,10 +39,13 @@ struct StateMessage {
   std::string shed;                  ///< work that is left out under overload
   std::uint64_t scans = 0;           ///< so far
   std::uint32_t map_epoch = 0;       ///< of the last pose; see PoseMessage
+  /// Where odom lies in the frame of the team's map, by now. None: in no team, or not known yet.
+  std::optional<SE3> T_team_odom{};
 };
 
 /// Appends the body. It is: stamp (8), mode (1), a drive is there (1), its level (1) and cause (1), its epoch (4),
-/// arming epoch (4), map epoch (4), scans (8), cause (text), shed (text), number of faults (1), their codes (texts).
+/// arming epoch (4), map epoch (4), scans (8), cause (text), shed (text), number of faults (1), their codes (texts),
+/// T_team_odom is known (1), and if so, T_team_odom (7 × 8).
 void encode(const StateMessage& message, std::vector<std::byte>& out);
 /// Error kMalformed.
 [[nodiscard]] Result<StateMessage> decode_state(std::span<const std::byte> body);

@@ -80,7 +80,7 @@ Result<void> LiveRun::open_streams() {
   tasks_.odometry.serve(*outlets_);
   tasks_.drive.publish_to(outlets_->drive);
   tasks_.mapping.serve(outlets_->own);
-  if (tasks_.team) tasks_.team->team().serve(outlets_->team);
+  if (tasks_.team) tasks_.team->team().serve(outlets_->team, outlets_->T_team_odom);
   return {};
 }
 
@@ -172,10 +172,12 @@ void LiveRun::publish_status(Time now) {
 
 void LiveRun::publish_state() {
   (void)outlets_->drive.refresh();
+  (void)outlets_->T_team_odom.refresh();
   outlets_->state.publish(StateNews{.decision = safety_events_.decision(),
                                     .drive = outlets_->drive.value(),
                                     .shed = tasks_.mapping.shed(),
-                                    .scans = tasks_.receive.figures().scans});
+                                    .scans = tasks_.receive.figures().scans,
+                                    .T_team_odom = outlets_->T_team_odom.value()});
 }
 
 safety::FaultSet LiveRun::faults_of_machine() const {

@@ -19,6 +19,11 @@ bool same(const std::optional<DriveStatus>& a, const std::optional<DriveStatus>&
   return a->level == b->level && a->cause == b->cause && a->epoch == b->epoch;
 }
 
+bool same(const std::optional<SE3>& a, const std::optional<SE3>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  return a->translation() == b->translation() && a->quaternion().coeffs() == b->quaternion().coeffs();
+}
+
 }  // namespace
 
 bool update(const StateNews& news, clients::StateMessage& message) {
@@ -33,9 +38,10 @@ bool update(const StateNews& news, clients::StateMessage& message) {
   now.shed = to_string(news.shed);
   now.scans = news.scans;
   now.map_epoch = message.map_epoch;
+  now.T_team_odom = news.T_team_odom;
   const bool changed = now.mode != message.mode || now.cause != message.cause || now.faults != message.faults ||
                        now.arming_epoch != message.arming_epoch || now.shed != message.shed ||
-                       !same(now.drive, message.drive);
+                       !same(now.drive, message.drive) || !same(now.T_team_odom, message.T_team_odom);
   message = std::move(now);
   return changed;
 }

@@ -28,6 +28,7 @@ struct StateNews {
   std::optional<DriveStatus> drive{};  ///< none: nothing is known of a drive
   safety::Shed shed{};
   std::uint64_t scans = 0;
+  std::optional<SE3> T_team_odom{};  ///< none: in no team, or not known yet
 };
 
 /// What the tasks of a live run hand to the task that serves robot.sock. They never wait for it.
@@ -38,6 +39,7 @@ struct StreamOutlets {
   TileOutlet own;                                 ///< from mapping
   TileOutlet team;                                ///< from the team's task
   LatestValue<std::optional<DriveStatus>> drive;  ///< from the drive's task, for the watch task
+  LatestValue<std::optional<SE3>> T_team_odom;    ///< from the team's task, for the watch task
   LatestValue<StateNews> state;                   ///< from the watch task
 };
 

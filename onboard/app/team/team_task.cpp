@@ -45,7 +45,11 @@ void TeamTask::tick(Tick& tick) {
     speak(tick);
   }
   fuse(tick);
-  if (outlet_ != nullptr && team_) hand_to_clients(kTeamTilesInATick);
+  if (outlet_ == nullptr || !team_) return;
+  hand_to_clients(kTeamTilesInATick);
+  const auto& poses = team_->poses().T_team_odom;
+  const auto own = poses.find(team_->exchange().self());
+  pose_outlet_->publish(own != poses.end() ? std::optional(own->second) : std::nullopt);
 }
 
 /// A tile's contributors are looked up in each submap, as when it is fused.

@@ -36,9 +36,12 @@ class TeamTask final : public scheduler::Task {
   void go_on() { epoch_ = 0; }
   /// Before the run. `source` must outlive the task. `port` is the same source, to send through; null in a replay.
   void attach(Source& source, SourceId id, peer_link::PeerPort* port, scheduler::Feed::Tap tap);
-  /// Live: tiles of the team's map that have changed go to `outlet`. To be called before the run; `outlet` must outlive
-  /// the task.
-  void serve(TileOutlet& outlet) { outlet_ = &outlet; }
+  /// Live: tiles of the team's map that have changed go to `outlet`, and where odom lies in it to `T_team_odom`. To be
+  /// called before the run; both must outlive the task.
+  void serve(TileOutlet& outlet, LatestValue<std::optional<SE3>>& T_team_odom) {
+    outlet_ = &outlet;
+    pose_outlet_ = &T_team_odom;
+  }
   /// After the run: `outlet` gets what is left, as far as it has room. True: it has it all.
   bool serve_rest();
 
@@ -90,6 +93,7 @@ class TeamTask final : public scheduler::Task {
   std::map<peers::RobotId, bool> merged_;
   LatestValue<std::vector<LiveView::Peer>> view_;
   TileOutlet* outlet_ = nullptr;
+  LatestValue<std::optional<SE3>>* pose_outlet_ = nullptr;
 };
 
 /// Compares maps, one pair at a time, at the lowest priority.

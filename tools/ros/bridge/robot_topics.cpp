@@ -41,6 +41,7 @@ Result<void> RobotTopics::take(const client::StreamMessage& message, Time now) {
 Result<void> RobotTopics::write(const client::HelloMessage& hello) {
   utc_.greeted(hello.realtime_offset, LiveClock::realtime_offset());
   health_.core_came();
+  T_team_odom_.reset();
   pose_.reset();  // another core may count its time anew
   const Time now = LiveClock().now();
   (void)writers_.tf_static.write(tf_static_of(hello.sensors, frames_, now, utc_.value(), arena_));
@@ -61,12 +62,13 @@ Result<void> RobotTopics::write(const client::PoseMessage& pose) {
   if (pose_ && pose.stamp <= *pose_) return {};
   pose_ = pose.stamp;
   (void)writers_.odom.write(odometry_of(pose, frames_, utc_.value(), arena_));
-  (void)writers_.tf.write(tf_of(pose, frames_, utc_.value(), arena_));
+  (void)writers_.tf.write(tf_of(pose, T_team_odom_, frames_, utc_.value(), arena_));
   return {};
 }
 
 Result<void> RobotTopics::write(const client::StateMessage& state) {
   health_.take(state);
+  T_team_odom_ = state.T_team_odom;
   return {};
 }
 

@@ -75,6 +75,7 @@ class RobotTopics {
   Health health_;
   UtcOffset utc_;
   std::optional<Time> pose_, diagnosed_;  // stamp of the newest pose written; of the last diagnostics
+  std::optional<SE3> T_team_odom_;
   Arena arena_;
 };
 

@@ -40,10 +40,15 @@ Odometry odometry_of(const clients::PoseMessage& pose, const Frames& frames, Dur
   return message;
 }
 
-TfMessage tf_of(const clients::PoseMessage& pose, const Frames& frames, Duration utc_offset, Arena& arena) {
+TfMessage tf_of(const clients::PoseMessage& pose, const std::optional<SE3>& T_team_odom, const Frames& frames,
+                Duration utc_offset, Arena& arena) {
   TfMessage message{};
-  arena.sequence(message.transforms, 1)[0] = transform_of(
-      pose.T_odom_base.mean, header_of(pose.stamp, utc_offset, frames.odom, arena), arena.text(frames.base_link));
+  const auto transforms = arena.sequence(message.transforms, T_team_odom ? 2 : 1);
+  transforms[0] = transform_of(pose.T_odom_base.mean, header_of(pose.stamp, utc_offset, frames.odom, arena),
+                               arena.text(frames.base_link));
+  if (T_team_odom)
+    transforms[1] =
+        transform_of(*T_team_odom, header_of(pose.stamp, utc_offset, frames.team, arena), arena.text(frames.odom));
   return message;
 }
 

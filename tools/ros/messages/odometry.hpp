@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
 #include <span>
 
 #include "drivers/clients/messages/hello.hpp"
@@ -18,9 +19,9 @@ namespace cairn::ros {
 [[nodiscard]] Odometry odometry_of(const clients::PoseMessage& pose, const Frames& frames, Duration utc_offset,
                                    Arena& arena);
 
-/// odom → base_link.
-[[nodiscard]] TfMessage tf_of(const clients::PoseMessage& pose, const Frames& frames, Duration utc_offset,
-                              Arena& arena);
+/// odom → base_link and, if it is known, team → odom, at the same time.
+[[nodiscard]] TfMessage tf_of(const clients::PoseMessage& pose, const std::optional<SE3>& T_team_odom,
+                              const Frames& frames, Duration utc_offset, Arena& arena);
 /// base_link → each sensor, in one message.
 [[nodiscard]] TfMessage tf_static_of(std::span<const clients::HelloMessage::Sensor> sensors, const Frames& frames,
                                      Time now, Duration utc_offset, Arena& arena);

@@ -40,6 +40,18 @@ TEST(StateMessage, ComesBackAsItWasSent) {
   test::expect_exact(test::body_of(some_state()), decode_state);
 }
 
+TEST(StateMessage, ARobotMayBeInATeam) {
+  StateMessage state = some_state();
+  state.T_team_odom = SE3(Eigen::Quaterniond(0.8, 0, 0, 0.6), {1, -2, 3});
+  const auto got = decode_state(test::body_of(state));
+  ASSERT_TRUE(got) << to_string(got.error());
+  ASSERT_TRUE(got->T_team_odom);
+  EXPECT_EQ(got->T_team_odom->translation(), Eigen::Vector3d(1, -2, 3));
+  EXPECT_EQ(got->T_team_odom->quaternion().w(), 0.8);
+  EXPECT_FALSE(decode_state(test::body_of(some_state()))->T_team_odom);
+  test::expect_exact(test::body_of(state), decode_state);
+}
+
 TEST(StateMessage, ARobotMayHaveNoDrive) {
   StateMessage state = some_state();
   state.drive.reset();

@@ -34,6 +34,20 @@ TEST(StateMessageOfNews, SaysItAll) {
   EXPECT_EQ(message.drive->cause, DriveCause::kNoCommand);
 }
 
+TEST(StateMessageOfNews, APlaceInTheTeamIsToldWhenItChanges) {
+  clients::StateMessage message;
+  StateNews news = silent_lidar();
+  EXPECT_TRUE(update(news, message));
+  EXPECT_FALSE(message.T_team_odom);
+  news.T_team_odom = SE3(Eigen::Quaterniond::Identity(), {1, 2, 3});
+  EXPECT_TRUE(update(news, message));
+  ASSERT_TRUE(message.T_team_odom);
+  EXPECT_EQ(message.T_team_odom->translation().y(), 2);
+  EXPECT_FALSE(update(news, message));
+  news.T_team_odom = SE3(Eigen::Quaterniond::Identity(), {1, 2, 3.5});
+  EXPECT_TRUE(update(news, message));
+}
+
 TEST(StateMessageOfNews, AFurtherScanIsNoChange) {
   clients::StateMessage message;
   EXPECT_TRUE(update(silent_lidar(), message));

@@ -150,9 +150,11 @@ class Observed {
 };
 
 /// The team's map as a client has it, who reads until the core is gone.
-void mirror_team(const fs::path& socket, const std::atomic<bool>& over, std::optional<client::MapMirror>& mirror) {
+void mirror_team(const fs::path& socket, const std::atomic<bool>& over, std::optional<client::MapMirror>& mirror,
+                 std::optional<SE3>& T_team_odom) {
   clients::SubscribeMessage wants;
   wants.add(clients::Stream::kTeamTiles);
+  wants.add(clients::Stream::kState);
   auto stream = client::RobotStream::connect(socket, wants);
   for (const LiveClock clock; !stream && !over; stream = client::RobotStream::connect(socket, wants))
     LiveClock::wait_until(clock.now() + std::chrono::milliseconds(5));
@@ -161,6 +163,7 @@ void mirror_team(const fs::path& socket, const std::atomic<bool>& over, std::opt
     if (!next || std::holds_alternative<client::CoreGone>(*next)) break;
     if (const auto* hello = std::get_if<clients::HelloMessage>(&*next))
       mirror.emplace(clients::TileMap::kTeam, hello->resolution_m);
+    if (const auto* state = std::get_if<clients::StateMessage>(&*next)) T_team_odom = state->T_team_odom;
     const auto* tiles = std::get_if<clients::TilesMessage>(&*next);
     EXPECT_TRUE(tiles == nullptr || mirror->take(*tiles));
   }
@@ -206,13 +209,14 @@ TEST_F(TeamRun, IsRepeatedToTheBitThoughThePeerProcessDies) {
   });
   Result<std::unique_ptr<RunResult>> result = Error{Errc::kNotFound, "the run has not begun"};
   std::optional<client::MapMirror> mirror;
+  std::optional<SE3> T_team_odom;
   Workers three(3);
   three.for_each(3, [&](std::size_t side) {
     if (side == 0) {
       result = run(options_);
       over = true;
     } else if (side == 2) {
-      mirror_team(options_.sockets / "robot.sock", over, mirror);
+      mirror_team(options_.sockets / "robot.sock", over, mirror, T_team_odom);
     } else {
       peer.speak([&] {
         map_known = peer.known_items() > kLeastTiles;
@@ -228,6 +232,8 @@ TEST_F(TeamRun, IsRepeatedToTheBitThoughThePeerProcessDies) {
   ASSERT_TRUE(ran.team);
   EXPECT_THAT(ran.team->merged_with, ElementsAre("second"));
   EXPECT_EQ(ran.team->anchor, 1U);
+  ASSERT_TRUE(T_team_odom) << "clients hear where the robot lies in its team";
+  EXPECT_LT(T_team_odom->log().norm(), 1e-9) << "the team's frame is that of its anchor: this robot";
   EXPECT_GT(ran.team->tiles, kLeastTiles);
   EXPECT_TRUE(ran.peers.at("second").accepted);
   EXPECT_EQ(ran.peers.at("second").tiles, 1U);

@@ -80,13 +80,26 @@ TEST(RosOdometry, HasPoseInOdomAndTwistInBaseLink) {
 TEST(RosTf, IsFromOdomToBaseLink) {
   Arena arena;
   const auto pose = turned_pose();
-  const TfMessage message = tf_of(pose, Frames(), kPoseUtc, arena);
+  const TfMessage message = tf_of(pose, {}, Frames(), kPoseUtc, arena);
   ASSERT_EQ(message.transforms._length, 1U);
   const TransformStamped& transform = message.transforms._buffer[0];
   EXPECT_STREQ(transform.header.frame_id, "odom");
   EXPECT_STREQ(transform.child_frame_id, "base_link");
   EXPECT_EQ(transform.transform.translation.x, 3);
   EXPECT_EQ(transform.transform.rotation.y, pose.T_odom_base.mean.quaternion().y());
+}
+
+TEST(RosTf, HasTheTeamsFrameAboveOdomIfItIsKnown) {
+  Arena arena;
+  const SE3 T_team_odom(Eigen::Quaterniond(0.8, 0, 0, 0.6), {5, 6, 7});
+  const TfMessage message = tf_of(turned_pose(), T_team_odom, Frames("a/"), kPoseUtc, arena);
+  ASSERT_EQ(message.transforms._length, 2U);
+  const TransformStamped& transform = message.transforms._buffer[1];
+  EXPECT_STREQ(transform.header.frame_id, "team");
+  EXPECT_STREQ(transform.child_frame_id, "a/odom");
+  EXPECT_EQ(transform.transform.translation.z, 7);
+  EXPECT_EQ(transform.transform.rotation.z, 0.6);
+  EXPECT_EQ(transform.header.stamp.nanosec, message.transforms._buffer[0].header.stamp.nanosec);
 }
 
 TEST(RosTf, StaticHasAllSensorsInOneMessage) {

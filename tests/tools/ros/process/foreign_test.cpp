@@ -63,14 +63,23 @@ TEST_F(ForeignRos, ReadsOdometry) {
 TEST_F(ForeignRos, ReadsTransforms) {
   start_core();
   start_ros({"--frame-prefix", "h1/"});
-  auto moving = first("rt/tf", "tf2_msgs::msg::dds_::TFMessage_", fast::default_qos());
+  auto* reader = ros_side_.reader("rt/tf", "tf2_msgs::msg::dds_::TFMessage_", fast::default_qos());
+  std::optional<Payload> moving;
+  EXPECT_TRUE(until([&] {
+    moving = fast::take(reader);
+    return moving && Fields(*moving).next<std::uint32_t>() == 2;
+  })) << "the first may come before the core has said where the team's frame is";
   ASSERT_TRUE(moving);
   Fields tf(*moving);
-  EXPECT_EQ(tf.next<std::uint32_t>(), 1U);
+  EXPECT_EQ(tf.next<std::uint32_t>(), 2U);
   expect_stamp(tf);
   EXPECT_EQ(tf.text(), "h1/odom");
   EXPECT_EQ(tf.text(), "h1/base_link");
   expect_transform(tf, pose().T_odom_base.mean);
+  expect_stamp(tf);
+  EXPECT_EQ(tf.text(), "team");
+  EXPECT_EQ(tf.text(), "h1/odom");
+  expect_transform(tf, *state().T_team_odom);
 
   auto fixed = first("rt/tf_static", "tf2_msgs::msg::dds_::TFMessage_", fast::latched_qos());
   ASSERT_TRUE(fixed) << "it was written once, before this reader came";

@@ -111,6 +111,7 @@ class RosRig : public ::testing::Test {
     state.cause = "estop";
     state.faults = {"estop", "lidar_silent"};
     state.arming_epoch = 17;
+    state.T_team_odom = SE3(Eigen::Quaterniond(0.8, 0, 0, 0.6), {5, 6, 7});
     return state;
   }
   static std::vector<Eigen::Vector3f> points() {
