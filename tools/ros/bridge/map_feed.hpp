@@ -24,6 +24,8 @@ class MapFeed {
   /// Writes the map if that is due. Error kLimit: it is too large.
   Result<void> tick(Time now, const Header& header, Arena& arena);
 
+  /// Null before the first greeting.
+  [[nodiscard]] const client::MapMirror* mirror() const { return mirror_ ? &*mirror_ : nullptr; }
   /// What the mirror has, for the next subscription.
   [[nodiscard]] clients::SubscribeMessage::Resume resume() const;
   [[nodiscard]] const Writer<Octomap>& writer() const { return writer_; }

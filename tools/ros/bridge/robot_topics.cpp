@@ -2,6 +2,8 @@
 #include "tools/ros/bridge/robot_topics.hpp"
 
 #include "hal/clock.hpp"
+#include "onboard/client/view/costmap.hpp"
+#include "tools/ros/messages/costmap.hpp"
 #include "tools/ros/messages/odometry.hpp"
 #include "tools/ros/messages/points.hpp"
 
@@ -9,6 +11,7 @@ namespace cairn::ros {
 namespace {
 
 constexpr Duration kDiagnosticsPeriod = std::chrono::seconds(1);
+constexpr Duration kCostmapPeriod = std::chrono::milliseconds(500);
 
 }  // namespace
 
@@ -19,14 +22,16 @@ Result<std::unique_ptr<RobotTopics>> RobotTopics::open(RosParticipant& participa
   const auto tf_static = Writer<TfMessage>::open(participant, "/tf_static", TopicUse::kLatched);
   const auto points = Writer<PointCloud2>::open(participant, at + "points", TopicUse::kStream);
   const auto diagnostics = Writer<DiagnosticArray>::open(participant, "/diagnostics", TopicUse::kEvent);
+  const auto costmap = Writer<OccupancyGrid>::open(participant, at + "costmap", TopicUse::kLatched);
   const auto map = MapFeed::open(participant, at + "map", clients::TileMap::kOwn, options.map, options.map_period);
   if (!odom) return odom.error();
   if (!tf) return tf.error();
   if (!tf_static) return tf_static.error();
   if (!points) return points.error();
   if (!diagnostics) return diagnostics.error();
+  if (!costmap) return costmap.error();
   if (!map) return map.error();
-  const Writers writers{*odom, *tf, *tf_static, *points, *diagnostics};
+  const Writers writers{*odom, *tf, *tf_static, *points, *diagnostics, *costmap};
   std::unique_ptr<RobotTopics> topics(new RobotTopics(participant, std::move(options), writers, *map));
   topics->utc_.greeted(LiveClock::realtime_offset(), LiveClock::realtime_offset());
   return topics;
@@ -42,6 +47,7 @@ Result<void> RobotTopics::write(const client::HelloMessage& hello) {
   utc_.greeted(hello.realtime_offset, LiveClock::realtime_offset());
   health_.core_came();
   T_team_odom_.reset();
+  T_odom_base_.reset();
   pose_.reset();  // another core may count its time anew
   const Time now = LiveClock().now();
   (void)writers_.tf_static.write(tf_static_of(hello.sensors, frames_, now, utc_.value(), arena_));
@@ -61,6 +67,7 @@ Result<void> RobotTopics::write(const client::PoseMessage& pose) {
   health_.take(pose);
   if (pose_ && pose.stamp <= *pose_) return {};
   pose_ = pose.stamp;
+  T_odom_base_ = pose.T_odom_base.mean;
   (void)writers_.odom.write(odometry_of(pose, frames_, utc_.value(), arena_));
   (void)writers_.tf.write(tf_of(pose, T_team_odom_, frames_, utc_.value(), arena_));
   return {};
@@ -99,7 +106,18 @@ Result<void> RobotTopics::tick(Time now, const std::vector<Diagnosis>& others) {
   arena_.clear();
   utc_.follow(LiveClock::realtime_offset());
   if (!diagnosed_ || now - *diagnosed_ >= kDiagnosticsPeriod) write_diagnostics(now, others);
+  if (!planned_ || now - *planned_ >= kCostmapPeriod) write_costmap(now);
   return write_maps(now);
+}
+
+/// What the robot has seen itself outranks its team's map.
+void RobotTopics::write_costmap(Time now) {
+  const client::MapMirror* own = own_.mirror();
+  if (own == nullptr || !T_odom_base_ || !pose_ || !writers_.costmap.read_by_anybody()) return;
+  planned_ = now;
+  const client::PlannerView view(*own, team_ ? team_->mirror() : nullptr, T_team_odom_);
+  const Header header = header_of(*pose_, utc_.value(), frames_.odom, arena_);
+  (void)writers_.costmap.write(occupancy_grid_of(make_costmap(view, *T_odom_base_), header, arena_));
 }
 
 Result<void> RobotTopics::write_maps(Time now) {
@@ -119,8 +137,8 @@ void RobotTopics::write_diagnostics(Time now, const std::vector<Diagnosis>& othe
 }
 
 Diagnosis RobotTopics::traffic() const {
-  const auto& [odom, tf, tf_static, points, diagnostics] = writers_;
-  const std::uint64_t lost = odom.lost() + tf.lost() + points.lost() + own_.writer().lost();
+  const auto& [odom, tf, tf_static, points, diagnostics, costmap] = writers_;
+  const std::uint64_t lost = odom.lost() + tf.lost() + points.lost() + costmap.lost() + own_.writer().lost();
   Diagnosis traffic{.level = lost == 0 ? DiagnosticLevel::kOk : DiagnosticLevel::kWarn,
                     .name = "cairn-ros",
                     .message = lost == 0 ? "all was sent" : "readers do not keep up"};

@@ -46,6 +46,7 @@ class RobotTopics {
     Writer<TfMessage> tf, tf_static;
     Writer<PointCloud2> points;
     Writer<DiagnosticArray> diagnostics;
+    Writer<OccupancyGrid> costmap;
   };
   RobotTopics(RosParticipant& participant, TopicOptions options, Writers writers, MapFeed own)
       : participant_(&participant),
@@ -63,6 +64,7 @@ class RobotTopics {
   Result<void> write(client::CoreGone gone);
   Result<void> write(std::monostate nothing);
   Result<void> write_maps(Time now);
+  void write_costmap(Time now);
   void write_diagnostics(Time now, const std::vector<Diagnosis>& others);
   [[nodiscard]] Diagnosis traffic() const;
 
@@ -75,7 +77,8 @@ class RobotTopics {
   Health health_;
   UtcOffset utc_;
   std::optional<Time> pose_, diagnosed_;  // stamp of the newest pose written; of the last diagnostics
-  std::optional<SE3> T_team_odom_;
+  std::optional<SE3> T_team_odom_, T_odom_base_;
+  std::optional<Time> planned_;  // the last costmap
   Arena arena_;
 };
 

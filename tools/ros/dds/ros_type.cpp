@@ -21,6 +21,14 @@ const RosType& ros_type<DiagnosticArray>() {
 }
 
 template <>
+const RosType& ros_type<OccupancyGrid>() {
+  static const RosType type{"nav_msgs/msg/OccupancyGrid",
+                            "RIHS01_8d348150c12913a31ee0ec170fbf25089e4745d17035792a1ba94d6f0bc0cfc7",
+                            &nav_msgs_msg_dds__OccupancyGrid__desc};
+  return type;
+}
+
+template <>
 const RosType& ros_type<Octomap>() {
   static const RosType type{"octomap_msgs/msg/Octomap",
                             "RIHS01_9891a19a05b70ec20aa8f45db3f8300b9ab80afff32c61c549d25087da9625b0",

@@ -11,6 +11,7 @@ using DiagnosticArray = diagnostic_msgs_msg_dds__DiagnosticArray_;
 using DiagnosticStatus = diagnostic_msgs_msg_dds__DiagnosticStatus_;
 using Header = std_msgs_msg_dds__Header_;
 using KeyValue = diagnostic_msgs_msg_dds__KeyValue_;
+using OccupancyGrid = nav_msgs_msg_dds__OccupancyGrid_;
 using Octomap = octomap_msgs_msg_dds__Octomap_;
 using Odometry = nav_msgs_msg_dds__Odometry_;
 using PointCloud2 = sensor_msgs_msg_dds__PointCloud2_;

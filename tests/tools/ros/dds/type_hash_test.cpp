@@ -138,6 +138,7 @@ class TypeHash : public ::testing::Test {
 TEST_F(TypeHash, OfEachTypeIsThatOfItsIdl) {
   expect_like_ros(ros_type<BoolMessage>());
   expect_like_ros(ros_type<DiagnosticArray>());
+  expect_like_ros(ros_type<OccupancyGrid>());
   expect_like_ros(ros_type<Octomap>());
   expect_like_ros(ros_type<Odometry>());
   expect_like_ros(ros_type<PointCloud2>());

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <sstream>
 
+#include "onboard/client/view/costmap.hpp"
 #include "tests/tools/ros/process/fast_dds.hpp"
 #include "tests/tools/ros/process/ros_rig.hpp"
 #include "tools/ros/messages/odometry.hpp"
@@ -162,6 +163,31 @@ TEST_F(ForeignRos, ReadsMapsThatOctoMapUnderstands) {
       EXPECT_TRUE(binary || tree->size() == expected.size());
     }
   }
+}
+
+TEST_F(ForeignRos, ReadsACostmapOfWhatTheRobotSaw) {
+  start_core();
+  start_ros();
+  client::MapMirror mirror(clients::TileMap::kOwn, kResolution), team(clients::TileMap::kTeam, kResolution);
+  ASSERT_TRUE(mirror.take(tiles(clients::TileMap::kOwn)));
+  ASSERT_TRUE(team.take(tiles(clients::TileMap::kTeam)));
+  const client::PlannerView view(mirror, &team, state().T_team_odom);
+  const client::Costmap expected = client::make_costmap(view, pose().T_odom_base.mean);
+  auto* reader = ros_side_.reader("rt/husky_1/costmap", "nav_msgs::msg::dds_::OccupancyGrid_", fast::latched_qos());
+  EXPECT_TRUE(until([&] {
+    auto payload = fast::take(reader);
+    if (!payload) return false;
+    Fields fields(*payload);
+    expect_stamp(fields);
+    EXPECT_EQ(fields.text(), "odom");
+    expect_stamp(fields);
+    EXPECT_EQ(fields.next<float>(), static_cast<float>(kResolution));
+    EXPECT_EQ(fields.next<std::uint32_t>(), static_cast<std::uint32_t>(expected.cells));
+    EXPECT_EQ(fields.next<std::uint32_t>(), static_cast<std::uint32_t>(expected.cells));
+    EXPECT_EQ(fields.reals(7), (std::vector<double>{expected.x_m, expected.y_m, 0, 0, 0, 0, 1}));
+    const auto cells = fields.next<std::vector<std::int8_t>>();
+    return cells == expected.occupancy_grid();  // the first may come before the maps do
+  }));
 }
 
 /// One status of /diagnostics.

@@ -50,6 +50,7 @@ TEST_F(RosProcessTest, WritersAreThoseOfRos) {
       {"rt/husky_1/points", endpoint_of("sensor_msgs::msg::dds_::PointCloud2_", ros_type<PointCloud2>(), kVolatile)},
       {"rt/diagnostics",
        endpoint_of("diagnostic_msgs::msg::dds_::DiagnosticArray_", ros_type<DiagnosticArray>(), kVolatile)},
+      {"rt/husky_1/costmap", endpoint_of("nav_msgs::msg::dds_::OccupancyGrid_", ros_type<OccupancyGrid>(), kLatched)},
       {"rt/husky_1/map", endpoint_of("octomap_msgs::msg::dds_::Octomap_", ros_type<Octomap>(), kLatched)},
       {"rt/husky_1/team_map", endpoint_of("octomap_msgs::msg::dds_::Octomap_", ros_type<Octomap>(), kLatched)}};
   start_both();
@@ -179,8 +180,8 @@ class RosNodeTest : public RosProcessTest {
     bool complete = false;
     EXPECT_TRUE(until([&] {
       take_one<Message>(reader, [&](const Message& said) {
-        complete = said.node_entities_info_seq._buffer[0].writer_gid_seq._length == 7;
-        if (complete) expect_node(said, gid_size, 7, 4);
+        complete = said.node_entities_info_seq._buffer[0].writer_gid_seq._length == 8;
+        if (complete) expect_node(said, gid_size, 8, 4);
       });
       return complete;
     }));
