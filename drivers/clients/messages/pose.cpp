@@ -13,15 +13,14 @@ constexpr std::uint8_t kDirections = 6;
 
 void append_covariance(std::vector<std::byte>& out, const Matrix6& m) {
   // A filter's rounding may leave a variance a little below zero, which no reader would take. What is no number stays.
-  for (Eigen::Index row = 0; row < 6; ++row)
-    for (Eigen::Index column = row; column < 6; ++column)
-      append_le(out, row == column ? std::max(m(row, column), 0.0) : m(row, column));
+  for (Eigen::Index i = 0; i < 6; ++i)
+    for (Eigen::Index j = i; j < 6; ++j) append_le(out, i == j ? std::max(m(i, j), 0.0) : m(i, j));
 }
 
 Matrix6 read_covariance(FieldReader& in) {
   Matrix6 m;
-  for (Eigen::Index row = 0; row < 6; ++row)
-    for (Eigen::Index column = row; column < 6; ++column) m(row, column) = m(column, row) = in.real(1e300);
+  for (Eigen::Index i = 0; i < 6; ++i)
+    for (Eigen::Index j = i; j < 6; ++j) m(i, j) = m(j, i) = in.real(1e300);
   in.require((m.diagonal().array() >= 0).all());
   return m;
 }

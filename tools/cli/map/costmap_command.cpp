@@ -12,6 +12,7 @@
 #include <optional>
 #include <string>
 
+#include "hal/clock.hpp"
 #include "hal/files/file.hpp"
 #include "onboard/app/live/stop_signal.hpp"
 #include "onboard/client/map_mirror.hpp"
@@ -41,6 +42,16 @@ class Surroundings {
       if (const auto taken = mirror_->take(*tiles); !taken) return taken.error();
     return !complete();
   }
+  /// A core that maps says where it is ten times a second.
+  [[nodiscard]] Result<bool> idle() const {
+    constexpr Duration kPatience = std::chrono::seconds(10);
+    if (LiveClock().now() - since_ < kPatience) return true;
+    return Error{Errc::kNotFound,
+                 pose_ ? "the core sends no map" : "the core does not know where it is",
+                 {},
+                 {},
+                 "`cairn top` shows whether scans come in"};
+  }
   [[nodiscard]] bool complete() const { return mirror_ && mirror_->caught_up() && pose_; }
   [[nodiscard]] const client::MapMirror& mirror() const { return *mirror_; }
   [[nodiscard]] const client::PoseMessage& pose() const { return *pose_; }
@@ -48,6 +59,7 @@ class Surroundings {
  private:
   std::optional<client::MapMirror> mirror_;
   std::optional<client::PoseMessage> pose_;
+  Time since_ = LiveClock().now();
 };
 
 /// As Nav2's map server has it: 254 drivable, 0 lethal, 205 unknown. The first row is the one with the highest y.
@@ -103,7 +115,7 @@ int make(const CostmapArguments& a) {
   Surroundings found;
   const auto read = read_core(
       a.socket, wants, [&](client::StreamMessage& message) { return found.take(message); },
-      [] { return Result<bool>(true); });
+      [&] { return found.idle(); });
   if (!read) return app::fail(at(a.socket.string(), read.error()));
   if (!found.complete()) return app::fail(app::interrupted(a.socket.string(), "the core has no map and pose yet"));
   return save(a, found);
