@@ -35,8 +35,6 @@ std::vector<Row> rows_left_out() {
       row("X6", "cgroup memory limit, order of the OOM killer's victims",
           "needs cgroups; config/systemd sets the order"),
       row("X7", "CPU overload by stress-ng", "not deterministic; C1, C15 and C16 test the logic in virtual time"),
-      row("X9", "a peer lies about occupancy: a phantom wall, or an erased one",
-          "a robot's own map stays its own; there is no planner yet that reads the team map"),
       row("X10", "unauthorised, expired or revoked certificate; strangers", "there are no certificates yet"),
       row("X8", "bad update, A/B slots", "there is no updater yet"),
   };

@@ -203,6 +203,9 @@ std::vector<Row> peer_rows() {
       shown_by("P24", "SIGTERM to the peer process at a cap of 60 B/s, or in a flood of discovery",
                "It ends within 2 s, without waiting for the network's threads.",
                "peer_process/PeerProcess.EndsWhenItIsToldToThoughItsCapIsTiny"),
+      shown_by("P25", "a peer lies about occupancy: a phantom wall, or an erased one",
+               "A planner's view never lets a peer overrule what the robot saw itself.",
+               "client/PlannerViewTest.WhatTheRobotSawItselfIsNeverOverruled"),
   };
 }
 
