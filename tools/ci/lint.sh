@@ -21,7 +21,7 @@ awk 'FNR == 301 { print FILENAME ": longer than 300 lines: split it by meaning";
 
 # Both read the compile commands. Only generated headers are built. A header uses the commands of a neighbouring file.
 cmake --preset clang >/dev/null
-cmake --build --preset clang --target cairn_dds_types -- --quiet >/dev/null
+cmake --build --preset clang --target cairn_dds_types cairn_ros_types -- --quiet >/dev/null
 
 # shellcheck disable=SC2317  # xargs calls it
 tidy() {  # tidy FILE: clangd runs clang-tidy's checks over the file's own lines

@@ -30,7 +30,7 @@ PointCloud2 points_of(const client::ScanMessage& scan, const Frames& frames, Dur
   message.point_step = sizeof(Point);
   message.row_step = message.point_step * message.width;
   const auto data = arena.sequence(message.data, message.row_step);
-  if (!data.empty()) std::memcpy(data.data(), scan.points_base.data(), data.size());
+  if (!data.empty()) std::memcpy(data.data(), scan.points_base.front().data(), data.size());
   message.is_dense = std::ranges::all_of(scan.points_base, [](const Point& p) { return p.allFinite(); });
   return message;
 }
