@@ -19,11 +19,11 @@ namespace {
 constexpr ::mode_t kOwnerAndGroup = 0660, kOwner = 0600;
 constexpr int kBacklog = 64;
 
-/// Gives the socket to a group that the system knows. Others than the owner get in only after that.
+/// Gives the socket to a group that the system knows. Who is not in it may not give it: then the owner alone gets in.
 bool share(const std::filesystem::path& path, const std::string& group) {
   if (!group.empty())
     if (const ::group* known = ::getgrnam(group.c_str()); known != nullptr)
-      if (::chown(path.c_str(), static_cast<::uid_t>(-1), known->gr_gid) != 0) return false;
+      if (::chown(path.c_str(), static_cast<::uid_t>(-1), known->gr_gid) != 0) return errno == EPERM;
   return ::chmod(path.c_str(), kOwnerAndGroup) == 0;
 }
 

@@ -22,8 +22,8 @@ class LocalServer {
     std::filesystem::path path;
     std::size_t most_clients = 8;    ///< one more is turned away
     int waiting_bytes = 128 * 1024;  ///< for one client in the kernel; what is more is refused by send()
-    /// Whose members may connect, beside the owner. Empty: the group of the process. A group that the system does not
-    /// know is left out, and the owner's group stays.
+    /// Whose members may connect, beside the owner. Empty, or not known to the system: the group of the process. If the
+    /// process is not in it, the owner alone may connect.
     std::string group{};
   };
   /// Counts connections from 1, so that a number is not used again soon. 0 is no client.
