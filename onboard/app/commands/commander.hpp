@@ -59,9 +59,6 @@ class Commander {
   [[nodiscard]] std::span<const Reply> replies() const { return replies_; }
   void forget_replies() { replies_.clear(); }
 
-  /// Who commands now; empty: nobody.
-  [[nodiscard]] const clients::ClientName& holder() const { return holder_.name; }
-
  private:
   using Outcome = clients::Answer::Outcome;
   struct Known {
