@@ -4,6 +4,7 @@
 #include <cstdint>
 
 #include "hal/image.hpp"
+#include "hal/labels.hpp"
 #include "hal/packet.hpp"
 #include "hal/point_cloud.hpp"
 #include "hal/result.hpp"
@@ -75,6 +76,33 @@ class ThermalDecoder {
   ThermalDecoder() = default;
   ThermalDecoder(const ThermalDecoder&) = default;
   ThermalDecoder& operator=(const ThermalDecoder&) = default;
+};
+
+/// A picture → the class of each pixel. May take a tenth of a second. Bounded memory.
+class Segmenter {
+ public:
+  virtual ~Segmenter() = default;
+  /// `picture` is kBgr8 or kMono8. The labels are the segmenter's and stay valid until the next call. An Error means
+  /// that this picture gets no labels.
+  virtual Result<const LabelImage*> segment(const Image& picture) = 0;
+
+ protected:
+  Segmenter() = default;
+  Segmenter(const Segmenter&) = default;
+  Segmenter& operator=(const Segmenter&) = default;
+};
+
+/// A picture → boxes around things.
+class Detector {
+ public:
+  virtual ~Detector() = default;
+  /// As Segmenter::segment().
+  virtual Result<const Detections*> detect(const Image& picture) = 0;
+
+ protected:
+  Detector() = default;
+  Detector(const Detector&) = default;
+  Detector& operator=(const Detector&) = default;
 };
 
 }  // namespace cairn

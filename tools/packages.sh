@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # The only list of Debian 12 packages. Installs the missing packages of the named groups:
-#   tools/packages.sh GROUP…          build test ci cross fresh bench vm protocol docs foreign_dds
+#   tools/packages.sh GROUP…          build test ci cross fresh bench vm protocol docs foreign_dds training
 #   tools/packages.sh --list GROUP…   only prints the packages
 # If no package is missing, it changes nothing. If one is missing, it needs root or sudo. It never asks.
 set -euo pipefail
@@ -10,7 +10,8 @@ declare -rA packages=(
   # the onboard program, the command line and the simulator
   [build]="g++ cmake ninja-build pkg-config ccache libeigen3-dev liboctomap-dev libpcap-dev libyaml-cpp-dev
            libfmt-dev libcli11-dev nlohmann-json3-dev libexpected-dev libzstd-dev libxxhash-dev libpng-dev libssl-dev
-           libgpiod-dev libembree-dev cyclonedds-dev cyclonedds-tools libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev"
+           libgpiod-dev libembree-dev cyclonedds-dev cyclonedds-tools libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev
+           libopencv-dnn-dev"
   [test]="libgtest-dev libgmock-dev libbenchmark-dev"
   # the proof that another vendor's DDS reads cairn-ros (tests/tools/ros/process/foreign_test.cpp)
   [foreign_dds]="libfastrtps-dev libfastcdr-dev"
@@ -25,11 +26,13 @@ declare -rA packages=(
   [vm]="qemu-system-x86 cpio kmod xz-utils make gcc-12 libelf1 iproute2"
   # tools/ci/api_reference.sh, and smaller pictures for tools/pictures.sh
   [docs]="doxygen pngquant"
+  # tools/training: what trains the networks of config/models
+  [training]="python3-torch python3-onnx python3-numpy python3-opencv python3-protobuf"
   # for another architecture, into a sysroot: Debian has no Embree for arm64, so the simulator is left out there
   [sysroot]="libc6-dev libstdc++-12-dev linux-libc-dev libeigen3-dev liboctomap-dev libpcap-dev libyaml-cpp-dev
              libfmt-dev libcli11-dev nlohmann-json3-dev libexpected-dev libzstd-dev libxxhash-dev libpng-dev libssl-dev
              libgpiod-dev cyclonedds-dev libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev
-             libgtest-dev libgmock-dev"
+             libopencv-dnn-dev libgtest-dev libgmock-dev"
 )
 
 list() {

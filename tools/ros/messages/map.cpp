@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal/bytes.hpp"
+#include "hal/semantic_class.hpp"
 #include "onboard/mapping/files/octomap_file.hpp"
 #include "onboard/mapping/tree/voxel_label.hpp"
 
@@ -19,29 +20,6 @@ using mapping::VoxelLabel;
 using Bytes = std::vector<std::byte>;
 
 constexpr std::size_t kMostBytes = 64U << 20U;
-
-// By trainId, as the authors of Cityscapes give them.
-constexpr std::array<ClassColour, VoxelLabel::kClasses> kColours{{
-    {128, 64, 128},   // road
-    {244, 35, 232},   // sidewalk
-    {70, 70, 70},     // building
-    {102, 102, 156},  // wall
-    {190, 153, 153},  // fence
-    {153, 153, 153},  // pole
-    {250, 170, 30},   // traffic light
-    {220, 220, 0},    // traffic sign
-    {107, 142, 35},   // vegetation
-    {152, 251, 152},  // terrain
-    {70, 130, 180},   // sky
-    {220, 20, 60},    // person
-    {255, 0, 0},      // rider
-    {0, 0, 142},      // car
-    {0, 0, 70},       // truck
-    {0, 60, 100},     // bus
-    {0, 80, 100},     // train
-    {0, 0, 230},      // motorcycle
-    {119, 11, 32},    // bicycle
-}};
 
 /// The mean of colours, as octomap::ColorOcTreeNode takes it: white ones are none.
 class MeanColour {
@@ -99,7 +77,9 @@ Bytes coloured(const mapping::SemanticOcTree& map) {
 
 ClassColour colour_of_label(std::uint32_t label_id) {
   const VoxelLabel label = VoxelLabel::from_id(label_id);
-  return label.any() ? kColours[label.class_id()] : ClassColour{};
+  if (!label.any()) return {};
+  const SemanticClass& known = kSemanticClasses[label.class_id()];
+  return {known.r, known.g, known.b};
 }
 
 Result<Octomap> octomap_of(const mapping::SemanticOcTree& map, MapForm form, const Header& header, Arena& arena) {

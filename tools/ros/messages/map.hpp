@@ -17,7 +17,7 @@ enum class MapForm : std::uint8_t {
   kColor,   ///< ColorOcTree: log-odds, and occupied voxels in the colour of their class (white: none)
 };
 
-/// Colour of a class of Cityscapes, as its authors paint it.
+/// Colour of a class; white stands for none.
 struct ClassColour {
   std::uint8_t r = 255, g = 255, b = 255;
   friend bool operator==(const ClassColour&, const ClassColour&) = default;
