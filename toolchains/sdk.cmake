@@ -37,7 +37,7 @@ function(cairn_component name)
   set(cairn_parts "${cairn_parts}" PARENT_SCOPE)
 endfunction()
 
-cairn_component(hal LIBRARIES cairn_hal HEADERS hal PACKAGES yaml-cpp IN_HEADERS eigen3)
+cairn_component(hal LIBRARIES cairn_hal HEADERS hal PACKAGES yaml-cpp libcrypto IN_HEADERS eigen3)
 cairn_component(client NEEDS hal LIBRARIES cairn_client cairn_clients HEADERS drivers/clients onboard/client PACKAGES libxxhash)
 cairn_component(drivers NEEDS client
   LIBRARIES cairn_recording cairn_velodyne cairn_camera cairn_thermal cairn_depth cairn_drive cairn_gpio cairn_peer_link

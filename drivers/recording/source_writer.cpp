@@ -11,10 +11,10 @@
 #include "drivers/drive/can/candump.hpp"
 #include "drivers/gpio/line_event.hpp"
 #include "drivers/peers/peer_packet.hpp"
-#include "drivers/recording/formats/append_file.hpp"
 #include "drivers/recording/formats/image_folder.hpp"
 #include "drivers/recording/formats/pcap_writer.hpp"
 #include "drivers/recording/formats/scan_file.hpp"
+#include "hal/files/append_file.hpp"
 
 namespace cairn::recording {
 namespace {

@@ -8,6 +8,7 @@
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "drivers/recording/formats/utc.hpp"
 #include "hal/files/file.hpp"
+#include "hal/files/sha256.hpp"
 #include "onboard/app/door/door.hpp"
 #include "onboard/app/door/fitted.hpp"
 #include "onboard/app/run.hpp"
@@ -15,7 +16,6 @@
 #include "onboard/app/tasks/robot_tasks.hpp"
 #include "onboard/app/team/team_output.hpp"
 #include "onboard/mapping/files/map_file.hpp"
-#include "onboard/report/figures/sha256.hpp"
 #include "onboard/report/write_report.hpp"
 
 namespace cairn::app {
@@ -161,7 +161,7 @@ Result<void> add_team_files(const RunFacts& facts, const fs::path& folder, repor
   if (!facts.tasks.team || !facts.tasks.team->team().team()) return {};
   const auto files = write_team(*facts.tasks.team->team().team(), folder);
   if (!files) return files.error();
-  const auto hash = report::sha256_of_files(*files);
+  const auto hash = sha256_of_files(*files);
   if (!hash) return hash.error();
   report.team->sha256 = *hash;
   hashed.insert(hashed.end(), files->begin(), files->end());
@@ -179,7 +179,7 @@ Result<report::RunReport> write_results(const RunFacts& facts, const fs::path& f
   if (const auto r = mapping::save_ot(facts.tasks.robot.map(), folder / "map.ot"); !r) return r.error();
   if (const auto r = write_earlier_maps(facts, folder, report, hashed); !r) return r.error();
   if (const auto r = add_team_files(facts, folder, report, hashed); !r) return r.error();
-  const auto hash = report::sha256_of_files(hashed);
+  const auto hash = sha256_of_files(hashed);
   if (!hash) return hash.error();
   report.output_sha256 = *hash;
   std::error_code ignored;

@@ -10,7 +10,7 @@
 namespace cairn::simulator {
 
 Result<void> GroundTruth::open_lidar_labels() {
-  auto created = recording::AppendFile::create(dir_ / "lidar_labels.bin");
+  auto created = AppendFile::create(dir_ / "lidar_labels.bin");
   if (!created) return created.error();
   lidar_labels_ = std::move(*created);
   return {};
@@ -34,7 +34,7 @@ Result<void> GroundTruth::add_picture_labels(Time t, const Lens& lens, const std
       {static_cast<std::uint32_t>(camera::FrameFormat::kGrey), width, height, width, false}, classes);
   if (!frame) return frame.error();
   if (auto encoded = camera::frame_to_picture(*frame, encoded_); !encoded) return encoded.error();
-  auto file = recording::AppendFile::create(dir_ / "labels" / (std::to_string(t.time_since_epoch().count()) + ".png"));
+  auto file = AppendFile::create(dir_ / "labels" / (std::to_string(t.time_since_epoch().count()) + ".png"));
   if (!file) return file.error();
   file->buffer() = encoded_;
   if (auto written = file->end_record(); !written) return written;

@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "drivers/recording/formats/append_file.hpp"
+#include "hal/files/append_file.hpp"
 #include "tools/simulator/sensors/view.hpp"
 #include "tools/simulator/stage.hpp"
 
@@ -30,7 +30,7 @@ class GroundTruth {
  private:
   std::filesystem::path dir_;
   const Stage& stage_;
-  std::optional<recording::AppendFile> lidar_labels_;
+  std::optional<AppendFile> lidar_labels_;
   std::vector<std::byte> encoded_;
 };
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "drivers/camera/frame.hpp"
-#include "drivers/recording/formats/append_file.hpp"
+#include "hal/files/append_file.hpp"
 #include "hal/ports.hpp"
 
 // The pictures of one camera as EuRoC's data sets keep them: FOLDER/data.csv lists stamps and file names, the files are

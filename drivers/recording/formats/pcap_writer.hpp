@@ -8,7 +8,7 @@
 #include <span>
 #include <utility>
 
-#include "drivers/recording/formats/append_file.hpp"
+#include "hal/files/append_file.hpp"
 #include "hal/result.hpp"
 
 namespace cairn::recording {

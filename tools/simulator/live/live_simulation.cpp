@@ -5,9 +5,9 @@
 
 #include "drivers/drive/can/bus_name.hpp"
 #include "drivers/gpio/file_lines.hpp"
-#include "drivers/recording/formats/append_file.hpp"
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "drivers/velodyne/transport/udp_sender.hpp"
+#include "hal/files/append_file.hpp"
 #include "hal/files/file.hpp"
 #include "onboard/scheduler/threads.hpp"
 #include "tools/simulator/live/live_devices.hpp"
@@ -42,7 +42,7 @@ class TruthFile {
  public:
   Result<void> open(const fs::path& path) {
     if (path.empty()) return {};
-    auto file = recording::AppendFile::create(path);
+    auto file = AppendFile::create(path);
     if (!file) return file.error();
     file_ = std::move(*file);
     return {};
@@ -56,7 +56,7 @@ class TruthFile {
   Result<void> close() { return file_ ? file_->close() : Result<void>(); }
 
  private:
-  std::optional<recording::AppendFile> file_;
+  std::optional<AppendFile> file_;
 };
 
 /// What the world meets the robot's program through.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "drivers/recording/formats/append_file.hpp"
+#include "hal/files/append_file.hpp"
 
 #include <fcntl.h>
 #include <unistd.h>
@@ -10,7 +10,7 @@
 #include <system_error>
 #include <utility>
 
-namespace cairn::recording {
+namespace cairn {
 namespace {
 
 constexpr std::size_t kBufferBytes = std::size_t{256} * 1024;
@@ -104,4 +104,4 @@ Result<void> AppendFile::close(bool sync) {
   return result;
 }
 
-}  // namespace cairn::recording
+}  // namespace cairn

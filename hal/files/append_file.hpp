@@ -10,7 +10,7 @@
 
 #include "hal/result.hpp"
 
-namespace cairn::recording {
+namespace cairn {
 
 /// A growing file of whole records, buffered. When the disk fills up, the file is cut back to its last whole record and
 /// the error names the offset; nothing before it is lost.
@@ -52,4 +52,4 @@ class AppendFile {
   int error_ = 0;                         // errno of the first failed write
 };
 
-}  // namespace cairn::recording
+}  // namespace cairn

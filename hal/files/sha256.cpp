@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/report/figures/sha256.hpp"
+#include "hal/files/sha256.hpp"
 
-#include <fmt/format.h>
 #include <openssl/evp.h>
 
 #include <array>
@@ -10,7 +9,7 @@
 
 #include "hal/files/input_file.hpp"
 
-namespace cairn::report {
+namespace cairn {
 namespace {
 
 // OpenSSL refuses here only when memory is exhausted or its own installation is broken.
@@ -42,8 +41,12 @@ std::string Sha256::finish() {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
   unsigned size = 0;
   must(EVP_DigestFinal_ex(context_->evp, digest.data(), &size) == 1);
+  constexpr const char* kDigits = "0123456789abcdef";
   std::string hex;
-  for (unsigned i = 0; i < size; ++i) hex += fmt::format("{:02x}", digest[i]);
+  for (unsigned i = 0; i < size; ++i) {
+    hex += kDigits[digest[i] >> 4U];
+    hex += kDigits[digest[i] & 15U];
+  }
   return hex;
 }
 
@@ -63,4 +66,4 @@ Result<std::string> sha256_of_files(std::span<const std::filesystem::path> files
   return sum.finish();
 }
 
-}  // namespace cairn::report
+}  // namespace cairn

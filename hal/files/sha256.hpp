@@ -9,7 +9,7 @@
 
 #include "hal/result.hpp"
 
-namespace cairn::report {
+namespace cairn {
 
 /// SHA-256 (FIPS 180-4) over bytes given piece by piece; OpenSSL does the work.
 class Sha256 {
@@ -31,4 +31,4 @@ class Sha256 {
 /// The sum over the bytes of all files one after the other, as `cat FILE… | sha256sum` prints it.
 Result<std::string> sha256_of_files(std::span<const std::filesystem::path> files);
 
-}  // namespace cairn::report
+}  // namespace cairn

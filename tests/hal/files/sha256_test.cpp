@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/report/figures/sha256.hpp"
+#include "hal/files/sha256.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -10,7 +10,7 @@
 
 #include "tests/support/temporary_folder.hpp"
 
-namespace cairn::report {
+namespace cairn {
 namespace {
 
 std::string sum(std::string_view text) {
@@ -44,4 +44,4 @@ TEST(Sha256OfFiles, IsTheSumOfTheirBytesOneAfterTheOther) {
 }
 
 }  // namespace
-}  // namespace cairn::report
+}  // namespace cairn

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "drivers/recording/formats/append_file.hpp"
+#include "hal/files/append_file.hpp"
 
 #include <gmock/gmock.h>
 #include <sys/resource.h>
 
 #include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
 
-#include "tests/drivers/recording/files.hpp"
+#include "tests/support/temporary_folder.hpp"
 
-namespace cairn::recording {
+namespace cairn {
 namespace {
 
 namespace fs = std::filesystem;
@@ -34,8 +38,13 @@ class SmallDisk {
   rlimit before_{};
 };
 
+std::string written_in(const fs::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
 TEST(AppendFile, HoldsTheRecordsInOrder) {
-  const test::TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   std::string expected;
   auto file = AppendFile::create(folder / "f");
   ASSERT_TRUE(file);
@@ -44,20 +53,20 @@ TEST(AppendFile, HoldsTheRecordsInOrder) {
     ASSERT_TRUE(file->append_line(std::to_string(i) + "\n"));
   }
   ASSERT_TRUE(file->close());
-  EXPECT_EQ(test::slurp(folder / "f"), expected);
+  EXPECT_EQ(written_in(folder / "f"), expected);
 }
 
 TEST(AppendFile, FlushedRecordsAreThereWhileItIsOpen) {
-  const test::TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   auto file = AppendFile::create(folder / "f");
   ASSERT_TRUE(file->append_line("one\n"));
-  EXPECT_EQ(test::slurp(folder / "f"), "");
+  EXPECT_EQ(written_in(folder / "f"), "");
   ASSERT_TRUE(file->flush());
-  EXPECT_EQ(test::slurp(folder / "f"), "one\n");
+  EXPECT_EQ(written_in(folder / "f"), "one\n");
 }
 
 TEST(AppendFile, AFullDiskCostsNoWholeRecord) {
-  const test::TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   for (const rlim_t room : {0U, 5U, 6U, 7U, 300'001U}) {
     auto file = AppendFile::create(folder / "f");
     ASSERT_TRUE(file);
@@ -92,16 +101,16 @@ TEST(AppendFile, AFullDeviceIsSaidAtTheEndAtTheLatest) {
 TEST(AppendFile, NoFolderNoFile) { EXPECT_FALSE(AppendFile::create("/nonexistent/f")); }
 
 TEST(AppendFile, MovedFromIsClosed) {
-  const test::TemporaryFolder folder;
+  const support::TemporaryFolder folder;
   auto first = AppendFile::create(folder / "a"), second = AppendFile::create(folder / "b");
   ASSERT_TRUE(second->append_line("lost?\n"));
   *second = std::move(*first);
-  EXPECT_EQ(test::slurp(folder / "b"), "lost?\n");
+  EXPECT_EQ(written_in(folder / "b"), "lost?\n");
   EXPECT_FALSE(first->close());
   ASSERT_TRUE(second->append_line("a\n"));
   ASSERT_TRUE(second->close());
-  EXPECT_EQ(test::slurp(folder / "a"), "a\n");
+  EXPECT_EQ(written_in(folder / "a"), "a\n");
 }
 
 }  // namespace
-}  // namespace cairn::recording
+}  // namespace cairn
