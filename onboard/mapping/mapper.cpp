@@ -70,6 +70,13 @@ Result<InsertReport> Mapper::insert(std::span<const Eigen::Vector3f> points_map,
                       .changed_tiles = changed_now_.size()};
 }
 
+LabelReport Mapper::label(std::span<const LabelledPoint> points) {
+  changed_now_.clear();
+  const LabelReport report = labels_.update(points, *tree_, changed_now_);
+  note_changed();
+  return report;
+}
+
 /// A set does not depend on how its parts were found: here the number of parts may depend on the
 /// number of threads.
 bool Mapper::march() {

@@ -13,6 +13,7 @@
 #include "onboard/mapping/insert/footprint.hpp"
 #include "onboard/mapping/insert/footprint_applier.hpp"
 #include "onboard/mapping/insert/scan_rays.hpp"
+#include "onboard/mapping/labels/label_updater.hpp"
 #include "onboard/mapping/mapping_config.hpp"
 #include "onboard/mapping/tree/map_tile.hpp"
 #include "onboard/mapping/tree/semantic_octree.hpp"
@@ -45,14 +46,18 @@ class Mapper {
   /// the map, scan or map beyond its memory) the map is as before.
   Result<InsertReport> insert(std::span<const Eigen::Vector3f> points_map, const Eigen::Vector3f& origin_map);
 
+  /// Adds what a picture told of points, in the map frame, to the voxels that are occupied; see LabelUpdater. Occupancy
+  /// does not change. A voxel that becomes free loses its label.
+  LabelReport label(std::span<const LabelledPoint> points);
+
   /// Begins with an empty map, and returns the one before.
   std::unique_ptr<SemanticOcTree> begin_anew();
 
   [[nodiscard]] const SemanticOcTree& tree() const { return *tree_; }
   [[nodiscard]] const MappingConfig& config() const { return config_; }
 
-  /// Tiles in which, since the last take_changed_tiles(), a voxel became known or went from free to occupied or back;
-  /// in canonical order, each once. Log-odds that merely move do not count: in the open, every scan moves nearly all.
+  /// Tiles in which, since the last take_changed_tiles(), a voxel became known, went from free to occupied or back, or
+  /// got a class or another one; in canonical order, each once. Log-odds that merely move do not count: in the open, every scan moves nearly all.
   [[nodiscard]] std::span<const TileKey> changed_tiles() const { return changed_; }
   [[nodiscard]] std::vector<TileKey> take_changed_tiles();
 
@@ -67,6 +72,7 @@ class Mapper {
   ScanRays rays_;
   std::vector<Footprint> footprints_;  // one per thread; all end up in the first
   FootprintApplier applier_;
+  LabelUpdater labels_;
   std::vector<TileKey> changed_, changed_now_, merged_;
 };
 

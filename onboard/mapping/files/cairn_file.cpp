@@ -8,38 +8,52 @@
 #include <cassert>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 #include "hal/bytes.hpp"
 #include "onboard/mapping/files/cairn_format.hpp"
+#include "onboard/mapping/tree/label_evidence.hpp"
 
 namespace cairn::mapping {
 namespace {
 
 using cairn_format::Chunk;
 using cairn_format::Header;
+using cairn_format::LeafLabel;
 using Tree = Result<std::unique_ptr<SemanticOcTree>>;
 
 constexpr int kZstdLevel = 3;  // zstd's default
 
+/// The least form that keeps all labels of the leaves below a node.
 // As deep as the tree: 16 levels.
 // NOLINTNEXTLINE(misc-no-recursion)
-bool any_label(const SemanticNode& node) {
-  if (node.block() == nullptr) return node.present() && VoxelLabel::from_id(node.label_id()).any();
-  return std::any_of(node.block(), node.block() + SemanticNode::kChildren, any_label);
+LeafLabel form_of_labels(const SemanticNode& node) {
+  if (node.block() == nullptr) {
+    if (!node.present() || !VoxelLabel::from_id(node.label_id()).any()) return LeafLabel::kNone;
+    return (node.label_id() & LabelEvidence::kMark) != 0 ? LeafLabel::kEvidence : LeafLabel::kCode;
+  }
+  auto most = LeafLabel::kNone;
+  for (unsigned i = 0; i < SemanticNode::kChildren && most != LeafLabel::kEvidence; ++i)
+    most = std::max(most, form_of_labels(node.block()[i]));
+  return most;
+}
+LeafLabel form_of_labels(const SemanticOcTree& tree) {
+  return tree.getRoot() != nullptr ? form_of_labels(*tree.getRoot()) : LeafLabel::kNone;
 }
 
 /// Turns a canonical tree into compressed chunks.
 class ChunkWriter {
  public:
-  explicit ChunkWriter(bool labelled) : labelled_(labelled) {}
+  explicit ChunkWriter(LeafLabel label) : label_(label) {}
 
   void node(const SemanticNode& node) {
     if (structure_.size() + values_.size() >= cairn_format::kChunkBytes) flush();
     const SemanticNode* block = node.block();
     if (block == nullptr) {
       append_le(values_, node.getLogOdds());
-      if (labelled_) append_le(values_, VoxelLabel::from_id(node.label_id()).code);
+      if (label_ == LeafLabel::kCode) append_le(values_, VoxelLabel::from_id(node.label_id()).code);
+      if (label_ == LeafLabel::kEvidence) append_le(values_, is_label_id(node.label_id()) ? node.label_id() : 0U);
       return;
     }
     unsigned children = 0, inner = 0;
@@ -74,7 +88,7 @@ class ChunkWriter {
   std::vector<std::byte> stored;
 
  private:
-  bool labelled_;
+  LeafLabel label_;
   std::vector<std::byte> structure_, values_;
 };
 
@@ -90,10 +104,11 @@ class ChunkReader {
   }
   Result<float> value() { return read<float>(values_); }
   /// Of the leaf whose value was read.
-  Result<VoxelLabel> label() {
-    if (!header_.labelled) return VoxelLabel{};
-    const auto code = values_.read<std::uint8_t>();
-    if (code && VoxelLabel{*code}.valid()) return VoxelLabel{*code};
+  Result<std::uint32_t> label_id() {
+    std::optional<std::uint32_t> id = 0U;
+    if (header_.label == LeafLabel::kCode) id = values_.read<std::uint8_t>();
+    if (header_.label == LeafLabel::kEvidence) id = values_.read<std::uint32_t>();
+    if (id && is_label_id(*id)) return *id;
     return Error{Errc::kMalformed, "a leaf has no label, or one that is none", {}, chunk_offset_, {}};
   }
   /// Nothing is left over.
@@ -151,8 +166,8 @@ class NodeReader {
     if (leaf) {
       const auto value = chunks_.value();
       if (!value) return value.error();
-      const auto label = chunks_.label();
-      return label ? builder_.leaf(*value, *label) : label.error();
+      const auto label_id = chunks_.label_id();
+      return label_id ? builder_.leaf(*value, *label_id) : label_id.error();
     }
     const auto masks = chunks_.structure<std::uint16_t>();
     if (!masks) return masks.error();
@@ -176,8 +191,8 @@ Result<void> read_nodes(ChunkReader& chunks, const Header& header, const MapLimi
     if (Result<void> given = reader.next(); !given) return given;
   if (builder.nodes() != header.nodes || !chunks.exhausted())
     return Error{Errc::kMalformed, "the header announces another number of nodes", {}, {}, {}};
-  if (header.labelled && (tree.getRoot() == nullptr || !any_label(*tree.getRoot())))
-    return Error{Errc::kMalformed, "the header announces labels, and there are none", {}, {}, {}};
+  if (header.label != form_of_labels(tree))
+    return Error{Errc::kMalformed, "the header announces other labels than there are", {}, {}, {}};
   if (tree.size() != header.nodes) return Error{Errc::kMalformed, "the tree is not pruned", {}, {}, {}};
   return {};
 }
@@ -191,12 +206,12 @@ std::vector<std::byte> encode_cairn(const SemanticOcTree& tree, std::string_view
     canonical.canonicalise();
     return encode_cairn(canonical, metadata);
   }
-  const bool labelled = tree.getRoot() != nullptr && any_label(*tree.getRoot());
-  ChunkWriter writer(labelled);
+  const LeafLabel label = form_of_labels(tree);
+  ChunkWriter writer(label);
   if (tree.getRoot() != nullptr) writer.node(*tree.getRoot());
   writer.flush();
   const Header header{
-      tree.getResolution(), tree.sensor_model(), tree.size(), metadata, std::move(writer.chunks), 0, labelled};
+      tree.getResolution(), tree.sensor_model(), tree.size(), metadata, std::move(writer.chunks), 0, label};
   return cairn_format::assemble(header, writer.stored);
 }
 

@@ -18,16 +18,16 @@ namespace cairn::mapping {
 //
 //   header   "CAIRNMAP", u32 version = 1, u32 header bytes, u64 file bytes, f64 resolution in m, f32 log-odds of hit,
 //            miss, lower and upper clamping and occupancy threshold, u32 metadata bytes, u64 nodes, u32 chunks,
-//            u32 flags (1: labels; else 0); the metadata (UTF-8, free for the application); per chunk u32 raw bytes,
-//            u32 stored bytes, u64 XXH3 of the stored bytes; u64 XXH3 of the header so far
+//            u32 flags (0: no labels, 1: their codes, 2: evidence); the metadata (UTF-8, free for the application);
+//            per chunk u32 raw bytes, u32 stored bytes, u64 XXH3 of the stored bytes; u64 XXH3 of the header so far
 //   chunks   zstd frames, one after the other; raw: u32 structure bytes, structure, values
 //   trailer  u64 XXH3 of everything before
 //
 // The nodes follow in depth-first order. An inner node adds two bytes to the structure, the mask of its children and
 // the mask of those that are inner nodes themselves; a leaf adds its log-odds (f32) to the values, and, where any
-// leaf of the map has a label, the code of its own (u8, 0 for none; see VoxelLabel). Inner log-odds are not stored:
-// they are the maximum of the children. Only the canonical tree has an encoding, so equal maps give equal bytes (with
-// one version of zstd).
+// leaf of the map has a label, its own: where any has LabelEvidence SemanticNode::label_id() (u32), else the code of
+// its VoxelLabel (u8); 0 for none. Inner log-odds are not stored: they are the maximum of the children. Only the
+// canonical tree has an encoding, so equal maps give equal bytes (with one version of zstd).
 
 /// A tree that is not canonical is copied and made so first.
 [[nodiscard]] std::vector<std::byte> encode_cairn(const SemanticOcTree& tree, std::string_view metadata = {});

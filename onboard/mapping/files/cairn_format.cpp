@@ -17,7 +17,11 @@ constexpr std::size_t kFixedBytes = 72;  // up to the metadata
 constexpr std::size_t kChunkEntryBytes = 16;
 constexpr std::size_t kHashBytes = 8;
 constexpr std::size_t kFileBytesOffset = 16;
-constexpr std::uint32_t kLabelled = 1;  // of the flags
+constexpr std::uint32_t kCodes = 1, kEvidence = 2;  // of the flags
+
+std::uint32_t flags_of(LeafLabel label) {
+  return label == LeafLabel::kCode ? kCodes : label == LeafLabel::kEvidence ? kEvidence : 0;
+}
 
 Error fault(Errc code, std::string_view cause, std::uint64_t offset, std::string detail = {}) {
   return {code, cause, {}, offset, std::move(detail)};
@@ -113,7 +117,7 @@ std::vector<std::byte> assemble(const Header& header, std::span<const std::byte>
   append_le(out, static_cast<std::uint32_t>(header.metadata.size()));
   append_le(out, header.nodes);
   append_le(out, static_cast<std::uint32_t>(header.chunks.size()));
-  append_le(out, header.labelled ? kLabelled : 0U);
+  append_le(out, flags_of(header.label));
   append(out, header.metadata);
   for (const Chunk& chunk : header.chunks) {
     append_le(out, chunk.raw_bytes);
@@ -139,8 +143,11 @@ Result<Header> parse(std::span<const std::byte> bytes) {
   if (!(f.resolution >= kMinResolution && f.resolution <= kMaxResolution))
     return fault(Errc::kMalformed, "the resolution is senseless", 24, std::to_string(f.resolution) + " m");
   if (auto error = check_model(f.model)) return *error;
-  if ((f.flags & ~kLabelled) != 0) return fault(Errc::kUnsupported, "a reserved field is in use", 68);
-  Header header{f.resolution, f.model, f.nodes, {}, {}, f.header_bytes, (f.flags & kLabelled) != 0};
+  if (f.flags > kEvidence) return fault(Errc::kUnsupported, "a reserved field is in use", 68);
+  const LeafLabel label = f.flags == kEvidence ? LeafLabel::kEvidence
+                          : f.flags == kCodes  ? LeafLabel::kCode
+                                               : LeafLabel::kNone;
+  Header header{f.resolution, f.model, f.nodes, {}, {}, f.header_bytes, label};
   header.metadata = {reinterpret_cast<const char*>(bytes.data()) + kFixedBytes, f.metadata_bytes};
   if (auto error = read_chunks(bytes, f, header)) return *error;
   if (auto error = check_hash(bytes, bytes.size() - kHashBytes, "the checksum of the file is wrong")) return *error;

@@ -27,6 +27,13 @@ struct Chunk {
   std::uint64_t hash = 0;
 };
 
+/// What each leaf has after its log-odds; the value is its size in bytes.
+enum class LeafLabel : std::uint8_t {
+  kNone = 0,
+  kCode = 1,      ///< a VoxelLabel
+  kEvidence = 4,  ///< SemanticNode::label_id(), LabelEvidence among them
+};
+
 /// The header of a .cairn file.
 struct Header {
   double resolution = 0.0;
@@ -35,7 +42,7 @@ struct Header {
   std::string_view metadata;
   std::vector<Chunk> chunks;
   std::size_t bytes = 0;  ///< of the header itself; the first chunk starts there
-  bool labelled = false;  ///< each leaf has a VoxelLabel after its log-odds
+  LeafLabel label = LeafLabel::kNone;
 };
 
 /// XXH3-64.

@@ -85,6 +85,12 @@ bool same_labels(const SemanticNode* block) {
                      [block](const SemanticNode& n) { return n.label_id() == block->label_id(); });
 }
 
+/// What is free is of no class.
+void drop_labels_of_free(SemanticNode* block, float occupied) {
+  for (unsigned i = 0; i < SemanticNode::kChildren; ++i)
+    if (block[i].getLogOdds() < occupied) block[i].set_label_id(0);
+}
+
 }  // namespace
 
 BrickUpdater::Outcome BrickUpdater::update(SemanticNode* brick, bool made, const std::uint64_t* free,
@@ -168,6 +174,7 @@ bool BrickUpdater::update_voxels(SemanticNode* parent, bool made, unsigned free,
   state_changed_ |= update.state_changed;
   if (!changed && !update.changed) return false;
   update.write(parent->block());
+  if (update.state_changed) drop_labels_of_free(parent->block(), model_.occupied);
   writer_.count(update.added);
   if (update.all_equal && same_labels(parent->block()))
     writer_.collapse(parent);

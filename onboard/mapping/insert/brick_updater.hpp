@@ -42,10 +42,11 @@ class BrickUpdater {
     kExpanded,   ///< it has eight children now, to be updated one by one
   };
   Leaf update_leaf(SemanticNode* leaf, bool any_occupied, bool all_free);
-  /// Sets a known voxel or leaf.
+  /// Sets a known voxel or leaf. What becomes free loses its label.
   void set(SemanticNode& node, float log_odds) {
     state_changed_ |= (node.getLogOdds() >= model_.occupied) != (log_odds >= model_.occupied);
     node.setLogOdds(log_odds);
+    if (log_odds < model_.occupied) node.set_label_id(0);
   }
 
   NodeWriter& writer_;

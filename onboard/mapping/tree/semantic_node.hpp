@@ -14,10 +14,9 @@ namespace cairn::mapping {
 /// log-odds −∞, which no observation and no file can produce. Only SemanticOcTree edits nodes: never hand one, as an
 /// octomap::OcTreeNode*, to code that walks children.
 ///
-/// OctoMap wastes four bytes of its node as padding. Here they hold the id of an entry in a label store outside of the
-/// tree (evidence for the 19 classes), or, up to VoxelLabel::kCodes, the label itself; 0 means that the voxel has no
-/// label. Nodes are only pruned when their ids are
-/// equal too.
+/// OctoMap wastes four bytes of its node as padding. Here they hold what is known of the voxel's class: LabelEvidence,
+/// or, in maps of other robots, a VoxelLabel; 0 means that the voxel has no label. Nodes are only pruned when their ids
+/// are equal too.
 class SemanticNode : public octomap::OcTreeNode {
  public:
   static constexpr float kAbsent = -std::numeric_limits<float>::infinity();

@@ -6,11 +6,11 @@
 
 namespace cairn::mapping {
 
-Result<void> TreeBuilder::leaf(float log_odds, VoxelLabel label) {
+Result<void> TreeBuilder::leaf(float log_odds, std::uint32_t label_id) {
   if (!std::isfinite(log_odds)) return Error{Errc::kMalformed, "a log-odds value is not finite"};
   SemanticNode* leaf = place();
   leaf->setLogOdds(log_odds);
-  leaf->set_label_id(label.code);
+  leaf->set_label_id(label_id);
   close_complete();
   return {};
 }

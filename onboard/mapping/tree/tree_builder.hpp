@@ -7,7 +7,6 @@
 
 #include "hal/result.hpp"
 #include "onboard/mapping/tree/semantic_octree.hpp"
-#include "onboard/mapping/tree/voxel_label.hpp"
 
 namespace cairn::mapping {
 
@@ -37,8 +36,8 @@ class TreeBuilder {
   /// Nodes given so far; the tree may have fewer, because it is pruned.
   [[nodiscard]] std::uint64_t nodes() const { return nodes_; }
 
-  /// The next node is a leaf.
-  Result<void> leaf(float log_odds, VoxelLabel label = {});
+  /// The next node is a leaf; `label_id` as SemanticNode keeps it (see is_label_id()).
+  Result<void> leaf(float log_odds, std::uint32_t label_id = 0);
   /// The next node is an inner one; the children in the mask follow, lowest bit first.
   Result<void> inner(std::uint8_t children);
 

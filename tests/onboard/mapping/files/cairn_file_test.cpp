@@ -6,6 +6,7 @@
 
 #include "hal/bytes.hpp"
 #include "onboard/mapping/files/cairn_format.hpp"
+#include "onboard/mapping/tree/label_evidence.hpp"
 #include "onboard/mapping/tree/tile_state.hpp"
 #include "tests/onboard/mapping/random_maps.hpp"
 #include "tests/onboard/mapping/tree_compare.hpp"
@@ -74,19 +75,36 @@ TEST_P(CairnFile, LabelsAreKeptAndCostNothingWhereThereAreNone) {
   EXPECT_EQ(bytes[68], std::byte{1});
 }
 
+/// A map of one leaf, whose label is stored as `id` in this form.
+Bytes file_with_label(std::uint32_t id, cairn_format::LeafLabel form) {
+  Bytes raw;
+  append_le(raw, std::uint32_t{0});
+  append_le(raw, 2.5F);
+  if (form == cairn_format::LeafLabel::kCode)
+    append_le(raw, static_cast<std::uint8_t>(id));
+  else
+    append_le(raw, id);
+  Bytes frame(ZSTD_compressBound(raw.size()));
+  frame.resize(ZSTD_compress(frame.data(), frame.size(), raw.data(), raw.size(), 1));
+  const cairn_format::Chunk chunk{static_cast<std::uint32_t>(raw.size()), static_cast<std::uint32_t>(frame.size()),
+                                  cairn_format::hash(frame)};
+  return cairn_format::assemble({0.1, SemanticOcTree(0.1).sensor_model(), 1, {}, {chunk}, 0, form}, frame);
+}
+
 TEST(CairnFileRead, LabelsThatAreNoneAreRefused) {
-  for (const unsigned code : {0U, 1U, 76U, 77U, 255U}) {
-    Bytes raw;
-    append_le(raw, std::uint32_t{0});
-    append_le(raw, 2.5F);
-    append_le(raw, static_cast<std::uint8_t>(code));
-    Bytes frame(ZSTD_compressBound(raw.size()));
-    frame.resize(ZSTD_compress(frame.data(), frame.size(), raw.data(), raw.size(), 1));
-    const cairn_format::Chunk chunk{static_cast<std::uint32_t>(raw.size()), static_cast<std::uint32_t>(frame.size()),
-                                    cairn_format::hash(frame)};
-    const auto file = cairn_format::assemble({0.1, SemanticOcTree(0.1).sensor_model(), 1, {}, {chunk}, 0, true}, frame);
-    EXPECT_EQ(decode_cairn(file).has_value(), code == 1 || code == 76) << code;
-  }
+  for (const unsigned code : {0U, 1U, 76U, 77U, 255U})
+    EXPECT_EQ(decode_cairn(file_with_label(code, cairn_format::LeafLabel::kCode)).has_value(), code == 1 || code == 76)
+        << code;
+}
+
+TEST(CairnFileRead, EvidenceThatNoWriterLeavesIsRefused) {
+  LabelEvidence evidence;
+  evidence.add(13, 20);
+  const auto read = decode_cairn(file_with_label(evidence.id(), cairn_format::LeafLabel::kEvidence));
+  ASSERT_TRUE(read) << to_string(read.error());
+  EXPECT_EQ((*read)->getRoot()->label_id(), evidence.id());
+  for (const std::uint32_t id : {0U, 13U, LabelEvidence::kMark, evidence.id() ^ 1U << 7U, 0xFFFF'FFFFU})
+    EXPECT_FALSE(decode_cairn(file_with_label(id, cairn_format::LeafLabel::kEvidence))) << id;
 }
 
 INSTANTIATE_TEST_SUITE_P(Seeds, CairnFile, testing::Values(1U, 2U, 3U, 4U));
