@@ -12,6 +12,17 @@ void set_size(camera::CaptureConfig& capture, int width, int height, double rate
   capture.rate_hz = rate_hz;
 }
 
+/// A calibration counts from the centre of the first pixel, a Lens from its corner.
+void set_lens(cameras::CameraIntrinsics& intrinsics, const Lens& lens, double baseline_m) {
+  intrinsics.width = lens.width;
+  intrinsics.height = lens.height;
+  intrinsics.fx = lens.fx;
+  intrinsics.fy = lens.fy;
+  intrinsics.cx = lens.cx - 0.5;
+  intrinsics.cy = lens.cy - 0.5;
+  intrinsics.baseline_m = baseline_m;
+}
+
 }  // namespace
 
 app::RobotProfile simulated_profile(const SimulationConfig& config) {
@@ -22,16 +33,18 @@ app::RobotProfile simulated_profile(const SimulationConfig& config) {
   const Lens &eye = config.stereo.lens, &thermal = config.thermal.lens, &depth = config.depth.lens;
   profile.camera.base_xyz_rpy = numbers(config.stereo.base_camera_xyz_rpy);
   set_size(profile.camera.driver.capture, 2 * eye.width, eye.height, config.stereo.rate_hz);
+  set_lens(profile.camera.intrinsics, eye, config.stereo.baseline_m);
   profile.thermal.base_xyz_rpy = numbers(config.thermal.base_camera_xyz_rpy);
   profile.thermal.driver.model = "lepton3";
   set_size(profile.thermal.driver.capture, thermal.width, thermal.height + ThermalCamera::kTelemetryRows,
            config.thermal.rate_hz);
+  set_lens(profile.thermal.intrinsics, thermal, 0);
   profile.depth.base_xyz_rpy = numbers(config.depth.base_camera_xyz_rpy);
   set_size(profile.depth.driver.capture, depth.width, depth.height, config.depth.rate_hz);
   profile.depth.driver.fx = depth.fx;
   profile.depth.driver.fy = depth.fy;
-  profile.depth.driver.cx = depth.cx;
-  profile.depth.driver.cy = depth.cy;
+  profile.depth.driver.cx = depth.cx - 0.5;
+  profile.depth.driver.cy = depth.cy - 0.5;
   profile.depth.driver.max_depth_m = config.depth.max_depth_m;
   if (config.sensors.drive) profile.drive.driver = husky_drive();
   if (config.sensors.gpio) profile.gpio.driver.estop_line = "estop";

@@ -62,6 +62,40 @@ Result<void> check_mounts(const RobotProfile& p) {
   return Error{Errc::kInvalidConfig, "faults in the profile", {}, {}, faults};
 }
 
+/// Each line of `faults` below its key.
+std::string below(const std::string& key, const std::string& faults) {
+  std::string lines;
+  for (std::size_t start = 0; start <= faults.size();) {
+    const std::size_t end = std::min(faults.find('\n', start), faults.size());
+    if (end > start) lines += "\n" + key + "." + faults.substr(start, end - start);
+    start = end + 1;
+  }
+  return lines;
+}
+
+/// Takes the values of the file that `intrinsics` names, if it does, and checks them with the picture's size. Returns
+/// the faults, one line each.
+template <class Profile>
+std::string calibrate(Profile& camera, const std::string& key, const std::filesystem::path& folder) {
+  const auto T_base_camera = cameras::take_calibration(camera.intrinsics, folder);
+  if (!T_base_camera) return "\n" + key + ".calibration: " + to_string(T_base_camera.error());
+  if (*T_base_camera) {
+    const Vector6 mount = (*T_base_camera)->xyz_rpy();
+    if (mount.cwiseAbs().maxCoeff() > 100) return "\n" + key + ".calibration: T_BS is more than 100 m away";
+    camera.base_xyz_rpy.assign(mount.begin(), mount.end());
+  }
+  const PictureSize size = picture_size(camera);
+  const auto sound = check(camera.intrinsics, size.width, size.height);
+  return sound ? "" : below(key, sound.error().detail);
+}
+
+Result<void> calibrate_cameras(RobotProfile& p, const std::filesystem::path& folder) {
+  const std::string faults =
+      calibrate(p.camera, "camera.intrinsics", folder) + calibrate(p.thermal, "thermal.intrinsics", folder);
+  if (faults.empty()) return {};
+  return Error{Errc::kInvalidConfig, "faults in the profile", {}, {}, faults};
+}
+
 }  // namespace
 
 Result<RobotProfile> load_profile(const std::filesystem::path& path, RobotProfile profile) {
@@ -73,6 +107,7 @@ Result<RobotProfile> load_profile(const std::filesystem::path& path, RobotProfil
   if (auto sound = check(profile.failsafe); !sound) return at(path.string(), sound.error());
   if (auto sound = check(profile.team); !sound) return at(path.string(), sound.error());
   if (auto sound = check_mounts(profile); !sound) return at(path.string(), sound.error());
+  if (auto sound = calibrate_cameras(profile, path.parent_path()); !sound) return at(path.string(), sound.error());
   return profile;
 }
 

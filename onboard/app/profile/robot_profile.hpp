@@ -40,7 +40,8 @@ struct RobotProfile {
 
 void declare(config::Section& section, RobotProfile& profile);
 
-/// `defaults` where `path` is empty; otherwise the file over them, with every fault reported at once.
+/// `defaults` where `path` is empty; otherwise the file over them, with every fault reported at once. Calibration files
+/// that it names are read, and their values are in the profile.
 Result<RobotProfile> load_profile(const std::filesystem::path& path, RobotProfile defaults);
 /// The same over the program's own defaults.
 Result<RobotProfile> load_profile(const std::filesystem::path& path);

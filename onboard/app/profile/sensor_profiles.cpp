@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/profile/sensor_profiles.hpp"
 
+#include "drivers/thermal/models.hpp"
+
 namespace cairn::app {
 namespace {
 
@@ -20,11 +22,13 @@ void declare(config::Section& s, LidarProfile& p) {
 void declare(config::Section& s, CameraProfile& p) {
   declare(s, p.driver);
   declare_mount(s, p.base_xyz_rpy, "T_base_camera", "camera (x along its view, y left, z up)");
+  s.group("intrinsics", p.intrinsics, "how the (left) eye sees");
 }
 
 void declare(config::Section& s, ThermalProfile& p) {
   declare(s, p.driver);
   declare_mount(s, p.base_xyz_rpy, "T_base_thermal", "thermal camera (x along its view, y left, z up)");
+  s.group("intrinsics", p.intrinsics, "how it sees");
 }
 
 void declare(config::Section& s, DepthProfile& p) {
@@ -34,5 +38,18 @@ void declare(config::Section& s, DepthProfile& p) {
 
 void declare(config::Section& s, DriveProfile& p) { declare(s, p.driver); }
 void declare(config::Section& s, GpioProfile& p) { declare(s, p.driver); }
+
+PictureSize picture_size(const CameraProfile& p) {
+  const camera::CaptureConfig& capture = p.driver.capture;
+  return {p.driver.side_by_side ? capture.width / 2 : capture.width, capture.height};
+}
+
+PictureSize picture_size(const ThermalProfile& p) {
+  const camera::CaptureConfig& capture = p.driver.capture;
+  const thermal::Model* model = thermal::find_model(p.driver.model);
+  const bool telemetry =
+      model != nullptr && model->rows > 0 && static_cast<std::uint32_t>(capture.height) == model->height + model->rows;
+  return {capture.width, telemetry ? static_cast<int>(model->height) : capture.height};
+}
 
 }  // namespace cairn::app

@@ -11,6 +11,7 @@
 #include "drivers/thermal/config.hpp"
 #include "drivers/velodyne/config.hpp"
 #include "hal/config/config.hpp"
+#include "onboard/perception/cameras/camera_intrinsics.hpp"
 
 namespace cairn::app {
 
@@ -28,9 +29,21 @@ struct MountedCamera {
   std::vector<double> base_xyz_rpy{0, 0, 0, 0, 0, 0};  ///< T_base_camera, as T_base_lidar
   [[nodiscard]] bool exists() const { return !driver.capture.device.empty(); }
 };
-using CameraProfile = MountedCamera<camera::Config>;
-using ThermalProfile = MountedCamera<thermal::Config>;
+/// The same with a lens that has to be calibrated.
+template <class Driver>
+struct CalibratedCamera : MountedCamera<Driver> {
+  cameras::CameraIntrinsics intrinsics;
+};
+using CameraProfile = CalibratedCamera<camera::Config>;
+using ThermalProfile = CalibratedCamera<thermal::Config>;
 using DepthProfile = MountedCamera<depth::Config>;
+
+/// Width and height in pixels of the pictures that are looked at: one eye, without rows of telemetry.
+struct PictureSize {
+  int width = 0, height = 0;
+};
+[[nodiscard]] PictureSize picture_size(const CameraProfile& profile);
+[[nodiscard]] PictureSize picture_size(const ThermalProfile& profile);
 
 /// The drive on its CAN bus. It exists when its interface is named.
 struct DriveProfile {

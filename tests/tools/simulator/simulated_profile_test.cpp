@@ -26,7 +26,33 @@ TEST(SimulatedProfile, IsReadBackAsItWasWritten) {
     EXPECT_EQ(read->camera.driver.capture.width, 1344);
     EXPECT_EQ(read->depth.driver.fx, config.depth.lens.fx);
     EXPECT_EQ(read->camera.base_xyz_rpy[4], config.stereo.base_camera_xyz_rpy[4]);
+    EXPECT_EQ(read->camera.intrinsics.baseline_m, config.stereo.baseline_m);
   }
+}
+
+/// The profile's lens sees a point in the pixel whose ray the simulator sent there.
+void expect_same_lens(const Lens& lens, const cameras::CameraIntrinsics& intrinsics) {
+  const auto model = intrinsics.model(lens.width, lens.height);
+  ASSERT_TRUE(model) << to_string(model.error());
+  for (int v = 0; v < lens.height; v += 17)
+    for (int u = 0; u < lens.width; u += 13) {
+      const auto pixel = model->project(cameras::T_camera_optical().inverse() * (4 * lens.direction(u, v)));
+      ASSERT_TRUE(pixel);
+      EXPECT_LT((*pixel - Eigen::Vector2d(u, v)).norm(), 1e-9);
+    }
+}
+
+TEST(SimulatedProfile, SaysHowTheCamerasSee) {
+  const SimulationConfig config;
+  const auto profile = simulated_profile(config);
+  expect_same_lens(config.stereo.lens, profile.camera.intrinsics);
+  expect_same_lens(config.thermal.lens, profile.thermal.intrinsics);
+  cameras::CameraIntrinsics depth;
+  depth.fx = profile.depth.driver.fx;
+  depth.fy = profile.depth.driver.fy;
+  depth.cx = profile.depth.driver.cx;
+  depth.cy = profile.depth.driver.cy;
+  expect_same_lens(config.depth.lens, depth);
 }
 
 /// A drive and an e-stop cannot be read without the profile.

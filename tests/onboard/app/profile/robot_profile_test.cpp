@@ -86,6 +86,53 @@ TEST(RobotProfile, ADeploymentThatSaysTooLittleIsRefused) {
   }
 }
 
+constexpr const char* kCameraInfo =
+    "image_width: 672\nimage_height: 376\ncamera_matrix: {rows: 3, cols: 3, data: [350, 0, 335.5, 0, 351, 187.5, 0, 0, "
+    "1]}\ndistortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: [-0.17, 0.026, 0, 0, 0]}\n";
+
+TEST(RobotProfile, ACalibrationFileBesideTheProfileBecomesItsIntrinsics) {
+  const support::TemporaryFolder folder;
+  std::ofstream(folder / "left.yaml") << kCameraInfo;
+  std::ofstream(folder / "robot.yaml") << "camera: {intrinsics: {calibration: left.yaml, baseline_m: 0.12}}\n";
+  const auto profile = load_profile(folder / "robot.yaml");
+  ASSERT_TRUE(profile) << to_string(profile.error());
+  EXPECT_EQ(profile->camera.intrinsics.fy, 351);
+  EXPECT_EQ(profile->camera.intrinsics.k1, -0.17);
+  EXPECT_EQ(profile->camera.intrinsics.baseline_m, 0.12);
+  EXPECT_FALSE(profile->thermal.intrinsics.calibrated());
+  std::ofstream(folder / "config.yaml") << to_yaml(*profile);
+  std::filesystem::remove(folder / "left.yaml");
+  const auto again = load_profile(folder / "config.yaml");
+  ASSERT_TRUE(again) << "what a run keeps needs no other file";
+  EXPECT_EQ(to_yaml(*again), to_yaml(*profile));
+}
+
+TEST(RobotProfile, IntrinsicsThatDoNotFitAreRefusedWithTheirKeys) {
+  const support::TemporaryFolder folder;
+  std::ofstream(folder / "left.yaml") << kCameraInfo;
+  std::ofstream(folder / "robot.yaml")
+      << "camera: {capture: {width: 1280, height: 480}, intrinsics: {calibration: left.yaml}}\n"
+      << "thermal: {intrinsics: {fx: 200, fy: 200, cx: 79.5, cy: 130}}\n";
+  const auto profile = load_profile(folder / "robot.yaml");
+  ASSERT_FALSE(profile);
+  EXPECT_EQ(profile.error().code, Errc::kInvalidConfig);
+  const std::string text = to_string(profile.error());
+  EXPECT_NE(text.find("camera.intrinsics.width, height: the calibration is of 672x376 pixels, a picture of 640x480"),
+            std::string::npos)
+      << text;
+  EXPECT_NE(text.find("thermal.intrinsics.cy: the principal point must lie in the picture"), std::string::npos)
+      << "without the two rows of telemetry the picture has 120\n"
+      << text;
+}
+
+TEST(RobotProfile, ACalibrationThatIsMissingIsAWrongArgument) {
+  const auto profile = loaded("camera: {intrinsics: {calibration: nowhere.yaml}}");
+  ASSERT_FALSE(profile);
+  EXPECT_EQ(profile.error().code, Errc::kInvalidConfig);
+  EXPECT_NE(to_string(profile.error()).find("camera.intrinsics.calibration"), std::string::npos);
+  EXPECT_NE(to_string(profile.error()).find("nowhere.yaml"), std::string::npos);
+}
+
 TEST(RobotProfile, WithoutAFileTheDefaultsHold) {
   const auto profile = load_profile({});
   ASSERT_TRUE(profile);

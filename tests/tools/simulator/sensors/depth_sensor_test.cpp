@@ -100,8 +100,8 @@ TEST(DepthSensor, TheDriverMakesPointsOfItThatLieOnTheWorld) {
   driver.capture.width = lens.width;
   driver.capture.height = lens.height;
   driver.fx = driver.fy = lens.fx;
-  driver.cx = lens.cx;
-  driver.cy = lens.cy;
+  driver.cx = lens.cx - 0.5;
+  driver.cy = lens.cy - 0.5;
   auto decoder = depth::DepthCamera::create(driver);
   ASSERT_TRUE(decoder);
   const auto scan = decoder->decode(packet);
