@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/camera/camera.hpp"
 
+#include <algorithm>
+
 #include "drivers/camera/convert.hpp"
 
 namespace cairn::camera {
@@ -11,6 +13,21 @@ Result<StereoView> split_side_by_side(const ImageView& both) {
   eyes.left.width = eyes.right.width = both.width / 2;
   if (!both.empty()) eyes.right.bytes = both.bytes.subspan(both.row(0).size() / 2);
   return eyes;
+}
+
+Result<void> left_eye(const Image& both, Image& left) {
+  const auto eyes = split_side_by_side(both.view());
+  if (!eyes) return eyes.error();
+  left.source = both.source;
+  left.sequence = both.sequence;
+  left.stamp = both.stamp;
+  left.start_of_exposure = both.start_of_exposure;
+  left.resize(both.format, eyes->left.width, eyes->left.height);
+  for (int y = 0; y < left.height; ++y) {
+    const auto row = eyes->left.row(y);
+    std::ranges::copy(row, left.bytes.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * left.stride));
+  }
+  return {};
 }
 
 Result<Camera> Camera::create(const Config& config) {

@@ -12,6 +12,8 @@ struct StereoView {
 };
 /// The left half is the left eye's (stereolabs/zed-open-capture). Copies nothing. Error: kMalformed for an odd width.
 [[nodiscard]] Result<StereoView> split_side_by_side(const ImageView& both);
+/// Copies the left eye; `left` reuses its memory. Error: kMalformed for an odd width.
+[[nodiscard]] Result<void> left_eye(const Image& both, Image& left);
 
 /// Frames in packets (frame.hpp) → pictures. Refuses packets that come twice or are older than the last one.
 class Camera final : public ImageDecoder {

@@ -8,7 +8,8 @@ namespace {
 
 std::vector<std::string> format_options() {
   std::vector<std::string> options;
-  for (const FormatInfo& f : formats()) options.emplace_back(f.name);
+  for (const FormatInfo& f : formats())
+    if (f.format != FrameFormat::kPng) options.emplace_back(f.name);
   return options;
 }
 

@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "drivers/camera/jpeg_header.hpp"
+#include "drivers/camera/picture_file.hpp"
 
 namespace cairn::camera {
 namespace {
@@ -38,25 +38,28 @@ void convert_nv12(const Frame& frame, Image& image) {
   cv::cvtColorTwoPlane(y, uv, out, cv::COLOR_YUV2BGR_NV12);
 }
 
-Result<void> check_jpeg(const Frame& frame) {
-  const auto header = parse_jpeg_header(frame.payload);
+/// Of a file, JPEG or PNG.
+Result<void> check_file(const Frame& frame) {
+  const auto header = parse_picture_header(frame.payload);
   if (!header) return header.error();
+  const PictureKind kind = frame.info->format == FrameFormat::kMjpg ? PictureKind::kJpeg : PictureKind::kPng;
+  if (header->kind != kind) return Error{Errc::kMalformed, "a frame holds a file of another kind than it says"};
   if (header->width != frame.header.width || header->height != frame.header.height)
     return Error{Errc::kMalformed,
-                 "JPEG has another size than was negotiated",
+                 "a picture has another size than was negotiated",
                  {},
                  {},
                  std::to_string(header->width) + "x" + std::to_string(header->height)};
   return {};
 }
 
-Result<void> decode_jpeg(const Frame& frame, Image& image) {
+Result<void> decode_file(const Frame& frame, Image& image) {
   const cv::Mat in(1, static_cast<int>(frame.payload.size()), CV_8UC1, readable(frame.payload));
   cv::Mat out = wrap(image, CV_8UC3);
   // The orientation in a camera's EXIF block would swap width and height.
   cv::imdecode(in, cv::IMREAD_COLOR | cv::IMREAD_IGNORE_ORIENTATION, &out);
   if (out.data == reinterpret_cast<uchar*>(image.bytes.data())) return {};
-  return Error{Errc::kMalformed, "JPEG cannot be decoded"};
+  return Error{Errc::kMalformed, "the picture cannot be decoded"};
 }
 
 PixelFormat pixel_format(FrameFormat format) {
@@ -81,7 +84,8 @@ Result<void> convert(const Frame& frame, Image& image) {
     case FrameFormat::kNv12:
       return convert_nv12(frame, image), Result<void>{};
     case FrameFormat::kMjpg:
-      return decode_jpeg(frame, image);
+    case FrameFormat::kPng:
+      return decode_file(frame, image);
     default:
       return copy_rows(frame, image), Result<void>{};
   }
@@ -90,8 +94,8 @@ Result<void> convert(const Frame& frame, Image& image) {
 }  // namespace
 
 Result<void> to_image(const Frame& frame, Image& image) {
-  if (frame.info->format == FrameFormat::kMjpg)
-    if (auto sound = check_jpeg(frame); !sound) return sound;  // before any memory is taken for it
+  if (frame.info->pixel_bytes == 0)
+    if (auto sound = check_file(frame); !sound) return sound;  // before any memory is taken for it
   image.resize(pixel_format(frame.info->format), static_cast<int>(frame.header.width),
                static_cast<int>(frame.header.height));
   try {

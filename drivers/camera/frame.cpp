@@ -13,7 +13,8 @@ constexpr std::array kFormats{
     FormatInfo{FrameFormat::kYuyv, "YUYV", 2, 2, false}, FormatInfo{FrameFormat::kUyvy, "UYVY", 2, 2, false},
     FormatInfo{FrameFormat::kNv12, "NV12", 1, 2, true},  FormatInfo{FrameFormat::kGrey, "GREY", 1, 1, false},
     FormatInfo{FrameFormat::kBgr, "BGR3", 3, 1, false},  FormatInfo{FrameFormat::kMjpg, "MJPG", 0, 1, false},
-    FormatInfo{FrameFormat::kY16, "Y16", 2, 1, false},   FormatInfo{FrameFormat::kZ16, "Z16", 2, 1, false}};
+    FormatInfo{FrameFormat::kPng, "PNG", 0, 1, false},   FormatInfo{FrameFormat::kY16, "Y16", 2, 1, false},
+    FormatInfo{FrameFormat::kZ16, "Z16", 2, 1, false}};
 
 constexpr std::uint32_t kStartOfExposure = 1;
 

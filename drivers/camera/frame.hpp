@@ -24,8 +24,9 @@ enum class FrameFormat : std::uint32_t {
   kUyvy = fourcc("UYVY"),  ///< U Y0 V Y1
   kNv12 = fourcc("NV12"),  ///< a Y plane, then a plane of U V pairs at half the width and height
   kGrey = fourcc("GREY"),  ///< 8 bit
-  kBgr = fourcc("BGR3"),   ///< 8 bit blue, green, red; also a colour PNG in a replay
+  kBgr = fourcc("BGR3"),   ///< 8 bit blue, green, red
   kMjpg = fourcc("MJPG"),  ///< one JPEG per frame
+  kPng = fourcc("PNG "),   ///< one PNG per frame, 8 bit colour; of replays, no device sends it
   kY16 = fourcc("Y16 "),   ///< 16 bit little-endian
   kZ16 = fourcc("Z16 "),   ///< 16 bit depth, little-endian
 };

@@ -41,6 +41,12 @@ void append_rows(const cv::Mat& pixels, std::vector<std::byte>& packet) {
   }
 }
 
+/// 8-bit colour without a palette: PNG specification, "IHDR".
+bool is_colour_png(std::span<const std::byte> file) {
+  constexpr std::size_t kDepth = 24, kColourType = 25;
+  return file.size() > kColourType && file[kDepth] == std::byte{8} && file[kColourType] == std::byte{2};
+}
+
 int matrix_type(PixelFormat format) {
   if (format == PixelFormat::kBgr8) return CV_8UC3;
   return format == PixelFormat::kMono8 ? CV_8UC1 : CV_16UC1;
@@ -52,8 +58,10 @@ Result<void> picture_to_packet(std::span<const std::byte> file, FrameFormat deep
   const auto header = parse_picture_header(file);
   if (!header) return header.error();
   packet.clear();
-  FrameHeader frame{static_cast<std::uint32_t>(FrameFormat::kMjpg), header->width, header->height, 0, false};
-  if (header->kind == PictureKind::kJpeg) {
+  const bool jpeg = header->kind == PictureKind::kJpeg;
+  FrameHeader frame{static_cast<std::uint32_t>(jpeg ? FrameFormat::kMjpg : FrameFormat::kPng), header->width,
+                    header->height, 0, false};
+  if (jpeg || (header->kind == PictureKind::kPng && is_colour_png(file))) {
     append_header(packet, frame);
     packet.insert(packet.end(), file.begin(), file.end());
     return {};
@@ -72,9 +80,9 @@ Result<void> picture_to_packet(std::span<const std::byte> file, FrameFormat deep
 }
 
 Result<std::string_view> frame_to_picture(const Frame& frame, std::vector<std::byte>& encoded) {
-  if (frame.info->format == FrameFormat::kMjpg) {
+  if (frame.info->pixel_bytes == 0) {
     encoded.assign(frame.payload.begin(), frame.payload.end());
-    return std::string_view(".jpg");
+    return std::string_view(frame.info->format == FrameFormat::kMjpg ? ".jpg" : ".png");
   }
   Image image;
   if (auto converted = to_image(frame, image); !converted) return converted.error();

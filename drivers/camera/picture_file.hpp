@@ -24,13 +24,14 @@ struct PictureHeader {
 /// tiled, and no strip may be higher than the picture. Errors: kMalformed, kTruncated, kUnsupported, kLimit.
 [[nodiscard]] Result<PictureHeader> parse_picture_header(std::span<const std::byte> file);
 
-/// Turns a picture file into the frame that a device would have sent: colour into BGR3, 8-bit grey into GREY, 16-bit
-/// grey into `deep` (kY16 or kZ16). A JPEG becomes MJPG and is not decoded. Replaces the bytes of `packet` by header
-/// and payload. Errors as above, and kUnsupported for other depths and channels.
+/// Turns a picture file into the frame that a device would have sent: 8-bit grey into GREY, 16-bit grey into `deep`
+/// (kY16 or kZ16), colour of a TIFF or with a palette into BGR3. A JPEG becomes MJPG and a colour PNG becomes kPng:
+/// neither is decoded here, where a task that reads packets may wait. Replaces the bytes of `packet` by header and
+/// payload. Errors as above, and kUnsupported for other depths and channels.
 [[nodiscard]] Result<void> picture_to_packet(std::span<const std::byte> file, FrameFormat deep,
                                              std::vector<std::byte>& packet);
 
-/// Turns a frame into a file that gives the same pixels back: MJPG stays as it is (".jpg"), other formats become PNG,
+/// Turns a frame into a file that gives the same pixels back: MJPG and kPng stay as they are, other formats become PNG,
 /// YUV is converted to colour. `encoded` is replaced. Returns the extension of the file name.
 [[nodiscard]] Result<std::string_view> frame_to_picture(const Frame& frame, std::vector<std::byte>& encoded);
 

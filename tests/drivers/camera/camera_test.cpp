@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "tests/drivers/camera/frames.hpp"
 
 namespace cairn::camera {
@@ -70,6 +72,20 @@ TEST(Stereo, TheLeftHalfIsTheLeftEyeAndNothingIsCopied) {
       }
   EXPECT_EQ(eyes->left.bytes.data(), both.bytes.data());
   EXPECT_EQ(eyes->right.bytes.data(), both.bytes.data() + 12);
+}
+
+TEST(Stereo, TheLeftEyeIsAPictureOfItsOwn) {
+  Image both, left;
+  both.resize(PixelFormat::kBgr8, 8, 3);
+  both.stamp = Time{Duration{77}};
+  both.source = SourceId{2};
+  both.bytes = test::random_bytes(both.bytes.size(), 5);
+  ASSERT_TRUE(left_eye(both, left));
+  EXPECT_EQ(left.width, 4);
+  EXPECT_EQ(left.stamp, both.stamp);
+  EXPECT_EQ(left.source, both.source);
+  const ImageView expected = split_side_by_side(both.view())->left;
+  for (int y = 0; y < 3; ++y) EXPECT_TRUE(std::ranges::equal(left.view().row(y), expected.row(y)));
 }
 
 TEST(Stereo, AnOddWidthHasNoHalves) {

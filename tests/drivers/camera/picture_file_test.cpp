@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <opencv2/imgcodecs.hpp>
 
+#include "drivers/camera/convert.hpp"
 #include "hal/files/file.hpp"
 #include "tests/drivers/camera/frames.hpp"
 #include "tests/drivers/recording/files.hpp"
@@ -44,9 +45,9 @@ TEST(PictureFile, BecomesTheFrameThatADeviceWouldHaveSent) {
     int type;
     FrameFormat format;
   };
-  for (const Case& c : {Case{".png", CV_8UC1, FrameFormat::kGrey}, Case{".png", CV_8UC3, FrameFormat::kBgr},
+  for (const Case& c : {Case{".png", CV_8UC1, FrameFormat::kGrey}, Case{".png", CV_8UC3, FrameFormat::kPng},
                         Case{".png", CV_16UC1, FrameFormat::kZ16}, Case{".tiff", CV_16UC1, FrameFormat::kZ16},
-                        Case{".jpg", CV_8UC3, FrameFormat::kMjpg}}) {
+                        Case{".jpg", CV_8UC3, FrameFormat::kMjpg}, Case{".tiff", CV_8UC3, FrameFormat::kBgr}}) {
     Bytes packet;
     ASSERT_TRUE(picture_to_packet(encoded(c.extension, c.type), FrameFormat::kZ16, packet)) << c.extension << c.type;
     const auto frame = parse_frame(packet);
@@ -57,6 +58,26 @@ TEST(PictureFile, BecomesTheFrameThatADeviceWouldHaveSent) {
   Bytes packet;
   EXPECT_EQ(picture_to_packet(encoded(".png", CV_8UC4), FrameFormat::kY16, packet).error().code, Errc::kUnsupported);
   EXPECT_EQ(picture_to_packet(encoded(".png", CV_16UC3), FrameFormat::kY16, packet).error().code, Errc::kUnsupported);
+}
+
+TEST(PictureFile, AColourPngIsDecodedByWhoLooksAtIt) {
+  const Bytes png = encoded(".png", CV_8UC3);
+  Bytes packet, again;
+  ASSERT_TRUE(picture_to_packet(png, FrameFormat::kY16, packet));
+  auto frame = parse_frame(packet);
+  ASSERT_TRUE(frame);
+  Image image;
+  ASSERT_TRUE(to_image(*frame, image));
+  EXPECT_EQ(image.format, PixelFormat::kBgr8);
+  EXPECT_EQ(image.width, 33);
+  EXPECT_EQ(frame_to_picture(*frame, again).value(), ".png");
+  EXPECT_EQ(again, png);
+  frame->payload = frame->payload.first(png.size() / 2);
+  EXPECT_EQ(to_image(*frame, image).error().code, Errc::kMalformed) << "cut off";
+  frame->header.width = 34;
+  EXPECT_EQ(to_image(*frame, image).error().code, Errc::kMalformed) << "of another size than the header says";
+  frame->header.format = static_cast<std::uint32_t>(FrameFormat::kMjpg);
+  EXPECT_FALSE(to_image(check_frame(frame->header, frame->payload).value(), image)) << "no JPEG";
 }
 
 TEST(PictureFile, ClaimedSizesAreBoundedBeforeAnyMemoryIsTaken) {

@@ -193,7 +193,7 @@ TEST(InspectRealFiles, KittisSweepsAndPictures) {
   EXPECT_LT(json["box"]["farthest_m"], 130);
   const auto picture = support::recorded_data("kitti/raw_2011_09_26/image_02/data/0000000000.png");
   const auto of_picture = inspect_at({picture.string(), "--json"}).json();
-  EXPECT_EQ(of_picture["format"], "BGR3");
+  EXPECT_EQ(of_picture["format"], "PNG");
   EXPECT_GT(of_picture["width"], 1000);
   const auto tiff = support::recorded_data("thermal/example_radiometric.tiff");
   EXPECT_EQ(inspect_at({tiff.string(), "--json"}).json()["kind"], "picture");
