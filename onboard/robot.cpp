@@ -12,7 +12,9 @@ Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapp
       mapper_(config.mapping, mapping_workers),
       monitor_(monitor),
       odometry_stage_(monitor.stage("odometry")),
-      mapping_stage_(monitor.stage("mapping")) {}
+      mapping_stage_(monitor.stage("mapping")) {
+  set_up_labelling(config.labelling);
+}
 
 Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapping_workers, Monitor& monitor,
              const Resume& saved)
@@ -22,6 +24,7 @@ Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapp
       monitor_(monitor),
       odometry_stage_(monitor.stage("odometry")),
       mapping_stage_(monitor.stage("mapping")) {
+  set_up_labelling(config.labelling);
   odometry_.resume(saved.T_odom_base, saved.twist, saved.stamp, saved.scans);
   LocatedScan located;
   for (const odometry::PlacedScan& scan : saved.scans) {
@@ -34,6 +37,10 @@ Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapp
   }
 }
 
+void Robot::set_up_labelling(const std::optional<LabellingSetup>& setup) {
+  if (setup) labeller_.emplace(setup->camera, setup->T_base_camera, setup->config);
+}
+
 Result<TrackPoint> Robot::locate(const Scan& scan, Budget& budget, LocatedScan& located, const DriveState* wheels) {
   const StageTimer timing(odometry_stage_);
   const bool resuming = odometry_.resuming();
@@ -43,6 +50,7 @@ Result<TrackPoint> Robot::locate(const Scan& scan, Budget& budget, LocatedScan& 
   if (motion->lost) monitor_.event(motion->stamp, "odometry", "lost: the scan does not fit the map of the recent past");
   located.stamp = motion->stamp;
   located.T_odom_base = motion->T_odom_base;
+  located.twist = motion->twist;
   located.points_base.assign(motion->points_base.begin(), motion->points_base.end());
   if (motion->began || motion->apart) ++epoch_;
   if (motion->apart)
@@ -87,7 +95,22 @@ Result<void> Robot::extend_map(const LocatedScan& scan, const MapShare& share) {
   const Eigen::Vector3f origin_odom = (T_odom_base * T_base_lidar_.translation()).cast<float>();
   const auto inserted = mapper_.insert(points_odom_, origin_odom);
   if (!inserted) return inserted.error();
+  if (labeller_) (void)recent_.add(scan.stamp, T_odom_base, scan.twist, scan.epoch, scan.points_base);
   return {};
+}
+
+Result<std::optional<mapping::LabelReport>> Robot::label_map(const LabelImage& labels) {
+  if (!labeller_) return Error{Errc::kUnsupported, "labels came, but no calibrated camera is set up"};
+  if (recent_.size() == 0 || recent_[recent_.size() - 1].stamp < labels.stamp) return std::nullopt;
+  const StageTimer timing(monitor_.stage("label_update"));
+  const auto T_odom_base = recent_.pose_at(labels.stamp);
+  const labelling::PlacedScan* scan = recent_.nearest(labels.stamp);
+  if (!T_odom_base || scan->epoch != mapped_epoch_)
+    return Error{Errc::kNotFound, "no scans around the picture: its labels are left out"};
+  const Vector6 twist = recent_.twist_at(labels.stamp).value_or(Vector6::Zero());
+  const auto labelled = labeller_->label(labels, *scan, {*T_odom_base, twist}, labelled_points_);
+  if (!labelled) return labelled.error();
+  return mapper_.label(labelled_points_);
 }
 
 }  // namespace cairn

@@ -3,11 +3,13 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "hal/budget.hpp"
 #include "hal/drive.hpp"
+#include "hal/labels.hpp"
 #include "hal/monitor.hpp"
 #include "hal/point_cloud.hpp"
 #include "hal/result.hpp"
@@ -15,14 +17,25 @@
 #include "hal/workers.hpp"
 #include "onboard/mapping/mapper.hpp"
 #include "onboard/odometry/odometry.hpp"
+#include "onboard/perception/cameras/camera_model.hpp"
+#include "onboard/perception/labelling/located_scans.hpp"
+#include "onboard/perception/labelling/point_labeller.hpp"
 
 namespace cairn {
+
+/// The camera whose pictures label the map.
+struct LabellingSetup {
+  cameras::CameraModel camera;
+  SE3 T_base_camera;  ///< how it is mounted, in body axes: x along its view, y left, z up
+  labelling::LabellingConfig config;
+};
 
 /// One robot: the pose of its LiDAR in base_link, and the settings of odometry and mapping.
 struct RobotConfig {
   SE3 T_base_lidar;  ///< how the LiDAR is mounted
   odometry::OdometryConfig odometry;
   mapping::MappingConfig mapping;
+  std::optional<LabellingSetup> labelling;  ///< none: the map gets no labels
 };
 
 /// Where the robot was when a scan ended, and how certain that is.
@@ -41,6 +54,7 @@ struct TrackPoint {
 struct LocatedScan {
   Time stamp{};
   UncertainPose T_odom_base;
+  Vector6 twist = Vector6::Zero();           ///< of base_link in base_link: m/s, rad/s
   std::vector<Eigen::Vector3f> points_base;  ///< deskewed, in base_link at `stamp`, in metres
   std::uint32_t epoch = 0;                   ///< see TrackPoint
   bool lost = false;                         ///< the pose is only a prediction
@@ -68,8 +82,8 @@ struct EarlierMap {
   std::unique_ptr<mapping::SemanticOcTree> tree;
 };
 
-/// One robot: scans in, trajectory and map out. Deterministic for any number of threads. locate()
-/// and extend_map() may run at the same time on two threads.
+/// One robot: scans and labels of pictures in, trajectory and map out. Deterministic for any number of threads.
+/// locate() and extend_map() may run at the same time on two threads.
 class Robot {
  public:
   /// The workers (one set for each of the two stages) and `monitor` are borrowed and must outlive
@@ -88,6 +102,12 @@ class Robot {
   /// Adds a scan to the map, where its pose is trusted. On an error (kLimit: the map's memory) the
   /// map is as before.
   Result<void> extend_map(const LocatedScan& scan, const MapShare& share = {});
+
+  /// Labels the map by what a picture shows: the points of the scan nearest to the exposure, seen from where the camera
+  /// was then. Nothing while the scan after the picture is still to come. Occupancy does not change. Of extend_map()'s
+  /// thread. Errors: kNotFound (no scans around the picture, or the map of them has ended), kMalformed, kUnsupported
+  /// (the robot has no LabellingSetup).
+  Result<std::optional<mapping::LabelReport>> label_map(const LabelImage& labels);
 
   /// The next scan decides whether the robot is where the previous run ended. Grant it every
   /// iteration.
@@ -113,6 +133,7 @@ class Robot {
   SE3 T_base_lidar_;
   odometry::LidarOdometry odometry_;
   mapping::Mapper mapper_;
+  void set_up_labelling(const std::optional<LabellingSetup>& setup);
   void begin_map(std::uint32_t epoch);
 
   Monitor& monitor_;
@@ -124,6 +145,9 @@ class Robot {
   std::vector<EarlierMap> earlier_;
   std::size_t dropped_maps_ = 0;
   std::vector<Eigen::Vector3f> points_odom_;  // reused
+  std::optional<labelling::PointLabeller> labeller_;
+  labelling::LocatedScans recent_;              // of mapping; empty without a labeller
+  std::vector<LabelledPoint> labelled_points_;  // reused
 };
 
 }  // namespace cairn

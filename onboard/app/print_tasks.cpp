@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/print_tasks.hpp"
 
+#include <utility>
 #include <vector>
 
 #include "hal/monitor.hpp"
 #include "onboard/app/door/devices.hpp"
+#include "onboard/app/perception/open_perception.hpp"
 #include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
 #include "onboard/app/team/join_team.hpp"
@@ -45,7 +47,9 @@ Result<std::string> print_tasks(const RunOptions& options) {
   const auto sources = sources_of(options, profile);
   if (!sources) return sources.error();
   Monitor monitor;
-  RobotTasks tasks(*sources, profile, options, {}, monitor);
+  auto sight = open_perception(options, profile, chosen->file, *sources, monitor);
+  if (!sight) return sight.error();
+  RobotTasks tasks(*sources, profile, options, {}, std::move(*sight), monitor);
   if (options.live()) add_live_only_tasks(options, profile.schedule, tasks);
   return tasks.graph.to_text();
 }

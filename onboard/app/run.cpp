@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "onboard/app/commands/serve_commands.hpp"
+#include "onboard/app/perception/open_perception.hpp"
 #include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/app/restart/restart.hpp"
 #include "onboard/app/restart/start_log.hpp"
@@ -36,11 +37,15 @@ Result<void> make_socket_folder(const std::filesystem::path& folder) {
   return {};
 }
 
+Devices devices_for(const RunOptions& options, const RobotProfile& profile) {
+  if (!options.record.empty()) return Devices::kAll;
+  return wants_camera(options, profile) ? Devices::kUsedAndCamera : Devices::kUsed;
+}
+
 Result<Door> open_door(const RunOptions& options, RobotProfile& profile, const Clock& clock, Monitor& monitor) {
-  auto door = options.recording.empty()
-                  ? open_devices(profile, options.record.empty() ? Devices::kUsed : Devices::kAll, clock, monitor)
-              : options.peers ? play_recording(options.recording, profile, clock, monitor)
-                              : open_recording(options.recording, profile, monitor);
+  auto door = options.recording.empty() ? open_devices(profile, devices_for(options, profile), clock, monitor)
+              : options.peers           ? play_recording(options.recording, profile, clock, monitor)
+                                        : open_recording(options.recording, profile, monitor);
   if (!door) return door;
   if (const auto taken = take_schedule(options, *door); !taken) return taken.error();
   if (options.live() && !options.recording.empty()) forget_recorded(recording::kCommands, *door);
@@ -52,8 +57,8 @@ Result<Door> open_door(const RunOptions& options, RobotProfile& profile, const C
   return door;
 }
 
-Result<void> check_schedule(const RobotProfile& profile) {
-  const auto tasks = profile.schedule.tasks(profile.team.id != 0);
+Result<void> check_schedule(const RunOptions& options, const RobotProfile& profile) {
+  const auto tasks = profile.schedule.tasks(profile.team.id != 0, wants_camera(options, profile));
   return scheduler::validate(tasks, static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
 }
 
@@ -90,7 +95,7 @@ Result<ChosenProfile> checked_profile(const RunOptions& options) {
   if (!chosen) return chosen.error();
   if (options.threads) chosen->profile.threads = *options.threads;
   if (options.live())
-    if (const auto fits = check_schedule(chosen->profile); !fits) return fits.error();
+    if (const auto fits = check_schedule(options, chosen->profile); !fits) return fits.error();
   return chosen;
 }
 
@@ -118,7 +123,9 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
   if (state) previous = find_previous_run(*state, *profile, clock.now(), result->monitor);
   if (!live) previous.resumed = resumed_in_recording(options.recording, result->monitor);
 
-  RobotTasks tasks(door->recording.sources, *profile, options, previous, result->monitor);
+  auto sight = open_perception(options, *profile, chosen->file, door->recording.sources, result->monitor);
+  if (!sight) return sight.error();
+  RobotTasks tasks(door->recording.sources, *profile, options, previous, std::move(*sight), result->monitor);
   const RunContext context{.door = *door,
                            .profile = *profile,
                            .options = options,

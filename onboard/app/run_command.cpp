@@ -22,7 +22,7 @@ namespace {
 struct Arguments {
   RunOptions run;
   std::filesystem::path budgets;
-  std::string speed = "real";
+  std::string speed = "real", networks = "run";
   bool json = false;
   bool print_tasks = false;
 };
@@ -58,7 +58,12 @@ std::string kept_results(const RunResult& result, const std::filesystem::path& o
   return "; the earlier results in " + out.string() + " are kept, those of this run are in " + result.folder.string();
 }
 
+NetworkUse network_use(const std::string& word) {
+  return word == "off" ? NetworkUse::kOff : word == "recorded" ? NetworkUse::kRecorded : NetworkUse::kRun;
+}
+
 int run_robot(Arguments a) {
+  a.run.networks = network_use(a.networks);
   if (a.print_tasks) return show_tasks(a.run);
   std::vector<report::BudgetLimit> limits;
   if (!a.budgets.empty()) {
@@ -129,6 +134,10 @@ void add_run_options(CLI::App& app, Commands& commands) {
   app.add_option("--speed", a->speed, "pace of a recording: as it was made, or as fast as possible")
       ->check(CLI::IsMember({"real", "max"}))
       ->default_val("real");
+  app.add_option("--networks", a->networks,
+                 "who labels pictures: nobody (off), the networks of the profile (run), or labels/ of the recording")
+      ->check(CLI::IsMember({"off", "run", "recorded"}))
+      ->default_val("run");
   app.add_option("--assert", a->budgets,
                  "fail when one of these budgets is exceeded, such as config/budgets/husky.yaml");
   app.add_option("--threads", a->run.threads,

@@ -78,11 +78,28 @@ void add_shed(const MappingTask& mapping, report::RunReport& report) {
   for (int i = 0; i < safety::kShedLevels; ++i) {
     const auto level = static_cast<safety::Shed>(i);
     const std::uint64_t scans = mapping.scans_at()[static_cast<std::size_t>(i)];
-    if (i == 0 || safety::in_force(level) == level)
+    if (i == 0 || safety::in_force(level, mapping.takes_labels()) == level)
       report.shed.emplace_back(to_string(level), scans);
     else
       report.shed.front().second += scans;
   }
+}
+
+void add_labels(const RobotTasks& tasks, const Monitor& monitor, report::RunReport& report) {
+  if (!tasks.perception) return;
+  const PerceptionTask::Figures& looked = tasks.perception->figures();
+  const LabelJoiner::Figures& joined = tasks.mapping.label_figures();
+  report.labels = report::LabelStats{.images = joined.images,
+                                     .points = joined.points,
+                                     .voxels = joined.voxels,
+                                     .latency_p99_ms = std::nullopt,
+                                     .passed = looked.passed,
+                                     .shed = looked.shed,
+                                     .refused = looked.refused + looked.unlabelled,
+                                     .apart = joined.apart};
+  for (const StageStats& stage : monitor.stages())
+    if (stage.name == kPictureToMap && stage.wall.count() > 0)
+      report.labels->latency_p99_ms = to_milliseconds(stage.wall.percentile(0.99));
 }
 
 /// Empty where the recording knows no time of day.
@@ -126,6 +143,7 @@ report::RunReport make_report(const RunFacts& facts) {
   report.mode = to_string(facts.tasks.safety.decision().mode);
   if (const auto cause = facts.tasks.safety.decision().cause) report.mode_cause = to_string(*cause);
   add_shed(facts.tasks.mapping, report);
+  add_labels(facts.tasks, facts.monitor, report);
   report.monitor = &facts.monitor;
   for (const TrackPoint& p : track) report.trajectory.push_back({p.stamp, p.T_odom_base});
   report.map = report::summarise(facts.tasks.robot.map());

@@ -57,7 +57,8 @@ class Mapper {
   [[nodiscard]] const MappingConfig& config() const { return config_; }
 
   /// Tiles in which, since the last take_changed_tiles(), a voxel became known, went from free to occupied or back, or
-  /// got a class or another one; in canonical order, each once. Log-odds that merely move do not count: in the open, every scan moves nearly all.
+  /// got a class or another one; in canonical order, each once. Log-odds that merely move do not count: in the open,
+  /// every scan moves nearly all.
   [[nodiscard]] std::span<const TileKey> changed_tiles() const { return changed_; }
   [[nodiscard]] std::vector<TileKey> take_changed_tiles();
 

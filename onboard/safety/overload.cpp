@@ -12,7 +12,9 @@ std::string_view to_string(Shed level) {
   return kNames[static_cast<std::size_t>(level)];
 }
 
-Shed in_force(Shed level) { return level < Shed::kMapDensity ? Shed::kNothing : level; }
+Shed in_force(Shed level, bool labels) {
+  return level < (labels ? Shed::kSemantics : Shed::kMapDensity) ? Shed::kNothing : level;
+}
 
 ShedPlan plan_of(Shed level) {
   ShedPlan plan;

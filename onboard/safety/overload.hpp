@@ -14,15 +14,15 @@ namespace cairn::safety {
 enum class Shed : std::uint8_t {
   kNothing,
   kPeerTiles,       ///< leaves nothing out: reserved for peers' tiles, which another task folds
-  kSemantics,       ///< leaves nothing out: reserved for labels, which do not exist yet
+  kSemantics,       ///< no picture is looked at, so the map gets no labels
   kMapDensity,      ///< every 2nd point goes into the map
   kScanDecimation,  ///< every 4th point of every 2nd scan does
 };
 inline constexpr int kShedLevels = 5;
 [[nodiscard]] std::string_view to_string(Shed level);
 
-/// The level as a report may name it: kNothing for one that leaves nothing out.
-[[nodiscard]] Shed in_force(Shed level);
+/// The level as a report may name it: kNothing for one that leaves nothing out. `labels`: the map gets labels.
+[[nodiscard]] Shed in_force(Shed level, bool labels);
 
 /// What a level means for mapping.
 struct ShedPlan {

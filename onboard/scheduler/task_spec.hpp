@@ -20,6 +20,7 @@ struct TaskSpec {
   double hard_ms = 0;      ///< execution time above which a tick has failed; 0: none declared
   double busy_hz = 0;      ///< releases per second that find work, such as a scan; 0: all of them
   int priority = 0;        ///< SCHED_FIFO 1…99; 0: SCHED_OTHER
+  int nice = 0;            ///< of SCHED_OTHER: 0…19, the higher the weaker
   int core = -1;           ///< the CPU that it is bound to; -1: any
 
   [[nodiscard]] Duration period() const { return from_seconds(1.0 / rate_hz); }

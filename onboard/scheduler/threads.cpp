@@ -29,6 +29,8 @@ void apply(const ThreadPlan& plan) {
     const sched_param parameter{plan.priority};
     pthread_setschedparam(pthread_self(), SCHED_FIFO, &parameter);
   }
+  // For Linux, 0 is the calling thread.
+  if (plan.nice > 0) (void)setpriority(PRIO_PROCESS, 0, plan.nice);
   if (plan.core < 0 || plan.core >= CPU_SETSIZE) return;
   cpu_set_t cores;
   CPU_ZERO(&cores);

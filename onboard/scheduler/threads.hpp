@@ -14,12 +14,13 @@ namespace cairn::scheduler {
 struct ThreadPlan {
   std::string name;  ///< as ps and top show it; 15 characters are kept
   int priority = 0;  ///< SCHED_FIFO 1…99; 0: SCHED_OTHER
+  int nice = 0;      ///< of SCHED_OTHER; 0: as the process
   int core = -1;     ///< -1: any
 };
 
 /// The plan of the thread that runs a task.
 [[nodiscard]] inline ThreadPlan plan_of(const TaskSpec& spec) {
-  return {.name = spec.name, .priority = spec.priority, .core = spec.core};
+  return {.name = spec.name, .priority = spec.priority, .nice = spec.nice, .core = spec.core};
 }
 
 /// Threads that are joined together. The onboard program starts its own threads here and nowhere else; hal/workers

@@ -5,7 +5,7 @@
 
 #include "onboard/app/restart/generations.hpp"
 #include "onboard/app/restart/start_log.hpp"
-#include "onboard/app/tasks/odometry_task.hpp"
+#include "onboard/app/tasks/mapping_task.hpp"
 #include "onboard/safety/failsafe.hpp"
 #include "onboard/safety/health.hpp"
 #include "onboard/safety/overload.hpp"

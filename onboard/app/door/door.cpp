@@ -58,7 +58,15 @@ class UnreadableSource final : public Source {
   bool said_ = false;
 };
 
-bool is_used(const SourceEntry& entry) { return !recording::is_picture_kind(entry.kind); }
+bool is_used(const SourceEntry& entry, Devices which) {
+  return which == Devices::kAll || !recording::is_picture_kind(entry.kind) ||
+         (which == Devices::kUsedAndCamera && entry.kind == recording::kCamera);
+}
+
+/// Geometry goes on without it.
+bool may_be_missing(const SourceEntry& entry, Devices which) {
+  return which != Devices::kAll && recording::is_picture_kind(entry.kind);
+}
 
 Result<Input> open_live(const RobotProfile& profile, const SourceEntry& entry, SourceId id, const Clock& clock) {
   auto device = open_device(profile, entry, id, clock);
@@ -109,9 +117,13 @@ Result<Door> open_devices(const RobotProfile& profile, Devices which, const Cloc
   door.recording.robot = profile.name;
   door.recording.realtime_offset_ns = utc_offset.count();
   for (const SourceEntry& entry : devices_of(profile)) {
-    if (which == Devices::kUsed && !is_used(entry)) continue;
+    if (!is_used(entry, which)) continue;
     const auto id = static_cast<SourceId>(door.inputs.size());
     auto input = open_live(profile, entry, id, clock);
+    if (!input && may_be_missing(entry, which)) {
+      monitor.event(clock.now(), "perception", to_string(input.error()));
+      continue;
+    }
     if (!input) return input.error();
     RobotProfile unchanged = profile;
     auto decoder = decoder_for(entry, id, utc_offset, unchanged, monitor);

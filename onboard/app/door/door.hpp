@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -40,8 +41,9 @@ struct Door {
   std::optional<scheduler::ScheduleLog> schedule;  ///< of the live run that made the recording
 };
 
-/// Which devices a live run opens: those that it uses, or all of the profile, because it records them.
-enum class Devices : bool { kUsed, kAll };
+/// Which devices a live run opens: those that geometry and safety use, the colour camera too because its pictures are
+/// looked at, or all of the profile, because it records them.
+enum class Devices : std::uint8_t { kUsed, kUsedAndCamera, kAll };
 
 /// Opens the devices of the profile; they listen from now on. Decoders report events to `monitor`. `monitor` and
 /// `clock` must outlive the door. Errors: kInvalidConfig (the robot has no LiDAR), those of a driver.

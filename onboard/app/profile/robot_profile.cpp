@@ -11,7 +11,7 @@
 namespace cairn::app {
 
 RobotConfig RobotProfile::robot() const {
-  return {SE3::from_xyz_rpy(Eigen::Map<const Vector6>(lidar.base_xyz_rpy.data())), odometry, mapping};
+  return {SE3::from_xyz_rpy(Eigen::Map<const Vector6>(lidar.base_xyz_rpy.data())), odometry, mapping, std::nullopt};
 }
 
 void declare(config::Section& s, RobotProfile& p) {
@@ -29,6 +29,7 @@ void declare(config::Section& s, RobotProfile& p) {
   s.number("odometry_deadline_s", p.odometry_deadline_s, {0.001, 10}, "s",
            "live: no further refinement of a pose this long after its last packet");
   s.group("mapping", p.mapping, "the OctoMap");
+  s.group("perception", p.perception, "networks that look at pictures, and how the map takes their labels");
   s.group("schedule", p.schedule, "the fixed-rate tasks and what they may cost");
   s.group(
       "failsafe", p.failsafe,
@@ -105,6 +106,7 @@ Result<RobotProfile> load_profile(const std::filesystem::path& path, RobotProfil
   if (const auto loaded = config::load(path, section); !loaded)
     return loaded.error().code == Errc::kNotFound ? no_such_profile(path) : loaded.error();
   if (auto sound = check(profile.failsafe); !sound) return at(path.string(), sound.error());
+  if (auto sound = check(profile.perception); !sound) return at(path.string(), sound.error());
   if (auto sound = check(profile.team); !sound) return at(path.string(), sound.error());
   if (auto sound = check_mounts(profile); !sound) return at(path.string(), sound.error());
   if (auto sound = calibrate_cameras(profile, path.parent_path()); !sound) return at(path.string(), sound.error());

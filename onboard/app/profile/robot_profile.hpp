@@ -6,6 +6,7 @@
 
 #include "hal/config/config.hpp"
 #include "hal/result.hpp"
+#include "onboard/app/profile/perception_profile.hpp"
 #include "onboard/app/profile/schedule_profile.hpp"
 #include "onboard/app/profile/sensor_profiles.hpp"
 #include "onboard/app/profile/team_profile.hpp"
@@ -27,6 +28,7 @@ struct RobotProfile {
   GpioProfile gpio;
   odometry::OdometryConfig odometry;
   mapping::MappingConfig mapping;
+  PerceptionProfile perception;
   safety::FailsafeConfig failsafe;
   safety::OverloadConfig overload;
   RestartProfile restart;

@@ -8,6 +8,8 @@ namespace cairn::app {
 Result<void> check(const RunOptions& options) {
   std::string detail;
   const auto refuse = [&](bool given, const char* why) { detail += given ? std::string("\n  ") + why : ""; };
+  refuse(options.networks == NetworkUse::kRecorded && options.recording.empty(),
+         "--networks recorded takes the labels of a recording: name a --recording, too");
   if (options.live()) {
     refuse(!options.schedule.empty(), "--schedule repeats the schedule of another run: name a --recording, too");
   } else {

@@ -18,6 +18,13 @@ enum class Pace {
   kMaximum,   ///< a recording, as fast as the machine can
 };
 
+/// Who says what pictures show.
+enum class NetworkUse {
+  kOff,       ///< nobody: the map gets no labels
+  kRun,       ///< the networks of the profile
+  kRecorded,  ///< the recording: its labels/
+};
+
 /// What the command line says of one run.
 struct RunOptions {
   std::filesystem::path config;     ///< empty: the recording's own, or the defaults
@@ -30,6 +37,7 @@ struct RunOptions {
   std::filesystem::path sockets;    ///< live: folder for the sockets of other programs; empty: none
   std::filesystem::path live_view;  ///< live: the local socket for `cairn top`; empty: none
   Pace pace = Pace::kRecorded;
+  NetworkUse networks = NetworkUse::kRun;
   bool reference = false;  ///< at real speed: run an empty task beside the control task, to know what the machine costs
   std::optional<int> threads;     ///< instead of the profile's
   std::optional<double> seconds;  ///< ends the run when so much of the robot's time has passed

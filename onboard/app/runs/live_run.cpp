@@ -52,6 +52,7 @@ Result<RunEnd> LiveRun::run(Generations* generations) {
   close_streams();
   if (saving_) saving_->close(clock_.now(), tasks_.robot);
   report_unlogged_ticks();
+  if (labels_) labels_->write_waiting(clock_.now());
   if (const auto closed = housekeeping_->close(clock_.now()); !closed) return closed.error();
   return end();
 }
@@ -63,8 +64,18 @@ Result<void> LiveRun::open_recorder() {
   if (!writer) return writer.error();
   if (const auto kept = keep_profile(folder, context_.profile); !kept) return kept.error();
   recorder_.emplace(std::move(*writer), context_.monitor);
+  if (const auto kept = keep_labels(folder); !kept) return kept.error();
   if (!context_.previous.resumed) return {};
   return keep_with_recording(folder, *context_.previous.resumed, context_.monitor);
+}
+
+Result<void> LiveRun::keep_labels(const std::filesystem::path& folder) {
+  if (!tasks_.perception) return {};
+  auto opened = LabelRecorder::create(folder, context_.monitor);
+  if (!opened) return opened.error();
+  labels_ = std::move(*opened);
+  tasks_.perception->keep_labels([this](const LabelImage& labels) { labels_->keep(labels); });
+  return {};
 }
 
 Result<void> LiveRun::open_streams() {
@@ -100,6 +111,7 @@ void LiveRun::add_live_only_tasks(Generations* generations) {
   Recorder* recorder = recorder_ ? &*recorder_ : nullptr;
   housekeeping_.emplace(tasks_.graph, (recorder != nullptr ? options.record : context_.results) / "schedule.log",
                         recorder);
+  if (labels_) housekeeping_->add([this](Time now) { labels_->write_waiting(now); });
   const auto& keeping = add_live_only(schedule.housekeeping, *housekeeping_);
   std::vector<safety::Pulse> writers{
       {.task = keeping.spec.name, .limit = WatchTask::kDiskLimit, .beats = &keeping.stats.ticks}};
@@ -161,7 +173,7 @@ RunEnd LiveRun::end() const {
 
 void LiveRun::publish_status(Time now) {
   publisher_->set_decision(safety_events_.decision());
-  publisher_->set_shed(tasks_.mapping.shed());
+  publisher_->set_shed(tasks_.mapping.shed_in_force());
   publisher_->set_scans(tasks_.receive.figures().scans);
   if (tasks_.team && tasks_.team->team().view().refresh()) publisher_->set_peers(tasks_.team->team().view().value());
   if (outlets_) publish_state();

@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
 #include "hal/clock.hpp"
+#include "onboard/app/perception/label_recorder.hpp"
 #include "onboard/app/runs/run_context.hpp"
 #include "onboard/app/runs/safety_events.hpp"
 #include "onboard/app/runs/schedule_faults.hpp"
@@ -33,6 +35,7 @@ class LiveRun {
 
  private:
   Result<void> open_recorder();
+  Result<void> keep_labels(const std::filesystem::path& folder);
   Result<void> open_streams();
   void add_live_only_tasks(Generations* generations);
   [[nodiscard]] safety::Pulse add_saving(Generations& generations);
@@ -55,6 +58,7 @@ class LiveRun {
   ScheduleFaults schedule_faults_;
   ToSave to_save_;
   std::optional<Recorder> recorder_;
+  std::unique_ptr<LabelRecorder> labels_;  // null: nothing is labelled, or not recorded
   std::optional<HousekeepingTask> housekeeping_;
   std::optional<SavingTask> saving_;
   std::optional<WatchTask> watch_;

@@ -34,7 +34,7 @@ class StatusPublisher {
 
   /// The newest values, on the thread of tick().
   void set_decision(const safety::FailsafeDecision& decision) { decision_ = decision; }
-  void set_shed(safety::Shed level) { shed_ = safety::in_force(level); }
+  void set_shed(safety::Shed level) { shed_ = level; }
   void set_scans(std::uint64_t scans) { scans_ = scans; }
   void set_peers(const std::vector<LiveView::Peer>& peers) { peers_ = peers; }
   /// Publishes what is due. False while a task hangs: Fault::kTaskHung.

@@ -4,6 +4,8 @@
 #include <array>
 #include <cstdint>
 
+#include "hal/labels.hpp"
+#include "hal/packet.hpp"
 #include "hal/point_cloud.hpp"
 #include "hal/time.hpp"
 #include "onboard/robot.hpp"
@@ -23,6 +25,16 @@ struct ArrivedScan {
 struct ArrivedMotion {
   LocatedScan scan;
   Time arrival{};  ///< of the last byte of the scan
+};
+
+/// A picture of the colour camera, not decoded. From receive to perception.
+struct ArrivedPicture {
+  Packet packet;
+};
+
+/// What a network said of a picture. From perception to mapping.
+struct ArrivedLabels {
+  LabelImage labels;
 };
 
 /// When each kind of sensor last gave good data, and the faults in its data. From receive to safety.

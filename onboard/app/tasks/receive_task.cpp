@@ -15,8 +15,10 @@ bool ReceiveTask::add(Input& input, SourceId id, scheduler::Feed::Tap tap) {
   if (sensors_.size() == kMaxInputs) return false;
   const auto complain = [this](Time now, const Error& error) { monitor_.event(now, "input", to_string(error)); };
   const std::size_t slot = packets_slot + sensors_.size();
-  sensors_.push_back(
-      {{*input.source, id, slot, complain, std::move(tap)}, input.scans.get(), watched_as(input.entry.kind)});
+  sensors_.push_back({{*input.source, id, slot, complain, std::move(tap)},
+                      input.scans.get(),
+                      watched_as(input.entry.kind),
+                      input.entry.kind == recording::kCamera});
   return true;
 }
 
@@ -43,6 +45,7 @@ void ReceiveTask::receive(const Packet& packet, Sensor& sensor, Tick& tick) {
   figures_.end = std::max(figures_.end, packet.arrival);
   if (sensor.decoder == nullptr) {
     if (sensor.watched) note(*sensor.watched, packet.arrival);
+    if (sensor.colour) hand_on(packet, tick);
     return;
   }
   if (sensor.stuck.step(packet.channel, packet.payload())) {
@@ -94,6 +97,14 @@ void ReceiveTask::hand_on(const Scan* scan, Tick& tick, bool at_the_end) {
   out->scan = *scan;
   out->arrival = figures_.end;
   scans.push(tick);
+}
+
+/// Perception takes the newest. Where it is behind, what finds no place would only be older when its turn comes.
+void ReceiveTask::hand_on(const Packet& picture, Tick& tick) {
+  ArrivedPicture* out = pictures.back(tick);
+  if (out == nullptr) return;
+  out->packet = picture;
+  pictures.push(tick);
 }
 
 void ReceiveTask::note(safety::Watched what, Time when) {

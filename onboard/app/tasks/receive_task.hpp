@@ -26,6 +26,7 @@ class ReceiveTask final : public scheduler::Task {
   const std::size_t packets_slot = take_slots(kMaxInputs);  ///< packets taken, one slot for each input
   scheduler::OutputPort<ArrivedScan> scans{*this, "scans"};
   scheduler::OutputPort<SensorsSeen> seen{*this, "seen"};
+  scheduler::OutputPort<ArrivedPicture> pictures{*this, "pictures"};  ///< of the colour camera
 
   /// What came in. Of the task's thread, or after the run. Any thread may read the counters.
   struct Figures {
@@ -51,6 +52,7 @@ class ReceiveTask final : public scheduler::Task {
     scheduler::Feed feed;
     ScanDecoder* decoder;                    // null: its packets are only counted and recorded
     std::optional<safety::Watched> watched;  // without a decoder: every packet is good data of this kind
+    bool colour;                             // its packets are pictures for perception
     safety::StuckWatch stuck{};
     safety::RejectionWatch rejection{};
     std::uint64_t accepted = 0, refused = 0;  // packets of a decoder
@@ -59,6 +61,7 @@ class ReceiveTask final : public scheduler::Task {
   void decode(const Packet& packet, Sensor& sensor, scheduler::Tick& tick);
   void judge(Time now);
   void hand_on(const Scan* scan, scheduler::Tick& tick, bool at_the_end);
+  void hand_on(const Packet& picture, scheduler::Tick& tick);
   void note(safety::Watched what, Time when);
   void publish(scheduler::Tick& tick);
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <utility>
 
 #include "onboard/app/door/fitted.hpp"
 #include "onboard/scheduler/threads.hpp"
@@ -15,6 +16,8 @@ constexpr std::size_t kWaitingScans = 4;
 // More than a safety task at 500 Hz finds when it comes a tenth of a second late.
 constexpr std::size_t kWaitingNews = 64;
 constexpr std::size_t kWaitingRequests = 8;
+// At 15 to 30 Hz a network takes the time of some of them.
+constexpr std::size_t kWaitingPictures = 8;
 // In virtual time. Real news takes less, so a replay at real speed need not wait for it.
 constexpr Duration kSensorsLag = std::chrono::milliseconds(20);
 // Visible with the next tick of the consumer.
@@ -27,20 +30,23 @@ std::function<void(unsigned)> helpers_like(const scheduler::TaskSpec& task) {
   };
 }
 
-Robot make_robot(const RobotProfile& profile, RobotTasks& tasks, const PreviousRun& previous, Monitor& monitor) {
+Robot make_robot(const RobotProfile& profile, const Perception& sight, RobotTasks& tasks, const PreviousRun& previous,
+                 Monitor& monitor) {
+  RobotConfig config = profile.robot();
+  config.labelling = sight.labelling;
   if (previous.resumed)
-    return {profile.robot(), tasks.odometry_workers, tasks.mapping_workers, monitor, resume(*previous.resumed)};
-  return {profile.robot(), tasks.odometry_workers, tasks.mapping_workers, monitor};
+    return {config, tasks.odometry_workers, tasks.mapping_workers, monitor, resume(*previous.resumed)};
+  return {config, tasks.odometry_workers, tasks.mapping_workers, monitor};
 }
 
 }  // namespace
 
 RobotTasks::RobotTasks(std::span<const recording::SourceEntry> sources, const RobotProfile& profile,
-                       const RunOptions& options, const PreviousRun& previous, Monitor& monitor)
+                       const RunOptions& options, const PreviousRun& previous, Perception sight, Monitor& monitor)
     : fitted(fitted_with(sources, profile)),
       odometry_workers(static_cast<unsigned>(profile.threads), helpers_like(profile.schedule.odometry)),
       mapping_workers(static_cast<unsigned>(profile.threads), helpers_like(profile.schedule.mapping)),
-      robot(make_robot(profile, *this, previous, monitor)),
+      robot(make_robot(profile, sight, *this, previous, monitor)),
       safety(profile.failsafe, fitted),
       receive(monitor),
       odometry(profile, robot, monitor, options.progress),
@@ -48,6 +54,7 @@ RobotTasks::RobotTasks(std::span<const recording::SourceEntry> sources, const Ro
   add_tasks(profile.schedule);
   connect_safety(profile.schedule);
   connect_map(options.live());
+  if (sight.on()) add_perception(std::move(sight), profile.schedule, options.live(), monitor);
   if (has_kind(sources, recording::kPeers)) {
     team.emplace(graph, profile, mapping.tiles, monitor);
     if (previous.resumed) team->team().go_on();
@@ -83,6 +90,17 @@ void RobotTasks::connect_map(bool live) {
   const std::size_t reserve = live ? 0 : 3 * kWaitingScans;
   graph.connect(receive.scans, odometry.scans, {.capacity = kWaitingScans, .reserve = reserve});
   graph.connect(odometry.motions, mapping.motions, {.capacity = kWaitingScans, .reserve = reserve});
+}
+
+/// Above mapping in nothing: what it says of a picture is in the map when its deadline has passed.
+void RobotTasks::add_perception(Perception sight, const ScheduleProfile& schedule, bool live, Monitor& monitor) {
+  const scheduler::TaskSpec& spec = schedule.perception;
+  perception.emplace(
+      std::move(sight.parts), spec.soft(), [this] { return mapping.shed(); }, monitor);
+  graph.add(spec, *perception);
+  const std::size_t reserve = live ? 0 : 3 * kWaitingPictures;
+  graph.connect(receive.pictures, perception->pictures, {.capacity = kWaitingPictures, .reserve = reserve});
+  graph.connect(perception->labels, mapping.labels, {.capacity = kWaitingPictures, .lag = spec.deadline()});
 }
 
 }  // namespace cairn::app

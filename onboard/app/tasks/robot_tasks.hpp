@@ -5,10 +5,13 @@
 #include <span>
 
 #include "hal/workers.hpp"
+#include "onboard/app/perception/open_perception.hpp"
 #include "onboard/app/profile/run_options.hpp"
 #include "onboard/app/restart/restart.hpp"
 #include "onboard/app/tasks/drive_task.hpp"
+#include "onboard/app/tasks/mapping_task.hpp"
 #include "onboard/app/tasks/odometry_task.hpp"
+#include "onboard/app/tasks/perception_task.hpp"
 #include "onboard/app/tasks/receive_task.hpp"
 #include "onboard/app/tasks/safety_task.hpp"
 #include "onboard/app/team/team_tasks.hpp"
@@ -21,10 +24,10 @@ namespace cairn::app {
 /// not in it; see LiveRun.
 class RobotTasks {
  public:
-  /// `sources`: what the robot reads from; with peers among them, the robot takes part in its team. All must outlive
-  /// the tasks.
+  /// `sources`: what the robot reads from; with peers among them, the robot takes part in its team. `sight`: what looks
+  /// at pictures, or off. All others must outlive the tasks.
   RobotTasks(std::span<const recording::SourceEntry> sources, const RobotProfile& profile, const RunOptions& options,
-             const PreviousRun& previous, Monitor& monitor);
+             const PreviousRun& previous, Perception sight, Monitor& monitor);
   RobotTasks(const RobotTasks&) = delete;
   RobotTasks& operator=(const RobotTasks&) = delete;
   ~RobotTasks() = default;
@@ -39,12 +42,14 @@ class RobotTasks {
   MappingTask mapping;
   scheduler::IdleTask reference;  ///< as often as the control task
   scheduler::TaskGraph graph;
-  std::optional<TeamTasks> team;  ///< none: this robot takes part in no team
+  std::optional<PerceptionTask> perception;  ///< none: nothing is labelled
+  std::optional<TeamTasks> team;             ///< none: this robot takes part in no team
 
  private:
   void add_tasks(const ScheduleProfile& schedule);
   void connect_safety(const ScheduleProfile& schedule);
   void connect_map(bool live);
+  void add_perception(Perception sight, const ScheduleProfile& schedule, bool live, Monitor& monitor);
 };
 
 }  // namespace cairn::app

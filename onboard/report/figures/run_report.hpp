@@ -47,6 +47,17 @@ struct OdometryStats {
   std::optional<double> mean_iterations;  ///< none without a pose
 };
 
+/// What became of the pictures of the colour camera.
+struct LabelStats {
+  std::uint64_t images = 0;              ///< whose labels reached the map
+  std::uint64_t points = 0, voxels = 0;  ///< labelled in them; voxels once for each picture
+  std::optional<double> latency_p99_ms;  ///< from the exposure to the map; none in virtual time
+  std::uint64_t passed = 0;              ///< pictures that were not looked at, because of the rate
+  std::uint64_t shed = 0;                ///< because of overload
+  std::uint64_t refused = 0;             ///< that could not be labelled
+  std::uint64_t apart = 0;               ///< that were labelled, but had no scans around them
+};
+
 /// One robot of the team, as this one saw it.
 struct PeerStats {
   std::uint64_t tx_bytes = 0, rx_bytes = 0, tiles = 0;
@@ -92,6 +103,7 @@ struct RunReport {
   std::string mode;                                         ///< at the end
   std::string mode_cause;                                   ///< the fault's code; empty: none
   std::vector<std::pair<std::string, std::uint64_t>> shed;  ///< scans at each level of shedding, `nothing` first
+  std::optional<LabelStats> labels;                         ///< of a run that looked at pictures
   OdometryStats odometry;
   double peak_rss_mb = 0;
   std::optional<std::uint64_t> control_thread_allocations;  ///< after the warm-up; none without ticks after it

@@ -165,6 +165,14 @@ Json notes_json(const RunReport& report) {
   return notes;
 }
 
+Json labels_json(const RunReport& report) {
+  if (!report.labels) return nullptr;
+  const LabelStats& l = *report.labels;
+  return {
+      {"images", l.images}, {"points", l.points}, {"voxels", l.voxels},   {"latency_p99_ms", or_null(l.latency_p99_ms)},
+      {"passed", l.passed}, {"shed", l.shed},     {"refused", l.refused}, {"apart", l.apart}};
+}
+
 Json map_json(const RunReport& report) {
   const MapSummary& map = report.map;
   return {{"resolution_m", map.resolution_m},
@@ -272,6 +280,7 @@ Json to_json(const RunReport& report) {
             {"mean_iterations", or_null(report.odometry.mean_iterations)}}},
           {"ground_truth", ground_truth_json(report)},
           {"map", map_json(report)},
+          {"labels", labels_json(report)},
           {"memory", {{"peak_rss_mb", report.peak_rss_mb}}},
           {"allocations", {{"control_thread", or_null(report.control_thread_allocations)}}},
           {"peers", peers_json(report)},

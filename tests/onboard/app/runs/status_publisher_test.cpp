@@ -66,14 +66,6 @@ TEST_F(StatusPublisherTest, TheViewHoldsTheTasksTheModeAndTheEvents) {
   EXPECT_EQ(v.events.back().what, "late");
 }
 
-TEST_F(StatusPublisherTest, ALevelThatLeavesNothingOutIsNotToldAsShed) {
-  StatusPublisher publisher(graph_, monitor_, {"husky", {}, {}, {}}, now_);
-  for (const safety::Shed level : {safety::Shed::kPeerTiles, safety::Shed::kSemantics}) {
-    publisher.set_shed(level);
-    EXPECT_EQ(publisher.view(now_).shed, "nothing");
-  }
-}
-
 TEST_F(StatusPublisherTest, OneLinePerSecondAndSignsOfLifeWhileAllIsWell) {
   support::DatagramListener manager((folder_ / "notify").string());
   StatusPublisher publisher(graph_, monitor_, {"husky", folder_ / "live", (folder_ / "notify").string(), 1s}, now_);

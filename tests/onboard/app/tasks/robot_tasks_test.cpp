@@ -31,7 +31,7 @@ struct RobotTasksTest : ::testing::Test {
 /// Numbers that recordings of every version rely on: a changed one makes old schedule logs mean something else.
 TEST_F(RobotTasksTest, TheSlotsInTheScheduleLogNeverChange) {
   const auto all = sources({recording::kVelodyne, recording::kPeers});
-  const RobotTasks tasks(all, profile, options, previous, monitor);
+  const RobotTasks tasks(all, profile, options, previous, {}, monitor);
   const SafetyTask& safety = tasks.safety;
   const DriveTask& drive = tasks.drive;
   const TeamTask& team = tasks.team->team();
@@ -66,7 +66,7 @@ TEST_F(RobotTasksTest, TheSlotsInTheScheduleLogNeverChange) {
 TEST_F(RobotTasksTest, ARobotWithoutPeersHasNoTeam) {
   const auto lidar = sources({recording::kVelodyne});
   options.reference = true;
-  const RobotTasks tasks(lidar, profile, options, previous, monitor);
+  const RobotTasks tasks(lidar, profile, options, previous, {}, monitor);
   EXPECT_FALSE(tasks.team.has_value());
   EXPECT_THAT(names(tasks), ::testing::ElementsAre("safety", "drive", "receive", "odometry", "mapping", "reference"));
   EXPECT_TRUE(tasks.graph.tasks().back().live_only());

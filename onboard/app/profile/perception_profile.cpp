@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/profile/perception_profile.hpp"
+
+namespace cairn::app {
+
+void declare(config::Section& s, PerceptionProfile& p) {
+  declare(s, p.networks);
+  s.group("labelling", p.labelling, "how points of scans get the labels of pictures");
+}
+
+Result<void> check(const PerceptionProfile& profile) { return check(profile.networks); }
+
+}  // namespace cairn::app

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/tasks/mapping_task.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+
+namespace cairn::app {
+
+using scheduler::Regime;
+using scheduler::Tick;
+
+namespace {
+
+// Between two batches of changed tiles, in time of scans.
+constexpr Duration kBatchPeriod = std::chrono::milliseconds(500);
+// For clients. Reading one takes some microseconds.
+constexpr std::size_t kOwnTilesInATick = 256;
+
+}  // namespace
+
+MappingTask::MappingTask(const safety::OverloadConfig& overload, Duration deadline, Robot& robot, Monitor& monitor)
+    : deadline_(deadline),
+      overload_(overload),
+      robot_(robot),
+      monitor_(monitor),
+      latency_(monitor.stage("packet_to_map")),
+      joiner_(robot, monitor) {}
+
+void MappingTask::tick(Tick& tick) {
+  if (copier_ && motions.size() == 0) copier_->idle(tick.release(), robot_.map());
+  while (const ArrivedMotion* motion = motions.take(tick)) {
+    extend(*motion, tick);
+    if (tick.regime() != Regime::kDrain) break;
+  }
+  motions.give_back(tick);
+  take_labels(tick);
+  if (tick.regime() == Regime::kDrain) hand_on_tiles(tick);
+  if (outlet_ == nullptr) return;
+  if (tick.release() > next_batch_ + kBatchPeriod) owe_changes();  // no further scan may come
+  hand_to_clients(kOwnTilesInATick);
+}
+
+void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
+  const safety::Shed level = decide(motion, tick);
+  const safety::Shed before = shed_in_force();
+  level_.store(level, std::memory_order_relaxed);
+  if (const safety::Shed now = shed_in_force(); now != before)
+    monitor_.event(motion.scan.stamp, "overload", "shed: " + std::string(to_string(now)));
+  ++scans_at_[static_cast<std::size_t>(level)];
+  const safety::ShedPlan plan = safety::plan_of(level);
+  if (count_++ % static_cast<std::uint64_t>(plan.scan_stride) != 0) return;
+  const auto extended = robot_.extend_map(motion.scan, {plan.point_stride});
+  if (!extended)
+    monitor_.event(motion.scan.stamp, "mapping", to_string(extended.error()));
+  else if (copier_)
+    copier_->mapped(motion.scan);
+  note_changes(motion.scan, tick);
+  memory_short_.store(!extended && extended.error().code == Errc::kLimit, std::memory_order_relaxed);
+  if (tick.takes_time()) latency_.record(tick.figure_now() - motion.arrival);
+}
+
+void MappingTask::take_labels(Tick& tick) {
+  while (ArrivedLabels* arrived = labels.take(tick)) joiner_.add(arrived->labels);
+  joiner_.join(tick);
+}
+
+void MappingTask::share_resumed_tiles() {
+  resumed_tiles_ = mapping::known_tiles(robot_.map(), std::numeric_limits<std::size_t>::max());
+}
+
+void MappingTask::serve(TileOutlet& outlet) {
+  outlet_ = &outlet;
+  outlet.owe(mapping::known_tiles(robot_.map(), std::numeric_limits<std::size_t>::max()));
+}
+
+bool MappingTask::serve_rest() {
+  if (!std::exchange(serving_rest_, true))
+    outlet_->owe(mapping::known_tiles(robot_.map(), std::numeric_limits<std::size_t>::max()));
+  hand_to_clients(std::numeric_limits<std::size_t>::max());
+  return mapped_ == Time{} || outlet_->owed() == 0;
+}
+
+/// Tiles that the port has not taken yet stay with the map, so clients may get them twice.
+void MappingTask::owe_changes() {
+  if (std::exchange(owed_changes_, true)) return;
+  outlet_->begin(robot_.map_epoch());
+  if (tiles.connected())
+    outlet_->owe(robot_.changed_tiles());
+  else
+    outlet_->owe(robot_.take_changed_tiles());
+}
+
+/// A resumed map waits until the first scan has told whether the robot is where that map ends.
+void MappingTask::hand_to_clients(std::size_t most) {
+  if (mapped_ == Time{}) return;
+  outlet_->begin(robot_.map_epoch());
+  outlet_->hand_over(most, [this](TileNews& news) {
+    news.state = mapping::read_tile(robot_.map(), news.tile);
+    news.changed = mapped_;
+  });
+}
+
+/// Scans change the same tiles again and again. Reading them with each scan would be a quarter of the work in a forest.
+void MappingTask::note_changes(const LocatedScan& scan, Tick& tick) {
+  changes_ = {scan.epoch, scan.T_odom_base};
+  mapped_ = scan.stamp;
+  owed_changes_ = false;
+  if (scan.stamp < next_batch_ && scan.stamp >= next_batch_ - kBatchPeriod) return;
+  next_batch_ = scan.stamp + kBatchPeriod;
+  hand_on_tiles(tick);
+}
+
+/// Where the channel is full, tiles stay changed and go with the next batch.
+void MappingTask::hand_on_tiles(Tick& tick) {
+  if (outlet_ != nullptr) owe_changes();
+  TileBatch* out = changes_ ? tiles.back(tick) : nullptr;
+  if (out == nullptr) return;
+  out->epoch = changes_->epoch;
+  out->T_odom_base = changes_->T_odom_base;
+  out->tiles.clear();
+  const auto add = [&](mapping::TileKey tile) {
+    out->tiles.emplace_back(tile, mapping::read_tile(robot_.map(), tile));
+  };
+  if (changes_->epoch == 0) std::ranges::for_each(resumed_tiles_, add);
+  resumed_tiles_.clear();
+  std::ranges::for_each(robot_.take_changed_tiles(), add);
+  tiles.push(tick);
+  changes_.reset();
+}
+
+/// By how late this scan is already and how many wait behind it. A replay of a log sheds what was shed then; virtual
+/// time knows no overload.
+safety::Shed MappingTask::decide(const ArrivedMotion& motion, Tick& tick) {
+  const auto measure = [&] {
+    safety::Load load;
+    load.utilisation = to_seconds(tick.figure_now() - motion.arrival) / to_seconds(deadline_);
+    load.queue_fill = static_cast<double>(motions.size() - 1) / static_cast<double>(motions.capacity());
+    return static_cast<std::int32_t>(overload_.step(tick.release(), load));
+  };
+  return static_cast<safety::Shed>(std::clamp(tick.decide(shed_slot, measure, 0), 0, safety::kShedLevels - 1));
+}
+
+}  // namespace cairn::app

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <optional>
+#include <vector>
+
+#include "hal/monitor.hpp"
+#include "hal/relaxed_counter.hpp"
+#include "onboard/app/perception/label_joiner.hpp"
+#include "onboard/app/streams/stream_outlets.hpp"
+#include "onboard/app/tasks/map_copier.hpp"
+#include "onboard/app/tasks/messages.hpp"
+#include "onboard/app/team/team_messages.hpp"
+#include "onboard/safety/overload.hpp"
+#include "onboard/scheduler/ports.hpp"
+
+namespace cairn::app {
+
+/// Located scans in, map out, one in a tick; labels of pictures are joined with the scans around them. When its scans
+/// come too late it sheds work, in the order of Shed. It hands on changed tiles where its port `tiles` is connected.
+class MappingTask final : public scheduler::Task {
+ public:
+  // Slots in schedule.log, in this order.
+  scheduler::InputPort<ArrivedMotion> motions{*this, "motions"};
+  const std::size_t shed_slot = take_slots();  ///< the level of shedding
+  scheduler::OutputPort<TileBatch> tiles{*this, "tiles"};
+  scheduler::InputPort<ArrivedLabels> labels{*this, "labels"};
+
+  /// All must outlive the task. `deadline`: from the last byte of a scan until the scan is in the map.
+  MappingTask(const safety::OverloadConfig& overload, Duration deadline, Robot& robot, Monitor& monitor);
+
+  /// Live: hands on copies of the map and scans. To be called before the run.
+  void keep_copies(MapCopier copier) { copier_.emplace(std::move(copier)); }
+  /// Live: changed tiles go to `outlet`, too, and first those of a resumed map. That changes nothing for the port. To
+  /// be called before the run; `outlet` must outlive the task.
+  void serve(TileOutlet& outlet);
+  /// After the run: `outlet` gets all tiles as they are now, as far as it has room. True: it has them all.
+  bool serve_rest();
+
+  /// The first batch holds the tiles of a resumed map. To be called before the run.
+  void share_resumed_tiles();
+
+  void tick(scheduler::Tick& tick) override;
+
+  /// Any thread.
+  [[nodiscard]] safety::Shed shed() const { return level_.load(std::memory_order_relaxed); }
+  /// Any thread: the level as a report may name it.
+  [[nodiscard]] safety::Shed shed_in_force() const { return safety::in_force(shed(), takes_labels()); }
+  /// Whether the map gets labels.
+  [[nodiscard]] bool takes_labels() const { return labels.channel() != nullptr; }
+  /// Any thread: the last scan found no memory in the map.
+  [[nodiscard]] bool memory_short() const { return memory_short_.load(std::memory_order_relaxed); }
+  /// Scans that were mapped at each level.
+  [[nodiscard]] const std::array<RelaxedCounter, safety::kShedLevels>& scans_at() const { return scans_at_; }
+  [[nodiscard]] const LabelJoiner::Figures& label_figures() const { return joiner_.figures(); }
+
+ private:
+  void extend(const ArrivedMotion& motion, scheduler::Tick& tick);
+  void take_labels(scheduler::Tick& tick);
+  safety::Shed decide(const ArrivedMotion& motion, scheduler::Tick& tick);
+  void note_changes(const LocatedScan& scan, scheduler::Tick& tick);
+  void hand_on_tiles(scheduler::Tick& tick);
+  void owe_changes();
+  void hand_to_clients(std::size_t most);
+
+  Duration deadline_;
+  safety::OverloadController overload_;
+  std::atomic<safety::Shed> level_{safety::Shed::kNothing};
+  std::atomic<bool> memory_short_{false};
+  std::array<RelaxedCounter, safety::kShedLevels> scans_at_{};
+  std::uint64_t count_ = 0;
+  Robot& robot_;
+  Monitor& monitor_;
+  StageStats& latency_;
+  LabelJoiner joiner_;
+  std::optional<MapCopier> copier_;
+  std::vector<mapping::TileKey> resumed_tiles_;  // not handed on yet; of epoch 0
+  struct Changes {
+    std::uint32_t epoch;
+    UncertainPose T_odom_base;
+  };
+  std::optional<Changes> changes_;  // not handed on yet
+  Time next_batch_{};
+  TileOutlet* outlet_ = nullptr;
+  Time mapped_{};             // stamp of the last scan
+  bool owed_changes_ = true;  // up to that scan
+  bool serving_rest_ = false;
+};
+
+}  // namespace cairn::app

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/app/tasks/perception_task.hpp"
+
+#include <string>
+#include <utility>
+
+namespace cairn::app {
+
+using scheduler::Regime;
+using scheduler::Tick;
+
+PerceptionTask::PerceptionTask(PerceptionParts parts, Duration budget, std::function<safety::Shed()> shed,
+                               Monitor& monitor)
+    : parts_(std::move(parts)),
+      shed_(std::move(shed)),
+      monitor_(monitor),
+      segmentation_(monitor.stage("segmentation", budget)) {}
+
+void PerceptionTask::tick(Tick& tick) {
+  if (!take_newest(tick) || tick.regime() == Regime::kDrain) return;
+  const auto overloaded = [this] { return shed_() >= safety::Shed::kSemantics ? 1 : 0; };
+  if (tick.decide(shed_slot, overloaded, 0) != 0)
+    ++figures_.shed;
+  else
+    look(tick);
+}
+
+/// Pictures before their time are passed over, so that the rate is kept on the average.
+bool PerceptionTask::take_newest(Tick& tick) {
+  bool any = false;
+  while (ArrivedPicture* picture = pictures.take(tick)) {
+    const Time arrival = picture->packet.arrival;
+    const bool early = arrival < due_ && arrival >= due_ - parts_.period;
+    if (early || std::exchange(any, true)) ++figures_.passed;
+    if (!early) std::swap(newest_, picture->packet);
+  }
+  if (!any) return false;
+  const bool on_time = newest_.arrival >= due_ && newest_.arrival - due_ < parts_.period;
+  due_ = on_time ? due_ + parts_.period : newest_.arrival + parts_.period;
+  return true;
+}
+
+void PerceptionTask::look(Tick& tick) {
+  const auto found = segment();
+  if (!found) return refuse(found.error());
+  ++figures_.images;
+  if (tap_) tap_(**found);
+  ArrivedLabels* out = labels.back(tick);
+  if (out == nullptr) return monitor_.event((*found)->stamp, "perception", "labels were dropped: mapping is behind");
+  out->labels = **found;
+  labels.push(tick);
+}
+
+Result<const LabelImage*> PerceptionTask::segment() {
+  const StageTimer timing(segmentation_);
+  const auto seen = picture();
+  if (!seen) return seen.error();
+  const Image& image = **seen;
+  if (image.width == parts_.width && image.height == parts_.height) return parts_.segmenter->segment(image);
+  const auto size = [](int w, int h) { return std::to_string(w) + "x" + std::to_string(h); };
+  return Error{Errc::kMalformed,
+               "a picture of another size than camera.intrinsics are of",
+               {},
+               {},
+               size(image.width, image.height) + ", not " + size(parts_.width, parts_.height)};
+}
+
+/// What is looked at of the newest packet.
+Result<const Image*> PerceptionTask::picture() {
+  const auto decoded = parts_.camera->decode(newest_);
+  if (!decoded || !parts_.side_by_side) return decoded;
+  if (const auto cut = camera::left_eye(**decoded, left_); !cut) return cut.error();
+  return &left_;
+}
+
+void PerceptionTask::refuse(const Error& error) {
+  if (error.code == Errc::kNotFound) {
+    ++figures_.unlabelled;
+    return;
+  }
+  ++figures_.refused;
+  monitor_.event(newest_.arrival, "perception", to_string(error));
+}
+
+}  // namespace cairn::app

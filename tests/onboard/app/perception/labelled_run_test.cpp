@@ -1,0 +1,185 @@
+// SPDX-License-Identifier: Apache-2.0
+// The whole program on a recording with pictures: a robot that drives through a room whose every pixel is known.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <opencv2/imgcodecs.hpp>
+#include <string>
+#include <vector>
+
+#include "hal/files/file.hpp"
+#include "onboard/app/run.hpp"
+#include "onboard/mapping/files/map_file.hpp"
+#include "onboard/mapping/tree/voxel_label.hpp"
+#include "tests/drivers/camera/frames.hpp"
+#include "tests/onboard/app/room_run.hpp"
+
+namespace cairn::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr int kWidth = 96, kHeight = 72;
+constexpr double kFocal = 48;
+constexpr std::uint8_t kRoad = 0, kBuilding = 2, kWall = 3;
+const Vector6 kCameraMount = (Vector6() << 0.3, 0, 0.5, 0, 0, 0).finished();
+
+/// Floor, ceiling, and what stands between them.
+std::uint8_t class_at(double z) { return z < 0.02 ? kRoad : z > 2.9 ? kBuilding : kWall; }
+
+std::vector<std::byte> true_labels(const support::World& world, const SE3& T_world_camera) {
+  std::vector<std::byte> labels;
+  for (int v = 0; v < kHeight; ++v)
+    for (int u = 0; u < kWidth; ++u) {
+      const Eigen::Vector3d ray(1, -(u - (kWidth - 1) / 2.0) / kFocal, -(v - (kHeight - 1) / 2.0) / kFocal);
+      const Eigen::Vector3d d = T_world_camera.rotation() * ray.normalized(), o = T_world_camera.translation();
+      labels.push_back(static_cast<std::byte>(class_at((o + world.cast(o, d) * d).z())));
+    }
+  return labels;
+}
+
+void write_png(const test::fs::path& file, const std::vector<std::byte>& grey) {
+  const cv::Mat pixels(kHeight, kWidth, CV_8UC1, const_cast<std::byte*>(grey.data()));
+  std::vector<uchar> out;
+  ASSERT_TRUE(cv::imencode(".png", pixels, out));
+  ASSERT_TRUE(write_file_atomic(file, std::as_bytes(std::span(out))));
+}
+
+/// Pictures at 10 Hz between the scans, grey, with what they show in labels/.
+void record_pictures(const test::fs::path& folder) {
+  test::fs::create_directories(folder / "camera" / "data");
+  test::fs::create_directories(folder / "labels");
+  const support::World world = test::room();
+  std::string index = "#timestamp [ns],filename\n";
+  for (int i = 0; i < test::kScans - 1; ++i) {
+    const Time t{from_seconds(0.1 * i + 0.13)};
+    const std::string name = std::to_string(t.time_since_epoch().count()) + ".png";
+    const auto labels = true_labels(world, test::path(to_seconds(t)) * SE3::from_xyz_rpy(kCameraMount));
+    write_png(folder / "camera" / "data" / name, labels);
+    write_png(folder / "labels" / name, labels);
+    index += std::to_string(t.time_since_epoch().count()) + "," + name + "\n";
+  }
+  ASSERT_TRUE(write_file_atomic(folder / "camera" / "data.csv", index));
+  auto recorded = recording::load_recording(folder).value();
+  recorded.sources.push_back({"camera", recording::kCamera, "camera/data.csv", "camera", "", kCameraMount});
+  ASSERT_TRUE(recording::save_recording(folder, recorded));
+}
+
+constexpr const char* kProfile = R"(
+lidar: {T_base_lidar: [0.2, 0, 0.6, 0, 0, 0.1]}
+camera:
+  capture: {format: GREY, width: 96, height: 72}
+  side_by_side: false
+  T_base_camera: [0.3, 0, 0.5, 0, 0, 0]
+  intrinsics: {fx: 48, fy: 48, cx: 47.5, cy: 35.5}
+perception: {segmentation: {rate_hz: 20}}
+)";
+
+class LabelledRun : public test::RoomRun {
+ protected:
+  static void SetUpTestSuite() {
+    RoomRun::SetUpTestSuite();
+    record_pictures(*folder_ / "recording");
+    write("profile.yaml", kProfile);
+  }
+  static RunOptions labelled(const std::string& out) {
+    RunOptions o = options(out);
+    o.config = *folder_ / "profile.yaml";
+    o.networks = NetworkUse::kRecorded;
+    return o;
+  }
+  static std::string hash_of(const RunOptions& o) {
+    const auto result = run(o);
+    EXPECT_TRUE(result) << to_string(result.error());
+    return result ? (*result)->report.output_sha256 : "";
+  }
+  static bool has_event(const RunResult& result, const std::string& what) {
+    return std::ranges::any_of(result.monitor.events(),
+                               [&](const Event& e) { return e.what.find(what) != std::string::npos; });
+  }
+};
+
+TEST_F(LabelledRun, TheMapKnowsFloorCeilingAndWalls) {
+  const auto result = run(labelled("truth"));
+  ASSERT_TRUE(result) << to_string(result.error());
+  const auto& labels = (*result)->report.labels;
+  ASSERT_TRUE(labels);
+  EXPECT_GE(labels->images, 5U);
+  EXPECT_EQ(labels->refused, 0U);
+  const auto map = mapping::load_map(*folder_ / "truth" / "map.cairn");
+  ASSERT_TRUE(map) << to_string(map.error());
+  const auto track = recording::read_tum(*folder_ / "truth" / "trajectory.tum");
+  const SE3 T_world_odom = test::path(to_seconds(track->front().stamp));
+  std::size_t right = 0, wrong = 0;
+  std::array<std::size_t, 4> of_class{};
+  for (auto leaf = (*map)->begin_leafs(); leaf != (*map)->end_leafs(); ++leaf) {
+    const auto label = mapping::VoxelLabel::from_id(leaf->label_id());
+    if (!label.any()) continue;
+    EXPECT_TRUE((*map)->isNodeOccupied(*leaf));
+    const double z = (T_world_odom * Eigen::Vector3d(leaf.getX(), leaf.getY(), leaf.getZ())).z();
+    if (z > 0.08 && z < 0.2) continue;  // floor and wall share these voxels
+    const std::uint8_t truth = z < 0.1 ? kRoad : z > 2.9 ? kBuilding : kWall;
+    ++(label.class_id() == truth ? right : wrong);
+    ++of_class[truth];
+  }
+  EXPECT_GT(of_class[kRoad], 100U);
+  EXPECT_GT(of_class[kWall], 300U);
+  EXPECT_GT(static_cast<double>(right), 0.97 * static_cast<double>(right + wrong)) << right << " right, " << wrong;
+  EXPECT_GE((*result)->report.map.labelled, right + wrong);
+}
+
+TEST_F(LabelledRun, IsTheSameForAnyNumberOfThreads) {
+  RunOptions one = labelled("one"), three = labelled("three");
+  one.threads = 1;
+  three.threads = 3;
+  EXPECT_EQ(hash_of(one), hash_of(three));
+}
+
+TEST_F(LabelledRun, WithoutNetworksPicturesChangeNothing) {
+  RunOptions off = labelled("off"), on = labelled("on"), profile_without = labelled("without");
+  off.networks = NetworkUse::kOff;
+  profile_without.networks = NetworkUse::kRun;
+  const std::string geometry = hash_of(off);
+  EXPECT_EQ(hash_of(profile_without), geometry);
+  EXPECT_NE(hash_of(on), geometry);
+}
+
+TEST_F(LabelledRun, ACameraWithoutACalibrationIsAnEventAndGeometryGoesOn) {
+  RunOptions o = labelled("uncalibrated");
+  o.config = write("uncalibrated.yaml", "lidar: {T_base_lidar: [0.2, 0, 0.6, 0, 0, 0.1]}\n");
+  const auto result = run(o);
+  ASSERT_TRUE(result) << to_string(result.error());
+  EXPECT_FALSE((*result)->report.labels);
+  EXPECT_TRUE(has_event(**result, "camera.intrinsics"));
+  EXPECT_EQ((*result)->report.scans, static_cast<std::uint64_t>(test::kScans));
+}
+
+TEST_F(LabelledRun, AMissingModelIsAnEventAndADamagedOneIsRefused) {
+  const std::string profile = kProfile;
+  RunOptions o = labelled("missing");
+  o.networks = NetworkUse::kRun;
+  o.config = write("missing.yaml",
+                   profile.substr(0, profile.find("perception")) + "perception: {segmentation: {model: none.onnx}}\n");
+  const auto result = run(o);
+  ASSERT_TRUE(result) << to_string(result.error());
+  EXPECT_TRUE(has_event(**result, "none.onnx"));
+  write("none.onnx", "this is no network");
+  const auto damaged = run(o);
+  ASSERT_FALSE(damaged);
+  EXPECT_THAT(to_string(damaged.error()), HasSubstr("none.onnx"));
+}
+
+TEST_F(LabelledRun, RecordedLabelsAreAskedOfARecordingThatHasThem) {
+  RunOptions o = labelled("nothing");
+  test::fs::rename(o.recording / "labels", o.recording / "elsewhere");
+  const auto result = run(o);
+  test::fs::rename(o.recording / "elsewhere", o.recording / "labels");
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, Errc::kNotFound);
+  EXPECT_THAT(to_string(result.error()), HasSubstr("cairn label"));
+}
+
+}  // namespace
+}  // namespace cairn::app
