@@ -42,6 +42,8 @@ struct ImportReport {
   std::uint64_t bytes = 0;            ///< of their payload
   std::uint64_t rejected_points = 0;  ///< not finite or out of any range
   std::uint64_t ground_truth_poses = 0;
+  std::uint64_t pictures = 0;  ///< of the camera
+  bool profile = false;        ///< the recording has a profile, with the calibration that came with the data
   std::string model;
   Time first{}, last{};       ///< arrival of the first and last item whose stamp is not absurd
   std::vector<Error> damage;  ///< parts that could not be read, at most kMaxDamage; the good parts are in the recording
@@ -63,7 +65,9 @@ struct ImportReport {
 [[nodiscard]] Result<ImportReport> import_kitti_odometry(const ImportOptions& options);
 
 /// KITTI raw: a drive folder with velodyne_points/{data/*.bin, timestamps.txt, timestamps_end.txt}. The sweeps are not
-/// motion-compensated; firing times follow from the azimuth, as the sensor turns clockwise from behind.
+/// motion-compensated; firing times follow from the azimuth, as the sensor turns clockwise from behind. Where there is
+/// image_02/data, its pictures come along, at their timestamps.txt or else when the sweep of the same number looked
+/// ahead. With the calibration (kitti_camera.hpp), the recording gets a profile: intrinsics and mounts.
 [[nodiscard]] Result<ImportReport> import_kitti_raw(const ImportOptions& options);
 
 /// A folder of *.pcd files in the order of their names. The time of a sweep is that of its points where they are

@@ -6,8 +6,13 @@
 #include <string>
 #include <utility>
 
+#include "drivers/camera/picture_file.hpp"
+#include "drivers/recording/formats/image_folder.hpp"
+#include "drivers/recording/formats/recording.hpp"
+#include "drivers/recording/formats/text_lines.hpp"
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "drivers/recording/import/import.hpp"
+#include "drivers/recording/import/kitti_camera.hpp"
 #include "drivers/recording/import/kitti_files.hpp"
 #include "drivers/recording/import/sweep_import.hpp"
 #include "hal/files/file.hpp"
@@ -95,8 +100,20 @@ void offsets_from_azimuth(PointCloud& cloud, Duration sweep) {
   }
 }
 
+/// The time of each file: that of its number, which is its name; KITTI counts files that are missing, too. Where names
+/// are no such numbers, the times in order.
+std::vector<Time> times_by_number(const std::vector<fs::path>& files, const std::vector<Time>& times) {
+  std::vector<Time> chosen;
+  for (const fs::path& file : files) {
+    const auto number = parse_integer(file.stem().string());
+    if (!number || *number < 0 || static_cast<std::uint64_t>(*number) >= times.size()) return times;
+    chosen.push_back(times[static_cast<std::size_t>(*number)]);
+  }
+  return chosen;
+}
+
 /// timestamps_end.txt; or timestamps.txt, when the sensor looked ahead, half a sweep before; or rate_hz.
-Result<std::vector<Time>> raw_ends(const fs::path& folder, std::size_t sweeps, double rate_hz) {
+Result<std::vector<Time>> raw_ends(const fs::path& folder, const std::vector<fs::path>& files, double rate_hz) {
   auto ends = read_if_there(folder / "timestamps_end.txt", parse_kitti_timestamps);
   if (!ends) return ends;
   if (ends->empty()) {
@@ -104,7 +121,68 @@ Result<std::vector<Time>> raw_ends(const fs::path& folder, std::size_t sweeps, d
     if (!ends) return ends;
     for (Time& t : *ends) t += from_seconds(0.5 / rate_hz);
   }
-  return times_for(sweeps, std::move(*ends), rate_hz, folder);
+  return times_for(files.size(), times_by_number(files, *ends), rate_hz, folder);
+}
+
+/// The pictures of image_02.
+struct Pictures {
+  std::vector<fs::path> files;  // as many as stamps
+  std::vector<Time> stamps;
+};
+
+/// When the sweeps of the same number looked ahead; pictures without a sweep are left out.
+Pictures with_sweeps(const std::vector<fs::path>& pictures, const std::vector<fs::path>& sweeps,
+                     const std::vector<Time>& ends, double rate_hz) {
+  Pictures found;
+  for (const fs::path& picture : pictures)
+    for (std::size_t i = 0; i < sweeps.size(); ++i) {
+      if (sweeps[i].stem() != picture.stem()) continue;
+      found.files.push_back(picture);
+      found.stamps.push_back(ends[i] - from_seconds(0.5 / rate_hz));
+      break;
+    }
+  return found;
+}
+
+Result<Pictures> find_pictures(const ImportOptions& options, const std::vector<fs::path>& sweeps,
+                               const std::vector<Time>& ends) {
+  const fs::path folder = options.source / "image_02";
+  std::error_code error;
+  if (!fs::exists(folder / "data", error)) return Pictures{};
+  const auto files = sorted_files(folder / "data", ".png");
+  if (!files) return files.error();
+  const auto stamps = read_if_there(folder / "timestamps.txt", parse_kitti_timestamps);
+  if (!stamps) return stamps.error();
+  if (stamps->empty()) return with_sweeps(*files, sweeps, ends, options.rate_hz);
+  auto times = times_for(files->size(), times_by_number(*files, *stamps), options.rate_hz, folder);
+  if (!times) return times.error();
+  times->resize(files->size());
+  return Pictures{.files = *files, .stamps = std::move(*times)};
+}
+
+Result<void> add_pictures(SweepImport& import, const Pictures& pictures, const ImportOptions& options) {
+  for (std::size_t i = 0; i < pictures.files.size(); ++i) {
+    if (options.stop && options.stop()) return import_interrupted(options);
+    const auto file = read_file(pictures.files[i], kMaxPictureBytes);
+    const Result<void> added = file ? import.add_picture(pictures.stamps[i], *file) : Result<void>(file.error());
+    if (!added) import.damaged(at(pictures.files[i].string(), added.error()));
+  }
+  return {};
+}
+
+/// The profile, if there are pictures and their calibration.
+Result<void> write_profile(const ImportOptions& options, const Pictures& pictures, ImportReport& report) {
+  if (pictures.files.empty()) return {};
+  const auto camera = find_kitti_camera(options.source);
+  if (!camera) return camera.error();
+  if (!*camera) return {};
+  const auto file = read_file(pictures.files.front(), kMaxPictureBytes);
+  if (!file) return file.error();
+  const auto header = camera::parse_picture_header(*file);
+  if (!header) return at(pictures.files.front().string(), header.error());
+  report.profile = true;
+  return write_file_atomic(options.out / kProfileFile,
+                           kitti_profile(options.robot, **camera, header->width, header->height, options.rate_hz));
 }
 
 }  // namespace
@@ -121,7 +199,7 @@ Result<ImportReport> import_kitti_odometry(const ImportOptions& options) {
 
   ImportOptions named = options;
   if (named.model.empty()) named.model = "HDL-64E";
-  auto import = SweepImport::create(named, true, "imported from a KITTI odometry sequence");
+  auto import = SweepImport::create(named, {.deskewed = true, .notes = "imported from a KITTI odometry sequence"});
   if (!import) return import.error();
   const auto written = write_ground_truth(options, *times, *poses);
   if (!written) return written.error();
@@ -134,18 +212,22 @@ Result<ImportReport> import_kitti_raw(const ImportOptions& options) {
   const fs::path folder = options.source / "velodyne_points";
   const auto files = sorted_files(folder / "data", ".bin");
   if (!files) return files.error();
-  const auto ends = raw_ends(folder, files->size(), options.rate_hz);
+  const auto ends = raw_ends(folder, *files, options.rate_hz);
   if (!ends) return ends.error();
+  const auto pictures = find_pictures(options, *files, *ends);
+  if (!pictures) return pictures.error();
 
   ImportOptions named = options;
   if (named.model.empty()) named.model = "HDL-64E";
-  const std::int64_t start = ends->front().time_since_epoch().count();
-  auto import =
-      SweepImport::create(named, false, "imported from a KITTI raw drive; firing times from the azimuth", start);
+  auto import = SweepImport::create(named, {.notes = "imported from a KITTI raw drive; firing times from the azimuth",
+                                            .start_utc_ns = ends->front().time_since_epoch().count(),
+                                            .camera = pictures->files.empty() ? "" : "image_02"});
   if (!import) return import.error();
+  if (auto written = write_profile(options, *pictures, import->report()); !written) return written.error();
   if (auto added = add_sweeps(*import, *files, *ends, from_seconds(1.0 / options.rate_hz), offsets_from_azimuth);
       !added)
     return added.error();
+  if (auto added = add_pictures(*import, *pictures, options); !added) return added.error();
   return import->finish();
 }
 

@@ -51,7 +51,7 @@ Result<ImportReport> import_pcd_folder(const ImportOptions& options) {
   if (!files) return files.error();
   const std::vector<Time> named = times_in_names(*files);
   const std::int64_t start = named.empty() ? 0 : named.front().time_since_epoch().count();
-  auto import = SweepImport::create(options, false, "imported from PCD files", start);
+  auto import = SweepImport::create(options, {.notes = "imported from PCD files", .start_utc_ns = start});
   if (!import) return import.error();
   for (std::size_t i = 0; i < files->size(); ++i) {
     const auto pcd = read_pcd((*files)[i]);

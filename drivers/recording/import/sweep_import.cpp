@@ -4,22 +4,24 @@
 #include <string>
 #include <utility>
 
+#include "drivers/camera/picture_file.hpp"
 #include "drivers/recording/formats/scan_file.hpp"
 #include "hal/files/file.hpp"
 
 namespace cairn::recording {
 
-Result<SweepImport> SweepImport::create(const ImportOptions& options, bool deskewed, std::string notes,
-                                        std::int64_t start_utc_ns) {
+Result<SweepImport> SweepImport::create(const ImportOptions& options, const Description& description) {
   Recording recording;
   recording.robot = options.robot;
-  recording.start_utc_ns = start_utc_ns;
-  recording.notes = std::move(notes);
+  recording.start_utc_ns = description.start_utc_ns;
+  recording.notes = description.notes;
   SourceEntry lidar{"lidar", kScans, "data.csv", "base_link", options.model};
   // The sweeps' frame is the robot's: no profile's mount may move them away from their ground truth.
   lidar.base_sensor_xyz_rpy = Vector6::Zero();
-  lidar.deskewed = options.deskewed.value_or(deskewed);
+  lidar.deskewed = options.deskewed.value_or(description.deskewed);
   recording.sources.push_back(std::move(lidar));
+  if (!description.camera.empty())
+    recording.sources.push_back({"camera", kCamera, "camera/data.csv", "camera", description.camera});
   auto writer = RecordingWriter::create(options.out, recording);
   if (!writer) return writer.error();
   SweepImport import(std::move(*writer), options);
@@ -47,6 +49,17 @@ Result<void> SweepImport::add(Time end, const PointCloud& cloud, bool with_offse
   report_.bytes += packet.bytes.size();
   if (options_.progress) options_.progress(report_.items);
   if (options_.stop && options_.stop()) return import_interrupted(options_);
+  return {};
+}
+
+Result<void> SweepImport::add_picture(Time stamp, std::span<const std::byte> file) {
+  Packet packet;
+  packet.source = SourceId{1};
+  packet.arrival = stamp;
+  packet.sequence = report_.pictures;
+  if (auto made = camera::picture_to_packet(file, camera::FrameFormat::kY16, packet.bytes); !made) return made;
+  if (auto written = writer_.write(packet); !written) return written;
+  ++report_.pictures;
   return {};
 }
 

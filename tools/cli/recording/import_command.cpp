@@ -34,6 +34,8 @@ report::Json to_json(const ImportArguments& options, const ImportReport& r) {
                     {"duration_s", to_seconds(r.last - r.first)},
                     {"model", r.model},
                     {"ground_truth_poses", r.ground_truth_poses},
+                    {"pictures", r.pictures},
+                    {"profile", r.profile},
                     {"rejected_points", r.rejected_points},
                     {"damaged", r.damaged},
                     {"damage", report::Json::array()}};
@@ -50,6 +52,7 @@ void print_report(const ImportArguments& options, const ImportReport& r) {
   std::cout << options.import.out.string() << ": " << r.items << (packets ? " packets" : " sweeps") << " in "
             << to_seconds(r.last - r.first) << " s";
   if (!r.model.empty()) std::cout << ", " << r.model;
+  if (r.pictures > 0) std::cout << ", " << r.pictures << " pictures" << (r.profile ? " with their calibration" : "");
   if (r.ground_truth_poses > 0) std::cout << ", " << r.ground_truth_poses << " poses of ground truth";
   if (r.rejected_points > 0) std::cout << ", " << r.rejected_points << " points that are none left out";
   std::cout << '\n';

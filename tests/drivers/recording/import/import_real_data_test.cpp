@@ -92,10 +92,14 @@ TEST(RealKitti, RawDriveHas24Sweeps) {
   const auto report = import("kitti-raw", options(source, folder / "out"));
   ASSERT_TRUE(report) << to_string(report.error());
   EXPECT_EQ(report->items, 24U);
+  EXPECT_EQ(report->pictures, 24U);
+  EXPECT_TRUE(report->profile);
   EXPECT_EQ(report->damaged, 0U);
   auto reader = RecordingReader::open(folder / "out");
   ScanFileDecoder decoder(false);
   Packet packet;
+  ASSERT_EQ(*(*reader)->next(packet, {}), Poll::kPacket);
+  EXPECT_EQ(packet.source, SourceId{1}) << "the first picture was taken in the middle of the first sweep";
   ASSERT_EQ(*(*reader)->next(packet, {}), Poll::kPacket);
   const Scan& scan = **decoder.decode(packet);
   EXPECT_FALSE(scan.deskewed);
