@@ -18,6 +18,7 @@
 #include "onboard/report/figures/trajectory_error.hpp"
 #include "onboard/report/json/report_json.hpp"
 #include "tools/cli/map/pose_option.hpp"
+#include "tools/cli/projection/projection_command.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -174,11 +175,12 @@ void add_map(app::Commands& commands, CLI::App& evaluate, const std::shared_ptr<
 }  // namespace
 
 void add_evaluate_command(app::Commands& commands) {
-  CLI::App& evaluate = *commands.app.add_subcommand("evaluate", "errors against ground truth");
+  CLI::App& evaluate = *commands.app.add_subcommand("evaluate", "errors against ground truth, and of a calibration");
   evaluate.require_subcommand(1);
   const auto options = std::make_shared<Options>();
   add_trajectory(commands, evaluate, options);
   add_map(commands, evaluate, options);
+  add_projection_command(commands, evaluate);
 }
 
 }  // namespace cairn::cli
