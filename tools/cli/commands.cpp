@@ -4,6 +4,7 @@
 #include "tools/cli/doctor/doctor_command.hpp"
 #include "tools/cli/drive/drive_command.hpp"
 #include "tools/cli/inspect/inspect_command.hpp"
+#include "tools/cli/label/label_command.hpp"
 #include "tools/cli/map/evaluate_command.hpp"
 #include "tools/cli/map/map_command.hpp"
 #include "tools/cli/map/match_command.hpp"
@@ -29,6 +30,7 @@ void add_tool_commands(app::Commands& commands) {
 #endif
   add_import_command(commands);
   add_inspect_command(commands);
+  add_label_command(commands);
   add_map_command(commands);
   add_match_command(commands);
   add_merge_command(commands);
