@@ -68,6 +68,9 @@ install(FILES ${PROJECT_BINARY_DIR}/sdk/version.hpp DESTINATION ${cairn_headers}
 # What the programs need beside them, and what a reader wants.
 install(DIRECTORY config/ DESTINATION ${CMAKE_INSTALL_DATADIR}/cairn/config COMPONENT core
   PATTERN systemd EXCLUDE PATTERN udev EXCLUDE)
+# Programs that are not installed find it in the same place beside their own folder.
+file(MAKE_DIRECTORY ${PROJECT_BINARY_DIR}/share/cairn)
+file(CREATE_LINK ${PROJECT_SOURCE_DIR}/config ${PROJECT_BINARY_DIR}/share/cairn/config SYMBOLIC)
 install(DIRECTORY config/systemd/ DESTINATION lib/systemd/system COMPONENT core FILES_MATCHING PATTERN "*.service")
 install(DIRECTORY config/udev/ DESTINATION lib/udev/rules.d COMPONENT core FILES_MATCHING PATTERN "*.rules")
 install(DIRECTORY examples DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT dev)
