@@ -27,6 +27,18 @@ void write_text(cv::Mat& canvas, const std::string& text, cv::Point at, const cv
   cv::putText(canvas, text, at, cv::FONT_HERSHEY_SIMPLEX, kFontScale, colour, 1, cv::LINE_AA);
 }
 
+/// Text on a field of the class's colour, above `corner` where there is room.
+void write_sign(cv::Mat& canvas, const std::string& text, cv::Point corner, std::uint8_t class_id) {
+  int below = 0;
+  const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kFontScale, 1, &below);
+  const cv::Rect field(corner.x, std::max(corner.y - size.height - below - 2, 0), size.width + 6,
+                       size.height + below + 2);
+  cv::rectangle(canvas, field, colour_of(class_id), cv::FILLED);
+  const SemanticClass& c = kSemanticClasses[class_id];
+  const bool bright = 3 * c.r + 6 * c.g + c.b > 1500;  // as eyes weigh the colours
+  write_text(canvas, text, {field.x + 3, field.y + size.height + 1}, cv::Scalar::all(bright ? 0 : 255));
+}
+
 /// Classes with at least 1 % of the pixels, in the order of their trainIds.
 std::vector<std::uint8_t> frequent_classes(const LabelImage& labels) {
   std::array<std::size_t, 256> counts{};
@@ -86,7 +98,7 @@ void paint_boxes(const Detections& detections, Image& colour) {
     cv::rectangle(canvas, box, colour_of(d.class_id), 1);
     const std::string text =
         std::string(kSemanticClasses[d.class_id].name) + " " + std::to_string(std::lround(100 * d.score));
-    write_text(canvas, text, {box.x + 3, std::max(box.y - 4, 12)}, white);
+    write_sign(canvas, text, box.tl(), d.class_id);
   }
 }
 
