@@ -19,6 +19,7 @@
 #include "hal/files/unfinished_folder.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/figures/map_measures.hpp"
+#include "tools/cli/inspect/calibration.hpp"
 #include "tools/cli/inspect/data_file.hpp"
 #include "tools/cli/inspect/folder.hpp"
 #include "tools/cli/inspect/inspect_stream.hpp"
@@ -239,7 +240,7 @@ Error not_known(const fs::path& path) {
           path.string(),
           {},
           "known: folders of recordings and runs, pcap, pcapng, candump, gpio.csv, lists of pictures, pictures, sweeps "
-          "(.bin), .npy, .pcd, .cairn, .ot, .bt, .tum"};
+          "(.bin), .npy, .pcd, .cairn, .ot, .bt, .tum, calibrations (.yaml, .yml)"};
 }
 
 /// A file of any text may be called .txt: it is a trajectory if it has a pose.
@@ -271,6 +272,8 @@ Result<report::Json> inspect(const InspectOptions& options) {
   if (extension == ".bin") return inspect_bin(options);
   if (extension == ".cairn" || extension == ".ot" || extension == ".bt") return inspect_map(options);
   if (extension == ".tum" || extension == ".txt") return inspect_trajectory(options.path);
+  if (extension == ".yaml" || extension == ".yml")
+    return inspect_calibration(options.path, options.out, options.as, options.camera);
   return not_known(options.path);
 }
 

@@ -16,12 +16,14 @@ struct InspectOptions {
   std::string model;                  ///< of a capture, instead of what its packets say
   std::filesystem::path out;          ///< where to write one scan as PCD; empty: nowhere
   std::optional<std::uint64_t> scan;  ///< which one, counted from 0; none: the first complete one
+  std::string as{};                   ///< of a calibration: format of `out`, which is kalibr, ros or opencv
+  std::size_t camera = 0;             ///< of a calibration: which camera goes to `out`
 };
 
 /// What is in the folder of a recording, of a run or of several, one of a recording's files (candump, gpio.csv, a list
 /// of pictures), a capture (pcap, pcapng), a picture (PNG, JPEG, TIFF), an array (.npy), a sweep (.bin), a map (.cairn,
-/// .ot, .bt), a trajectory (.tum, .txt) or a point cloud (.pcd). Damage that leaves something to tell is told in
-/// `damage`, not as an Error.
+/// .ot, .bt), a trajectory (.tum, .txt), a point cloud (.pcd) or a calibration of cameras (.yaml, .yml). Damage that
+/// leaves something to tell is told in `damage`, not as an Error.
 [[nodiscard]] Result<report::Json> inspect(const InspectOptions& options);
 
 }  // namespace cairn::cli

@@ -5,8 +5,8 @@
 
 namespace cairn::cli {
 
-/// `cairn evaluate trajectory|map ESTIMATE --ground-truth TRUTH`: errors against ground truth. `cairn evaluate projection`: see
-/// tools/cli/projection.
+/// `cairn evaluate trajectory|map ESTIMATE --ground-truth TRUTH`: errors against ground truth. `cairn evaluate
+/// projection`: see tools/cli/projection.
 void add_evaluate_command(app::Commands& commands);
 
 }  // namespace cairn::cli
