@@ -11,6 +11,7 @@
 #include <utility>
 
 #include "onboard/app/door/devices.hpp"
+#include "tools/cli/doctor/networks.hpp"
 #include "tools/cli/inspect/inspect.hpp"
 
 namespace cairn::cli {
@@ -97,6 +98,7 @@ Findings examine_profile(const std::filesystem::path& path, Duration listen) {
         {Level::kProblem, "profile: it has no device", "name one: camera.capture.device, drive.interface, …"});
   for (const auto& entry : entries)
     std::ranges::move(examine_device(*profile, entry, listen), std::back_inserter(findings));
+  std::ranges::move(examine_networks(profile->perception.networks, path), std::back_inserter(findings));
   return findings;
 }
 

@@ -15,6 +15,7 @@ namespace fs = std::filesystem;
 
 constexpr const char* kOverlayFolder = "overlay";
 constexpr double kOpacity = 0.5;
+constexpr int kWide = 640;  // pixels; thermal pictures have 160
 
 Result<void> make_room(const fs::path& path, bool overwrite) {
   std::error_code error;
@@ -60,7 +61,7 @@ Result<void> LabelOutput::keep_overlay(const std::string& camera, const Image& p
                                        const Detections* detections) const {
   if (folder_.empty() || !overlays_) return {};
   Image painted;
-  if (auto made = networks::to_colour(picture, painted); !made) return made;
+  if (auto made = networks::to_colour(picture, kWide, painted); !made) return made;
   if (labels != nullptr) networks::paint_labels(*labels, kOpacity, painted);
   if (detections != nullptr) networks::paint_boxes(*detections, painted);
   if (labels != nullptr) networks::add_legend(*labels, painted);

@@ -31,7 +31,8 @@ void write_text(cv::Mat& canvas, const std::string& text, cv::Point at, const cv
 void write_sign(cv::Mat& canvas, const std::string& text, cv::Point corner, std::uint8_t class_id) {
   int below = 0;
   const cv::Size size = cv::getTextSize(text, cv::FONT_HERSHEY_SIMPLEX, kFontScale, 1, &below);
-  const cv::Rect field(corner.x, std::max(corner.y - size.height - below - 2, 0), size.width + 6,
+  const int right = std::max(canvas.cols - size.width - 6, 0);
+  const cv::Rect field(std::clamp(corner.x, 0, right), std::max(corner.y - size.height - below - 2, 0), size.width + 6,
                        size.height + below + 2);
   cv::rectangle(canvas, field, colour_of(class_id), cv::FILLED);
   const SemanticClass& c = kSemanticClasses[class_id];
@@ -51,21 +52,19 @@ std::vector<std::uint8_t> frequent_classes(const LabelImage& labels) {
 
 }  // namespace
 
-Result<void> to_colour(const Image& picture, Image& colour) {
+Result<void> to_colour(const Image& picture, int wide, Image& colour) {
   const bool grey = picture.format == PixelFormat::kMono8;
   if ((!grey && picture.format != PixelFormat::kBgr8) || picture.view().empty())
     return Error{Errc::kUnsupported, "only colour and grey pictures with 8 bits can be painted on"};
+  const int factor = std::max(1, wide / picture.width);
   colour.source = picture.source;
   colour.stamp = picture.stamp;
-  colour.resize(PixelFormat::kBgr8, picture.width, picture.height);
+  colour.resize(PixelFormat::kBgr8, factor * picture.width, factor * picture.height);
   const ImageView in = picture.view();
-  for (int y = 0; y < in.height; ++y) {
+  for (int y = 0; y < colour.height; ++y) {
     std::byte* out = colour.bytes.data() + static_cast<std::size_t>(y) * colour.stride;
-    const auto row = in.row(y);
-    if (!grey)
-      std::ranges::copy(row, out);
-    else
-      for (const std::byte value : row) out = std::fill_n(out, 3, value);
+    for (int x = 0; x < colour.width; ++x)
+      for (int c = 0; c < 3; ++c) *out++ = in.at<std::byte>(x / factor, y / factor, grey ? 0 : c);
   }
   return {};
 }
@@ -90,10 +89,12 @@ void paint_labels(const LabelImage& labels, double opacity, Image& colour) {
 void paint_boxes(const Detections& detections, Image& colour) {
   cv::Mat canvas = canvas_of(colour);
   const cv::Scalar white(255, 255, 255);
+  const float scale =
+      detections.width > 0 ? static_cast<float>(colour.width) / static_cast<float>(detections.width) : 1;
+  const auto pixels = [scale](float value) { return static_cast<int>(value * scale); };
   for (const Detection& d : detections.found) {
     if (d.class_id >= kSemanticClasses.size()) continue;
-    const cv::Rect box(static_cast<int>(d.x), static_cast<int>(d.y), static_cast<int>(d.width),
-                       static_cast<int>(d.height));
+    const cv::Rect box(pixels(d.x), pixels(d.y), pixels(d.width), pixels(d.height));
     cv::rectangle(canvas, box, white, 3);
     cv::rectangle(canvas, box, colour_of(d.class_id), 1);
     const std::string text =

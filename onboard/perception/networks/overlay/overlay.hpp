@@ -11,15 +11,16 @@
 // What networks said, painted over the picture for people to look at.
 namespace cairn::networks {
 
-/// A picture that can be painted on: `picture` (kBgr8 or kMono8) in colour. Error kUnsupported: another format, or an
+/// A picture that can be painted on: `picture` (kBgr8 or kMono8) in colour. A small one is enlarged by a whole number,
+/// as long as it stays narrower than `wide` pixels: names of boxes need room. Error kUnsupported: another format, or an
 /// empty picture.
-[[nodiscard]] Result<void> to_colour(const Image& picture, Image& colour);
+[[nodiscard]] Result<void> to_colour(const Image& picture, int wide, Image& colour);
 
 /// Mixes the colour of each pixel's class into a kBgr8 picture of any size. `opacity`: 0…1. Pixels without a class keep
 /// their colour.
 void paint_labels(const LabelImage& labels, double opacity, Image& colour);
 
-/// Draws boxes with class and score in percent into a kBgr8 picture.
+/// Draws boxes with class and score in percent into a kBgr8 picture, which may be enlarged.
 void paint_boxes(const Detections& detections, Image& colour);
 
 /// Adds a band below a kBgr8 picture that names the colours of all classes with at least one pixel in a hundred.

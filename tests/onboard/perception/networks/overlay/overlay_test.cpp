@@ -20,7 +20,7 @@ TEST(Overlay, EachLabelPaintsItsRectangleOfThePicture) {
   labels.resize(2, 1);
   labels.classes = {kPersonClass, kNoClass};
   Image colour;
-  ASSERT_TRUE(to_colour(grey_picture(5, 4, 100), colour));
+  ASSERT_TRUE(to_colour(grey_picture(5, 4, 100), 0, colour));
   paint_labels(labels, 0.5, colour);
   const ImageView view = colour.view();
   const SemanticClass& person = kSemanticClasses[kPersonClass];
@@ -32,7 +32,7 @@ TEST(Overlay, EachLabelPaintsItsRectangleOfThePicture) {
 
 TEST(Overlay, BoxesMayTouchAndLeaveThePicture) {
   Image colour;
-  ASSERT_TRUE(to_colour(grey_picture(40, 30, 0), colour));
+  ASSERT_TRUE(to_colour(grey_picture(40, 30, 0), 0, colour));
   const Image before = colour;
   Detections found;
   found.found = {{0, 0, 40, 30, kPersonClass, 1}, {35, 25, 100, 100, 13, 0.5F}, {-20, -20, 30, 30, 0, 0.25F}};
@@ -47,13 +47,13 @@ TEST(Overlay, TheLegendIsBelowThePicture) {
   std::fill(labels.classes.begin(), labels.classes.end(), std::uint8_t{0});
   labels.classes[0] = kPersonClass;
   Image colour;
-  ASSERT_TRUE(to_colour(grey_picture(140, 30, 7), colour));
+  ASSERT_TRUE(to_colour(grey_picture(140, 30, 7), 0, colour));
   const Image before = colour;
   add_legend(labels, colour);
   EXPECT_EQ(colour.height, 70) << "a line for each of two classes";
   EXPECT_TRUE(std::equal(before.bytes.begin(), before.bytes.end(), colour.bytes.begin()));
   Image small;
-  ASSERT_TRUE(to_colour(grey_picture(3, 3, 7), small));
+  ASSERT_TRUE(to_colour(grey_picture(3, 3, 7), 0, small));
   add_legend(labels, small);
   EXPECT_EQ(small.width, 3);
 }
@@ -61,13 +61,29 @@ TEST(Overlay, TheLegendIsBelowThePicture) {
 TEST(Overlay, APictureOfAnotherFormatIsRefused) {
   Image deep, colour;
   deep.resize(PixelFormat::kMono16, 2, 2);
-  EXPECT_FALSE(to_colour(deep, colour));
-  EXPECT_FALSE(to_colour(Image(), colour));
+  EXPECT_FALSE(to_colour(deep, 0, colour));
+  EXPECT_FALSE(to_colour(Image(), 0, colour));
+}
+
+TEST(Overlay, ASmallPictureIsEnlargedAndItsBoxesWithIt) {
+  Image colour;
+  ASSERT_TRUE(to_colour(grey_picture(160, 120, 7), 640, colour));
+  EXPECT_EQ(colour.width, 640);
+  EXPECT_EQ(colour.height, 480);
+  Detections found;
+  found.width = 160;
+  found.height = 120;
+  found.found = {{100, 100, 20, 10, kPersonClass, 1}};
+  paint_boxes(found, colour);
+  EXPECT_NE(colour.view().at<std::uint8_t>(400, 420, 0), 7) << "the left edge";
+  EXPECT_EQ(colour.view().at<std::uint8_t>(110, 105, 0), 7);
+  ASSERT_TRUE(to_colour(grey_picture(641, 10, 7), 640, colour));
+  EXPECT_EQ(colour.width, 641);
 }
 
 TEST(Overlay, IsAPng) {
   Image colour;
-  ASSERT_TRUE(to_colour(grey_picture(3, 2, 7), colour));
+  ASSERT_TRUE(to_colour(grey_picture(3, 2, 7), 0, colour));
   const auto png = encode_png(colour);
   ASSERT_TRUE(png);
   EXPECT_EQ((*png)[1], std::byte{'P'});
