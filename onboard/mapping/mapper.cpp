@@ -23,7 +23,8 @@ Mapper::Mapper(const MappingConfig& config, Workers& workers)
       workers_(workers),
       tree_(std::make_unique<SemanticOcTree>(config.resolution_m)),
       rays_(config.resolution_m, config.max_range_m),
-      footprints_(workers.threads(), Footprint(megabytes(config.max_scan_mb) / sizeof(BrickBits) / 2)) {
+      footprints_(workers.threads(), Footprint(megabytes(config.max_scan_mb) / sizeof(BrickBits) / 2)),
+      labels_(config.label_trust) {
   set_up();
 }
 
@@ -32,7 +33,8 @@ Mapper::Mapper(const MappingConfig& config, Workers& workers, const SemanticOcTr
       workers_(workers),
       tree_(std::make_unique<SemanticOcTree>(saved)),
       rays_(config.resolution_m, config.max_range_m),
-      footprints_(workers.threads(), Footprint(megabytes(config.max_scan_mb) / sizeof(BrickBits) / 2)) {
+      footprints_(workers.threads(), Footprint(megabytes(config.max_scan_mb) / sizeof(BrickBits) / 2)),
+      labels_(config.label_trust) {
   if (saved.getResolution() != config.resolution_m) std::abort();
   set_up();
 }

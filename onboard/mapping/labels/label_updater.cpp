@@ -118,9 +118,9 @@ bool LabelUpdater::label(SemanticNode* voxel, Range range) {
   }
   LabelEvidence evidence = LabelEvidence::from_id(voxel->label_id());
   const LabelEvidence before = evidence;
-  const std::uint64_t unit = std::uint64_t{256} * 255 * range.size();
+  const std::uint64_t unit = std::uint64_t{256} * 256 * 255 * range.size();
   for (unsigned k = 0; k < VoxelLabel::kClasses; ++k)
-    evidence.add(static_cast<std::uint8_t>(k), static_cast<unsigned>((sums[k] + unit / 2) / unit));
+    evidence.add(static_cast<std::uint8_t>(k), static_cast<unsigned>((sums[k] * trust_256ths_ + unit / 2) / unit));
   ++report_.voxels;
   if (evidence == before) return false;
   voxel->set_label_id(evidence.id());

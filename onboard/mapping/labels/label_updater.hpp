@@ -31,6 +31,9 @@ struct LabelReport {
 /// result depends neither on the order of the points nor on the machine.
 class LabelUpdater {
  public:
+  /// `trust`: the share of its evidence with which a picture counts, 0…1.
+  explicit LabelUpdater(double trust) : trust_256ths_(static_cast<std::uint64_t>(trust * 256 + 0.5)) {}
+
   /// `tree` stays canonical. Adds to `changed` the tiles in which a voxel got a class or another one, in canonical
   /// order.
   LabelReport update(std::span<const LabelledPoint> points, SemanticOcTree& tree, std::vector<TileKey>& changed);
@@ -47,6 +50,7 @@ class LabelUpdater {
   bool visit(SemanticNode* node, unsigned depth, Range range, NodeWriter& writer);
   bool label(SemanticNode* voxel, Range range);
 
+  std::uint64_t trust_256ths_;
   std::span<const LabelledPoint> points_;
   float occupied_ = 0;
   std::vector<Placed> placed_;  // reused

@@ -26,6 +26,7 @@ MappingConfig small() {
   MappingConfig config;
   config.resolution_m = 0.2;
   config.reserve_mb = 1;
+  config.label_trust = 0.5;
   return config;
 }
 
@@ -93,7 +94,7 @@ TEST(LabelUpdater, EachVoxelTakesTheMeanOfItsPointsOnceForEachPicture) {
     LabelEvidence expected;
     for (const std::uint8_t k : {kRoad, kCar}) {
       double steps = 0;
-      for (const auto& p : inside) steps += p.class_id == k ? gain_256ths(p.probability) / 256.0 * p.weight / 255 : 0;
+      for (const auto& p : inside) steps += p.class_id == k ? gain_256ths(p.probability) / 256.0 * p.weight / 255 / 2 : 0;
       expected.add(k, static_cast<unsigned>(std::floor(steps / static_cast<double>(inside.size()) + 0.5)));
     }
     EXPECT_EQ(LabelEvidence::from_id(node->label_id()), expected);
@@ -158,7 +159,7 @@ TEST(LabelUpdater, EqualEvidenceIsPruned) {
   for (const float x : {0.1F, 0.3F})
     for (const float y : {0.1F, 0.3F})
       for (const float z : {0.1F, 0.3F}) corners.push_back(labelled({x, y, z}, kCar));
-  LabelUpdater updater;
+  LabelUpdater updater(1);
   std::vector<TileKey> changed;
   updater.update(std::span(corners).first(4), tree, changed);
   EXPECT_EQ(tree.size(), nodes + 8) << "half of them have a label";
