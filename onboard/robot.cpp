@@ -13,7 +13,7 @@ Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapp
       monitor_(monitor),
       odometry_stage_(monitor.stage("odometry")),
       mapping_stage_(monitor.stage("mapping")) {
-  set_up_labelling(config.labelling);
+  set_up_cameras(config);
 }
 
 Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapping_workers, Monitor& monitor,
@@ -24,7 +24,7 @@ Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapp
       monitor_(monitor),
       odometry_stage_(monitor.stage("odometry")),
       mapping_stage_(monitor.stage("mapping")) {
-  set_up_labelling(config.labelling);
+  set_up_cameras(config);
   odometry_.resume(saved.T_odom_base, saved.twist, saved.stamp, saved.scans);
   LocatedScan located;
   for (const odometry::PlacedScan& scan : saved.scans) {
@@ -37,7 +37,9 @@ Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapp
   }
 }
 
-void Robot::set_up_labelling(const std::optional<LabellingSetup>& setup) {
+void Robot::set_up_cameras(const RobotConfig& config) {
+  depth_ = config.depth;
+  const auto& setup = config.labelling;
   if (setup) labeller_.emplace(setup->camera, setup->T_base_camera, setup->config);
 }
 
@@ -95,20 +97,42 @@ Result<void> Robot::extend_map(const LocatedScan& scan, const MapShare& share) {
   const Eigen::Vector3f origin_odom = (T_odom_base * T_base_lidar_.translation()).cast<float>();
   const auto inserted = mapper_.insert(points_odom_, origin_odom);
   if (!inserted) return inserted.error();
-  if (labeller_) (void)recent_.add(scan.stamp, T_odom_base, scan.twist, scan.epoch, scan.points_base);
+  if (labeller_ || depth_) (void)recent_.add(scan.stamp, T_odom_base, scan.twist, scan.epoch, scan.points_base);
   return {};
 }
 
+Result<std::optional<SE3>> Robot::T_odom_base_at(Time t) const {
+  if (recent_.size() == 0 || recent_[recent_.size() - 1].stamp < t) return std::nullopt;
+  const auto T_odom_base = recent_.pose_at(t);
+  if (!T_odom_base || recent_.nearest(t)->epoch != mapped_epoch_)
+    return Error{Errc::kNotFound, "no scans around the picture: it is left out of the map", {}, {}, {}};
+  return T_odom_base;
+}
+
+Result<bool> Robot::extend_map(const DepthCloud& cloud) {
+  if (!depth_) return Error{Errc::kUnsupported, "a depth cloud came, but none is to be mapped", {}, {}, {}};
+  const auto T_odom_base = T_odom_base_at(cloud.stamp);
+  if (!T_odom_base) return T_odom_base.error();
+  if (!*T_odom_base) return false;
+  const StageTimer timing(monitor_.stage("depth_update"));
+  const Eigen::Matrix3f R = (*T_odom_base)->rotation().cast<float>();
+  const Eigen::Vector3f t = (*T_odom_base)->translation().cast<float>();
+  points_odom_.clear();
+  for (const Eigen::Vector3f& p : cloud.points_base) points_odom_.emplace_back(R * p + t);
+  const auto inserted = mapper_.insert(points_odom_, R * cloud.origin_base + t, *depth_);
+  if (!inserted) return inserted.error();
+  return true;
+}
+
 Result<std::optional<mapping::LabelReport>> Robot::label_map(const LabelImage& labels) {
-  if (!labeller_) return Error{Errc::kUnsupported, "labels came, but no calibrated camera is set up"};
-  if (recent_.size() == 0 || recent_[recent_.size() - 1].stamp < labels.stamp) return std::nullopt;
+  if (!labeller_) return Error{Errc::kUnsupported, "labels came, but no calibrated camera is set up", {}, {}, {}};
+  const auto T_odom_base = T_odom_base_at(labels.stamp);
+  if (!T_odom_base) return T_odom_base.error();
+  if (!*T_odom_base) return std::nullopt;
   const StageTimer timing(monitor_.stage("label_update"));
-  const auto T_odom_base = recent_.pose_at(labels.stamp);
-  const labelling::PlacedScan* scan = recent_.nearest(labels.stamp);
-  if (!T_odom_base || scan->epoch != mapped_epoch_)
-    return Error{Errc::kNotFound, "no scans around the picture: its labels are left out"};
   const Vector6 twist = recent_.twist_at(labels.stamp).value_or(Vector6::Zero());
-  const auto labelled = labeller_->label(labels, *scan, {*T_odom_base, twist}, labelled_points_);
+  const auto labelled =
+      labeller_->label(labels, *recent_.nearest(labels.stamp), {**T_odom_base, twist}, labelled_points_);
   if (!labelled) return labelled.error();
   return mapper_.label(labelled_points_);
 }

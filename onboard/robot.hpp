@@ -35,7 +35,8 @@ struct RobotConfig {
   SE3 T_base_lidar;  ///< how the LiDAR is mounted
   odometry::OdometryConfig odometry;
   mapping::MappingConfig mapping;
-  std::optional<LabellingSetup> labelling;  ///< none: the map gets no labels
+  std::optional<LabellingSetup> labelling;    ///< none: the map gets no labels
+  std::optional<mapping::SensorTrust> depth;  ///< none: the map gets no clouds of depth cameras
 };
 
 /// Where the robot was when a scan ended, and how certain that is.
@@ -58,6 +59,13 @@ struct LocatedScan {
   std::vector<Eigen::Vector3f> points_base;  ///< deskewed, in base_link at `stamp`, in metres
   std::uint32_t epoch = 0;                   ///< see TrackPoint
   bool lost = false;                         ///< the pose is only a prediction
+};
+
+/// What a depth camera saw at one instant.
+struct DepthCloud {
+  Time stamp{};                                           ///< of the exposure
+  Eigen::Vector3f origin_base = Eigen::Vector3f::Zero();  ///< where the camera is
+  std::vector<Eigen::Vector3f> points_base;               ///< in base_link at `stamp`, metres
 };
 
 /// How much of a scan goes into the map; less under overload.
@@ -103,6 +111,10 @@ class Robot {
   /// map is as before.
   Result<void> extend_map(const LocatedScan& scan, const MapShare& share = {});
 
+  /// Adds what a depth camera saw, with the noise of RobotConfig::depth, from where the robot was then. False while the
+  /// scan after it is still to come. Of the other extend_map()'s thread. Errors: kNotFound (no scans around it, or the
+  /// map of them has ended), kUnsupported (no RobotConfig::depth), and those of Mapper::insert().
+  Result<bool> extend_map(const DepthCloud& cloud);
   /// Labels the map by what a picture shows: the points of the scan nearest to the exposure, seen from where the camera
   /// was then. Nothing while the scan after the picture is still to come. Occupancy does not change. Of extend_map()'s
   /// thread. Errors: kNotFound (no scans around the picture, or the map of them has ended), kMalformed, kUnsupported
@@ -133,7 +145,7 @@ class Robot {
   SE3 T_base_lidar_;
   odometry::LidarOdometry odometry_;
   mapping::Mapper mapper_;
-  void set_up_labelling(const std::optional<LabellingSetup>& setup);
+  void set_up_cameras(const RobotConfig& config);
   void begin_map(std::uint32_t epoch);
 
   Monitor& monitor_;
@@ -145,7 +157,10 @@ class Robot {
   std::vector<EarlierMap> earlier_;
   std::size_t dropped_maps_ = 0;
   std::vector<Eigen::Vector3f> points_odom_;  // reused
+  /// Where the robot was; nothing while the scan after `t` is still to come.
+  [[nodiscard]] Result<std::optional<SE3>> T_odom_base_at(Time t) const;
   std::optional<labelling::PointLabeller> labeller_;
+  std::optional<mapping::SensorTrust> depth_;
   labelling::LocatedScans recent_;              // of mapping; empty without a labeller
   std::vector<LabelledPoint> labelled_points_;  // reused
 };

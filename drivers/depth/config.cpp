@@ -7,8 +7,7 @@ namespace cairn::depth {
 
 void declare(config::Section& s, Config& c) {
   s.group("capture", c.capture, "what the device is asked for");
-  s.number("fx", c.fx, {1, 1e5}, "px",
-           "focal length, horizontally; this and the keys below are used by tools/protocol.sh, not by cairn run yet");
+  s.number("fx", c.fx, {1, 1e5}, "px", "focal length, horizontally");
   s.number("fy", c.fy, {1, 1e5}, "px", "focal length, vertically");
   s.number("cx", c.cx, {-1e5, 1e5}, "px", "principal point, from the centre of the left column");
   s.number("cy", c.cy, {-1e5, 1e5}, "px", "principal point, from the centre of the top row");

@@ -38,8 +38,8 @@ Result<void> make_socket_folder(const std::filesystem::path& folder) {
 }
 
 Devices devices_for(const RunOptions& options, const RobotProfile& profile) {
-  if (!options.record.empty()) return Devices::kAll;
-  return wants_camera(options, profile) ? Devices::kUsedAndCamera : Devices::kUsed;
+  return {
+      .camera = wants_camera(options, profile), .depth = profile.depth.map.rate_hz > 0, .all = !options.record.empty()};
 }
 
 Result<Door> open_door(const RunOptions& options, RobotProfile& profile, const Clock& clock, Monitor& monitor) {
@@ -58,7 +58,8 @@ Result<Door> open_door(const RunOptions& options, RobotProfile& profile, const C
 }
 
 Result<void> check_schedule(const RunOptions& options, const RobotProfile& profile) {
-  const auto tasks = profile.schedule.tasks(profile.team.id != 0, wants_camera(options, profile));
+  const auto tasks = profile.schedule.tasks(profile.team.id != 0, wants_camera(options, profile),
+                                            profile.depth.exists() && profile.depth.map.rate_hz > 0);
   return scheduler::validate(tasks, static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
 }
 

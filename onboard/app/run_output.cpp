@@ -102,6 +102,17 @@ void add_labels(const RobotTasks& tasks, const Monitor& monitor, report::RunRepo
       report.labels->latency_p99_ms = to_milliseconds(stage.wall.percentile(0.99));
 }
 
+void add_depth(const RobotTasks& tasks, report::RunReport& report) {
+  if (!tasks.depth) return;
+  const DepthTask::Figures& looked = tasks.depth->figures();
+  const CloudJoiner::Figures& joined = tasks.mapping.cloud_figures();
+  report.depth = report::DepthStats{.images = joined.clouds,
+                                    .points = joined.points,
+                                    .passed = looked.passed,
+                                    .refused = looked.refused,
+                                    .apart = joined.apart};
+}
+
 /// Empty where the recording knows no time of day.
 std::string utc_of(Time t, const recording::Recording& recording) {
   const std::int64_t utc_ns = recording.utc_ns(t);
@@ -144,6 +155,7 @@ report::RunReport make_report(const RunFacts& facts) {
   if (const auto cause = facts.tasks.safety.decision().cause) report.mode_cause = to_string(*cause);
   add_shed(facts.tasks.mapping, report);
   add_labels(facts.tasks, facts.monitor, report);
+  add_depth(facts.tasks, report);
   report.monitor = &facts.monitor;
   for (const TrackPoint& p : track) report.trajectory.push_back({p.stamp, p.T_odom_base});
   report.map = report::summarise(facts.tasks.robot.map());

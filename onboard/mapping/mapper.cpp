@@ -72,6 +72,18 @@ Result<InsertReport> Mapper::insert(std::span<const Eigen::Vector3f> points_map,
                       .changed_tiles = changed_now_.size()};
 }
 
+Result<InsertReport> Mapper::insert(std::span<const Eigen::Vector3f> points_map, const Eigen::Vector3f& origin_map,
+                                    const SensorTrust& trust) {
+  const SensorModel usual = tree_->sensor_model();
+  tree_->setProbHit(trust.prob_hit);
+  tree_->setProbMiss(trust.prob_miss);
+  rays_.set_max_range(trust.max_range_m);
+  auto inserted = insert(points_map, origin_map);
+  rays_.set_max_range(config_.max_range_m);
+  tree_->set_sensor_model(usual);
+  return inserted;
+}
+
 LabelReport Mapper::label(std::span<const LabelledPoint> points) {
   changed_now_.clear();
   const LabelReport report = labels_.update(points, *tree_, changed_now_);

@@ -46,6 +46,10 @@ class Mapper {
   /// the map, scan or map beyond its memory) the map is as before.
   Result<InsertReport> insert(std::span<const Eigen::Vector3f> points_map, const Eigen::Vector3f& origin_map);
 
+  /// The same for a sensor whose points mean less or more, or that sees less far.
+  Result<InsertReport> insert(std::span<const Eigen::Vector3f> points_map, const Eigen::Vector3f& origin_map,
+                              const SensorTrust& trust);
+
   /// Adds what a picture told of points, in the map frame, to the voxels that are occupied; see LabelUpdater. Occupancy
   /// does not change. A voxel that becomes free loses its label.
   LabelReport label(std::span<const LabelledPoint> points);

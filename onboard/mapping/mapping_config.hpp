@@ -20,6 +20,13 @@ struct MappingConfig {
   int max_scan_mb = 256;         ///< MB. A scan that touches more space is refused: 250 000 bricks of 1.6 m at 0.1 m.
 };
 
+/// How a sensor other than the LiDAR is believed; as MappingConfig has it.
+struct SensorTrust {
+  double prob_hit = 0.7;
+  double prob_miss = 0.4;
+  double max_range_m = 30.0;  ///< from here on, a beam is free space alone
+};
+
 /// Names, units and bounds of every key (config section `mapping`).
 inline void declare(config::Section& s, MappingConfig& c) {
   s.number("resolution_m", c.resolution_m, {0.01, 10.0}, "m", "edge of a voxel");

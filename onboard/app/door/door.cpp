@@ -58,14 +58,15 @@ class UnreadableSource final : public Source {
   bool said_ = false;
 };
 
-bool is_used(const SourceEntry& entry, Devices which) {
-  return which == Devices::kAll || !recording::is_picture_kind(entry.kind) ||
-         (which == Devices::kUsedAndCamera && entry.kind == recording::kCamera);
+bool is_used(const SourceEntry& entry, const Devices& which) {
+  if (entry.kind == recording::kCamera && which.camera) return true;
+  if (entry.kind == recording::kDepth && which.depth) return true;
+  return which.all || !recording::is_picture_kind(entry.kind);
 }
 
 /// Geometry goes on without it.
-bool may_be_missing(const SourceEntry& entry, Devices which) {
-  return which != Devices::kAll && recording::is_picture_kind(entry.kind);
+bool may_be_missing(const SourceEntry& entry, const Devices& which) {
+  return !which.all && recording::is_picture_kind(entry.kind);
 }
 
 Result<Input> open_live(const RobotProfile& profile, const SourceEntry& entry, SourceId id, const Clock& clock) {
@@ -105,7 +106,7 @@ Result<void> add_decoders(Door& door, RobotProfile& profile, Monitor& monitor) {
 
 }  // namespace
 
-Result<Door> open_devices(const RobotProfile& profile, Devices which, const Clock& clock, Monitor& monitor) {
+Result<Door> open_devices(const RobotProfile& profile, const Devices& which, const Clock& clock, Monitor& monitor) {
   if (!profile.lidar.enabled)
     return Error{Errc::kInvalidConfig,
                  "this robot has no LiDAR, and odometry needs one",

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -41,13 +40,16 @@ struct Door {
   std::optional<scheduler::ScheduleLog> schedule;  ///< of the live run that made the recording
 };
 
-/// Which devices a live run opens: those that geometry and safety use, the colour camera too because its pictures are
-/// looked at, or all of the profile, because it records them.
-enum class Devices : std::uint8_t { kUsed, kUsedAndCamera, kAll };
+/// Which devices a live run opens besides those that geometry and safety use.
+struct Devices {
+  bool camera = false;  ///< its pictures are looked at
+  bool depth = false;   ///< its clouds go into the map
+  bool all = false;     ///< they are recorded
+};
 
 /// Opens the devices of the profile; they listen from now on. Decoders report events to `monitor`. `monitor` and
 /// `clock` must outlive the door. Errors: kInvalidConfig (the robot has no LiDAR), those of a driver.
-Result<Door> open_devices(const RobotProfile& profile, Devices which, const Clock& clock, Monitor& monitor);
+Result<Door> open_devices(const RobotProfile& profile, const Devices& which, const Clock& clock, Monitor& monitor);
 /// Opens a recording. Its name, models and ports replace those of `profile`. An unfinished one is an event. A
 /// source whose file cannot be opened returns that error once, and then ends. `monitor` must outlive the door. Errors:
 /// those of the index.

@@ -2,7 +2,6 @@
 #include "onboard/app/perception/label_joiner.hpp"
 
 #include <string>
-#include <utility>
 
 namespace cairn::app {
 
@@ -11,25 +10,19 @@ LabelJoiner::LabelJoiner(Robot& robot, Monitor& monitor) : robot_(robot), monito
 void LabelJoiner::add(LabelImage& labels) {
   if (waiting_.size() == kWaiting) {
     leave_out(waiting_.front(), "no scan came after the picture for a long time: its labels are left out");
-    spare_.push_back(std::move(waiting_.front()));
-    waiting_.pop_front();
+    waiting_.pop();
   }
-  if (spare_.empty()) spare_.emplace_back();
-  std::swap(spare_.front(), labels);
-  waiting_.push_back(std::move(spare_.front()));
-  spare_.pop_front();
+  waiting_.add(labels);
 }
 
 void LabelJoiner::join(const scheduler::Tick& tick) {
-  while (!waiting_.empty()) {
+  for (; !waiting_.empty(); waiting_.pop()) {
     const auto written = robot_.label_map(waiting_.front());
     if (written && !*written) return;  // the scan after the picture is still to come
     if (written)
       count(**written, waiting_.front(), tick);
     else
       leave_out(waiting_.front(), to_string(written.error()));
-    spare_.push_back(std::move(waiting_.front()));
-    waiting_.pop_front();
   }
 }
 

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <deque>
+#include <string>
 
 #include "hal/labels.hpp"
 #include "hal/monitor.hpp"
 #include "hal/relaxed_counter.hpp"
+#include "onboard/app/perception/waiting_list.hpp"
 #include "onboard/robot.hpp"
 #include "onboard/scheduler/tick.hpp"
 
@@ -43,7 +44,7 @@ class LabelJoiner {
 
   Robot& robot_;
   Monitor& monitor_;
-  std::deque<LabelImage> waiting_, spare_;
+  WaitingList<LabelImage> waiting_;
   Figures figures_;
 };
 

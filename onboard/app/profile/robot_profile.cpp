@@ -11,7 +11,8 @@
 namespace cairn::app {
 
 RobotConfig RobotProfile::robot() const {
-  return {SE3::from_xyz_rpy(Eigen::Map<const Vector6>(lidar.base_xyz_rpy.data())), odometry, mapping, std::nullopt};
+  return {SE3::from_xyz_rpy(Eigen::Map<const Vector6>(lidar.base_xyz_rpy.data())), odometry, mapping, std::nullopt,
+          depth.map.rate_hz > 0 ? std::optional(depth.map.trust) : std::nullopt};
 }
 
 void declare(config::Section& s, RobotProfile& p) {

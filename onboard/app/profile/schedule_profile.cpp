@@ -10,6 +10,7 @@ void declare(config::Section& s, ScheduleProfile& p) {
   s.group("odometry", p.odometry, "locates one scan at a time; looks for one at rate_hz, and finds one at busy_hz");
   s.group("mapping", p.mapping, "puts one located scan at a time into the map; rates as odometry");
   s.group("perception", p.perception, "looks at one picture at a time; its labels are in the map after the deadline");
+  s.group("depth", p.depth, "turns one depth picture at a time into points for the map");
   s.group("team", p.team, "in a team: datagrams of peers, and a slice of the team's map");
   s.group("matching", p.matching, "in a team: compares maps, one pair at a time, for seconds if need be");
   s.group("watch", p.watch, "events, signs of life, live view: waits for no disk");

@@ -34,6 +34,15 @@ void declare(config::Section& s, ThermalProfile& p) {
 void declare(config::Section& s, DepthProfile& p) {
   declare(s, p.driver);
   declare_mount(s, p.base_xyz_rpy, "T_base_depth", "depth camera (x along its view, y left, z up)");
+  s.group("map", p.map, "how its clouds get into the map, beside the LiDAR's");
+}
+
+void declare(config::Section& s, DepthMapProfile& p) {
+  s.number("rate_hz", p.rate_hz, {0, 30}, "Hz", "clouds per second, at most; 0: the map gets none");
+  s.number("prob_hit", p.trust.prob_hit, {0.51, 0.99}, "", "probability that a hit voxel is occupied");
+  s.number("prob_miss", p.trust.prob_miss, {0.01, 0.49}, "", "probability that a voxel seen through is occupied");
+  s.number("max_range_m", p.trust.max_range_m, {0.1, 100}, "m",
+           "from here on, a beam is free space alone: noise grows with the square of the distance");
 }
 
 void declare(config::Section& s, DriveProfile& p) { declare(s, p.driver); }

@@ -11,6 +11,7 @@
 #include "drivers/thermal/config.hpp"
 #include "drivers/velodyne/config.hpp"
 #include "hal/config/config.hpp"
+#include "onboard/mapping/mapping_config.hpp"
 #include "onboard/perception/cameras/camera_intrinsics.hpp"
 
 namespace cairn::app {
@@ -36,7 +37,16 @@ struct CalibratedCamera : MountedCamera<Driver> {
 };
 using CameraProfile = CalibratedCamera<camera::Config>;
 using ThermalProfile = CalibratedCamera<thermal::Config>;
-using DepthProfile = MountedCamera<depth::Config>;
+/// How the clouds of a depth camera get into the map: section `depth.map`.
+struct DepthMapProfile {
+  double rate_hz = 0;  ///< clouds per second, at most; 0: the map gets none
+  /// An RGB-D camera's noise grows with the square of the distance: 2 % at 3 m are half a voxel of 0.1 m.
+  mapping::SensorTrust trust{.prob_hit = 0.6, .prob_miss = 0.45, .max_range_m = 3};
+};
+/// A depth camera, its mount, and its part in the map.
+struct DepthProfile : MountedCamera<depth::Config> {
+  DepthMapProfile map;
+};
 
 /// Width and height in pixels of the pictures that are looked at: one eye, without rows of telemetry.
 struct PictureSize {
@@ -66,6 +76,7 @@ void declare(config::Section& section, LidarProfile& profile);
 void declare(config::Section& section, CameraProfile& profile);
 void declare(config::Section& section, ThermalProfile& profile);
 void declare(config::Section& section, DepthProfile& profile);
+void declare(config::Section& section, DepthMapProfile& profile);
 void declare(config::Section& section, DriveProfile& profile);
 void declare(config::Section& section, GpioProfile& profile);
 /// \endcond

@@ -26,7 +26,8 @@ MappingTask::MappingTask(const safety::OverloadConfig& overload, Duration deadli
       robot_(robot),
       monitor_(monitor),
       latency_(monitor.stage("packet_to_map")),
-      joiner_(robot, monitor) {}
+      label_joiner_(robot, monitor),
+      cloud_joiner_(robot, monitor) {}
 
 void MappingTask::tick(Tick& tick) {
   if (copier_ && motions.size() == 0) copier_->idle(tick.release(), robot_.map());
@@ -35,7 +36,7 @@ void MappingTask::tick(Tick& tick) {
     if (tick.regime() != Regime::kDrain) break;
   }
   motions.give_back(tick);
-  take_labels(tick);
+  take_pictures(tick);
   if (tick.regime() == Regime::kDrain) hand_on_tiles(tick);
   if (outlet_ == nullptr) return;
   if (tick.release() > next_batch_ + kBatchPeriod) owe_changes();  // no further scan may come
@@ -61,9 +62,12 @@ void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
   if (tick.takes_time()) latency_.record(tick.figure_now() - motion.arrival);
 }
 
-void MappingTask::take_labels(Tick& tick) {
-  while (ArrivedLabels* arrived = labels.take(tick)) joiner_.add(arrived->labels);
-  joiner_.join(tick);
+/// Clouds first: what they add can be labelled.
+void MappingTask::take_pictures(Tick& tick) {
+  while (ArrivedCloud* arrived = clouds.take(tick)) cloud_joiner_.add(arrived->cloud);
+  cloud_joiner_.join();
+  while (ArrivedLabels* arrived = labels.take(tick)) label_joiner_.add(arrived->labels);
+  label_joiner_.join(tick);
 }
 
 void MappingTask::share_resumed_tiles() {

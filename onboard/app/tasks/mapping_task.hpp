@@ -8,6 +8,7 @@
 
 #include "hal/monitor.hpp"
 #include "hal/relaxed_counter.hpp"
+#include "onboard/app/perception/cloud_joiner.hpp"
 #include "onboard/app/perception/label_joiner.hpp"
 #include "onboard/app/streams/stream_outlets.hpp"
 #include "onboard/app/tasks/map_copier.hpp"
@@ -27,6 +28,7 @@ class MappingTask final : public scheduler::Task {
   const std::size_t shed_slot = take_slots();  ///< the level of shedding
   scheduler::OutputPort<TileBatch> tiles{*this, "tiles"};
   scheduler::InputPort<ArrivedLabels> labels{*this, "labels"};
+  scheduler::InputPort<ArrivedCloud> clouds{*this, "clouds"};
 
   /// All must outlive the task. `deadline`: from the last byte of a scan until the scan is in the map.
   MappingTask(const safety::OverloadConfig& overload, Duration deadline, Robot& robot, Monitor& monitor);
@@ -54,11 +56,12 @@ class MappingTask final : public scheduler::Task {
   [[nodiscard]] bool memory_short() const { return memory_short_.load(std::memory_order_relaxed); }
   /// Scans that were mapped at each level.
   [[nodiscard]] const std::array<RelaxedCounter, safety::kShedLevels>& scans_at() const { return scans_at_; }
-  [[nodiscard]] const LabelJoiner::Figures& label_figures() const { return joiner_.figures(); }
+  [[nodiscard]] const LabelJoiner::Figures& label_figures() const { return label_joiner_.figures(); }
+  [[nodiscard]] const CloudJoiner::Figures& cloud_figures() const { return cloud_joiner_.figures(); }
 
  private:
   void extend(const ArrivedMotion& motion, scheduler::Tick& tick);
-  void take_labels(scheduler::Tick& tick);
+  void take_pictures(scheduler::Tick& tick);
   safety::Shed decide(const ArrivedMotion& motion, scheduler::Tick& tick);
   void note_changes(const LocatedScan& scan, scheduler::Tick& tick);
   void hand_on_tiles(scheduler::Tick& tick);
@@ -74,7 +77,8 @@ class MappingTask final : public scheduler::Task {
   Robot& robot_;
   Monitor& monitor_;
   StageStats& latency_;
-  LabelJoiner joiner_;
+  LabelJoiner label_joiner_;
+  CloudJoiner cloud_joiner_;
   std::optional<MapCopier> copier_;
   std::vector<mapping::TileKey> resumed_tiles_;  // not handed on yet; of epoch 0
   struct Changes {

@@ -27,7 +27,7 @@ struct ArrivedMotion {
   Time arrival{};  ///< of the last byte of the scan
 };
 
-/// A picture of the colour camera, not decoded. From receive to perception.
+/// A picture as it came, not decoded. From receive to who looks at it.
 struct ArrivedPicture {
   Packet packet;
 };
@@ -35,6 +35,11 @@ struct ArrivedPicture {
 /// What a network said of a picture. From perception to mapping.
 struct ArrivedLabels {
   LabelImage labels;
+};
+
+/// What a depth camera saw. From depth to mapping.
+struct ArrivedCloud {
+  DepthCloud cloud;
 };
 
 /// When each kind of sensor last gave good data, and the faults in its data. From receive to safety.

@@ -12,32 +12,19 @@ using scheduler::Tick;
 PerceptionTask::PerceptionTask(PerceptionParts parts, Duration budget, std::function<safety::Shed()> shed,
                                Monitor& monitor)
     : parts_(std::move(parts)),
+      pace_(parts_.period),
       shed_(std::move(shed)),
       monitor_(monitor),
       segmentation_(monitor.stage("segmentation", budget)) {}
 
 void PerceptionTask::tick(Tick& tick) {
-  if (!take_newest(tick) || tick.regime() == Regime::kDrain) return;
+  newest_ = pace_.take_newest(pictures, tick, figures_.passed);
+  if (newest_ == nullptr || tick.regime() == Regime::kDrain) return;
   const auto overloaded = [this] { return shed_() >= safety::Shed::kSemantics ? 1 : 0; };
   if (tick.decide(shed_slot, overloaded, 0) != 0)
     ++figures_.shed;
   else
     look(tick);
-}
-
-/// Pictures before their time are passed over, so that the rate is kept on the average.
-bool PerceptionTask::take_newest(Tick& tick) {
-  bool any = false;
-  while (ArrivedPicture* picture = pictures.take(tick)) {
-    const Time arrival = picture->packet.arrival;
-    const bool early = arrival < due_ && arrival >= due_ - parts_.period;
-    if (early || std::exchange(any, true)) ++figures_.passed;
-    if (!early) std::swap(newest_, picture->packet);
-  }
-  if (!any) return false;
-  const bool on_time = newest_.arrival >= due_ && newest_.arrival - due_ < parts_.period;
-  due_ = on_time ? due_ + parts_.period : newest_.arrival + parts_.period;
-  return true;
 }
 
 void PerceptionTask::look(Tick& tick) {
@@ -67,7 +54,7 @@ Result<const LabelImage*> PerceptionTask::segment() {
 
 /// What is looked at of the newest packet.
 Result<const Image*> PerceptionTask::picture() {
-  const auto decoded = parts_.camera->decode(newest_);
+  const auto decoded = parts_.camera->decode(*newest_);
   if (!decoded || !parts_.side_by_side) return decoded;
   if (const auto cut = camera::left_eye(**decoded, left_); !cut) return cut.error();
   return &left_;
@@ -79,7 +66,7 @@ void PerceptionTask::refuse(const Error& error) {
     return;
   }
   ++figures_.refused;
-  monitor_.event(newest_.arrival, "perception", to_string(error));
+  monitor_.event(newest_->arrival, "perception", to_string(error));
 }
 
 }  // namespace cairn::app

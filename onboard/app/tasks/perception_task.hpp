@@ -7,6 +7,7 @@
 #include "hal/ports.hpp"
 #include "hal/relaxed_counter.hpp"
 #include "onboard/app/perception/open_perception.hpp"
+#include "onboard/app/perception/picture_pace.hpp"
 #include "onboard/app/tasks/messages.hpp"
 #include "onboard/safety/overload.hpp"
 #include "onboard/scheduler/ports.hpp"
@@ -43,20 +44,19 @@ class PerceptionTask final : public scheduler::Task {
   [[nodiscard]] const Figures& figures() const { return figures_; }
 
  private:
-  [[nodiscard]] bool take_newest(scheduler::Tick& tick);
   void look(scheduler::Tick& tick);
   Result<const LabelImage*> segment();
   Result<const Image*> picture();
   void refuse(const Error& error);
 
   PerceptionParts parts_;
+  PicturePace pace_;
+  const Packet* newest_ = nullptr;  // of the tick
   std::function<safety::Shed()> shed_;
   std::function<void(const LabelImage&)> tap_;
   Monitor& monitor_;
   StageStats& segmentation_;
   Figures figures_;
-  Packet newest_;
-  Time due_{};  // a picture that arrives from then on is looked at
   Image left_;
 };
 

@@ -18,7 +18,7 @@ bool ReceiveTask::add(Input& input, SourceId id, scheduler::Feed::Tap tap) {
   sensors_.push_back({{*input.source, id, slot, complain, std::move(tap)},
                       input.scans.get(),
                       watched_as(input.entry.kind),
-                      input.entry.kind == recording::kCamera});
+                      port_of(input.entry.kind)});
   return true;
 }
 
@@ -45,7 +45,7 @@ void ReceiveTask::receive(const Packet& packet, Sensor& sensor, Tick& tick) {
   figures_.end = std::max(figures_.end, packet.arrival);
   if (sensor.decoder == nullptr) {
     if (sensor.watched) note(*sensor.watched, packet.arrival);
-    if (sensor.colour) hand_on(packet, tick);
+    if (sensor.pictures != nullptr) hand_on(packet, *sensor.pictures, tick);
     return;
   }
   if (sensor.stuck.step(packet.channel, packet.payload())) {
@@ -100,11 +100,15 @@ void ReceiveTask::hand_on(const Scan* scan, Tick& tick, bool at_the_end) {
 }
 
 /// Perception takes the newest. Where it is behind, what finds no place would only be older when its turn comes.
-void ReceiveTask::hand_on(const Packet& picture, Tick& tick) {
-  ArrivedPicture* out = pictures.back(tick);
+void ReceiveTask::hand_on(const Packet& picture, scheduler::OutputPort<ArrivedPicture>& to, Tick& tick) {
+  ArrivedPicture* out = to.back(tick);
   if (out == nullptr) return;
   out->packet = picture;
-  pictures.push(tick);
+  to.push(tick);
+}
+
+scheduler::OutputPort<ArrivedPicture>* ReceiveTask::port_of(recording::SensorKind kind) {
+  return kind == recording::kCamera ? &pictures : kind == recording::kDepth ? &depths : nullptr;
 }
 
 void ReceiveTask::note(safety::Watched what, Time when) {

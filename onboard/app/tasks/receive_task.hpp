@@ -27,6 +27,7 @@ class ReceiveTask final : public scheduler::Task {
   scheduler::OutputPort<ArrivedScan> scans{*this, "scans"};
   scheduler::OutputPort<SensorsSeen> seen{*this, "seen"};
   scheduler::OutputPort<ArrivedPicture> pictures{*this, "pictures"};  ///< of the colour camera
+  scheduler::OutputPort<ArrivedPicture> depths{*this, "depths"};      ///< of the depth camera
 
   /// What came in. Of the task's thread, or after the run. Any thread may read the counters.
   struct Figures {
@@ -50,9 +51,9 @@ class ReceiveTask final : public scheduler::Task {
  private:
   struct Sensor {
     scheduler::Feed feed;
-    ScanDecoder* decoder;                    // null: its packets are only counted and recorded
-    std::optional<safety::Watched> watched;  // without a decoder: every packet is good data of this kind
-    bool colour;                             // its packets are pictures for perception
+    ScanDecoder* decoder;                             // null: its packets are only counted and recorded
+    std::optional<safety::Watched> watched;           // without a decoder: every packet is good data of this kind
+    scheduler::OutputPort<ArrivedPicture>* pictures;  // where its packets go; null: nowhere
     safety::StuckWatch stuck{};
     safety::RejectionWatch rejection{};
     std::uint64_t accepted = 0, refused = 0;  // packets of a decoder
@@ -61,7 +62,8 @@ class ReceiveTask final : public scheduler::Task {
   void decode(const Packet& packet, Sensor& sensor, scheduler::Tick& tick);
   void judge(Time now);
   void hand_on(const Scan* scan, scheduler::Tick& tick, bool at_the_end);
-  void hand_on(const Packet& picture, scheduler::Tick& tick);
+  static void hand_on(const Packet& picture, scheduler::OutputPort<ArrivedPicture>& to, scheduler::Tick& tick);
+  [[nodiscard]] scheduler::OutputPort<ArrivedPicture>* port_of(recording::SensorKind kind);
   void note(safety::Watched what, Time when);
   void publish(scheduler::Tick& tick);
 

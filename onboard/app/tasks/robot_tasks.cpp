@@ -55,6 +55,8 @@ RobotTasks::RobotTasks(std::span<const recording::SourceEntry> sources, const Ro
   connect_safety(profile.schedule);
   connect_map(options.live());
   if (sight.on()) add_perception(std::move(sight), profile.schedule, options.live(), monitor);
+  if (has_kind(sources, recording::kDepth) && profile.depth.map.rate_hz > 0)
+    add_depth(profile, options.live(), monitor);
   if (has_kind(sources, recording::kPeers)) {
     team.emplace(graph, profile, mapping.tiles, monitor);
     if (previous.resumed) team->team().go_on();
@@ -90,6 +92,18 @@ void RobotTasks::connect_map(bool live) {
   const std::size_t reserve = live ? 0 : 3 * kWaitingScans;
   graph.connect(receive.scans, odometry.scans, {.capacity = kWaitingScans, .reserve = reserve});
   graph.connect(odometry.motions, mapping.motions, {.capacity = kWaitingScans, .reserve = reserve});
+}
+
+void RobotTasks::add_depth(const RobotProfile& profile, bool live, Monitor& monitor) {
+  const scheduler::TaskSpec& spec = profile.schedule.depth;
+  auto camera = depth::DepthCamera::create(profile.depth.driver);
+  if (!camera) return monitor.event({}, "depth", "the map gets no clouds: " + to_string(camera.error()));
+  const SE3 T_base_depth = SE3::from_xyz_rpy(Eigen::Map<const Vector6>(profile.depth.base_xyz_rpy.data()));
+  depth.emplace(std::move(*camera), T_base_depth, from_seconds(1 / profile.depth.map.rate_hz), monitor);
+  graph.add(spec, *depth);
+  const std::size_t reserve = live ? 0 : 3 * kWaitingPictures;
+  graph.connect(receive.depths, depth->pictures, {.capacity = kWaitingPictures, .reserve = reserve});
+  graph.connect(depth->clouds, mapping.clouds, {.capacity = kWaitingPictures, .lag = spec.deadline()});
 }
 
 /// Above mapping in nothing: what it says of a picture is in the map when its deadline has passed.

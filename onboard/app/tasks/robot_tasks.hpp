@@ -8,6 +8,7 @@
 #include "onboard/app/perception/open_perception.hpp"
 #include "onboard/app/profile/run_options.hpp"
 #include "onboard/app/restart/restart.hpp"
+#include "onboard/app/tasks/depth_task.hpp"
 #include "onboard/app/tasks/drive_task.hpp"
 #include "onboard/app/tasks/mapping_task.hpp"
 #include "onboard/app/tasks/odometry_task.hpp"
@@ -43,12 +44,14 @@ class RobotTasks {
   scheduler::IdleTask reference;  ///< as often as the control task
   scheduler::TaskGraph graph;
   std::optional<PerceptionTask> perception;  ///< none: nothing is labelled
+  std::optional<DepthTask> depth;            ///< none: no depth camera, or the map gets no clouds
   std::optional<TeamTasks> team;             ///< none: this robot takes part in no team
 
  private:
   void add_tasks(const ScheduleProfile& schedule);
   void connect_safety(const ScheduleProfile& schedule);
   void connect_map(bool live);
+  void add_depth(const RobotProfile& profile, bool live, Monitor& monitor);
   void add_perception(Perception sight, const ScheduleProfile& schedule, bool live, Monitor& monitor);
 };
 

@@ -25,6 +25,9 @@ class ScanRays {
   ScanRays(double resolution, double max_range)
       : resolution_(resolution), resolution_factor_(1. / resolution), max_range_(max_range) {}
 
+  /// From the next prepare() on; metres, negative: no limit.
+  void set_max_range(double max_range_m) { max_range_ = max_range_m; }
+
   /// Points of a scan that were left out, by cause.
   struct Counts {
     std::size_t not_finite = 0, outside_map = 0;

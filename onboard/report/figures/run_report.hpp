@@ -58,6 +58,14 @@ struct LabelStats {
   std::uint64_t apart = 0;               ///< that were labelled, but had no scans around them
 };
 
+/// What became of the pictures of the depth camera.
+struct DepthStats {
+  std::uint64_t images = 0, points = 0;  ///< that are in the map
+  std::uint64_t passed = 0;              ///< not looked at, because of the rate
+  std::uint64_t refused = 0;             ///< that were no depth pictures
+  std::uint64_t apart = 0;               ///< that had no scans around them
+};
+
 /// One robot of the team, as this one saw it.
 struct PeerStats {
   std::uint64_t tx_bytes = 0, rx_bytes = 0, tiles = 0;
@@ -104,6 +112,7 @@ struct RunReport {
   std::string mode_cause;                                   ///< the fault's code; empty: none
   std::vector<std::pair<std::string, std::uint64_t>> shed;  ///< scans at each level of shedding, `nothing` first
   std::optional<LabelStats> labels;                         ///< of a run that looked at pictures
+  std::optional<DepthStats> depth;                          ///< of a run whose map got clouds
   OdometryStats odometry;
   double peak_rss_mb = 0;
   std::optional<std::uint64_t> control_thread_allocations;  ///< after the warm-up; none without ticks after it

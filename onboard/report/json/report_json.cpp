@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "onboard/report/figures/accuracy.hpp"
+#include "onboard/report/json/camera_json.hpp"
 #include "onboard/report/notes/notes.hpp"
 
 namespace cairn::report {
@@ -165,14 +166,6 @@ Json notes_json(const RunReport& report) {
   return notes;
 }
 
-Json labels_json(const RunReport& report) {
-  if (!report.labels) return nullptr;
-  const LabelStats& l = *report.labels;
-  return {
-      {"images", l.images}, {"points", l.points}, {"voxels", l.voxels},   {"latency_p99_ms", or_null(l.latency_p99_ms)},
-      {"passed", l.passed}, {"shed", l.shed},     {"refused", l.refused}, {"apart", l.apart}};
-}
-
 Json map_json(const RunReport& report) {
   const MapSummary& map = report.map;
   return {{"resolution_m", map.resolution_m},
@@ -281,6 +274,7 @@ Json to_json(const RunReport& report) {
           {"ground_truth", ground_truth_json(report)},
           {"map", map_json(report)},
           {"labels", labels_json(report)},
+          {"depth", depth_json(report)},
           {"memory", {{"peak_rss_mb", report.peak_rss_mb}}},
           {"allocations", {{"control_thread", or_null(report.control_thread_allocations)}}},
           {"peers", peers_json(report)},

@@ -35,7 +35,7 @@ TEST(LiveSimulation, ARobotsProgramOpensTheDevicesOfTheProfile) {
     EXPECT_FALSE(devices.pressed);
     const LiveClock clock;
     Monitor monitor;
-    const auto door = app::open_devices(*profile, app::Devices::kAll, clock, monitor);
+    const auto door = app::open_devices(*profile, {.all = true}, clock, monitor);
     ASSERT_TRUE(door) << to_string(door.error());
     ASSERT_EQ(door->inputs.size(), 3U);
     EXPECT_NE(door->inputs[1].can, nullptr);
@@ -86,7 +86,7 @@ TEST(LiveSimulation, WithoutRealTimeRightsSafetyAndDriveTakeTheirTime) {
   const app::RobotProfile fast = live_profile({}, devices, true), slow = live_profile({}, devices, false);
   EXPECT_EQ(fast.schedule.safety.rate_hz, app::ScheduleProfile().safety.rate_hz);
   EXPECT_LT(slow.schedule.safety.rate_hz, fast.schedule.safety.rate_hz);
-  EXPECT_TRUE(scheduler::validate(slow.schedule.tasks(false, true), 2));
+  EXPECT_TRUE(scheduler::validate(slow.schedule.tasks(false, true, true), 2));
 }
 
 TEST(LiveSimulation, PositionPacketsHaveAPortBesideThatOfTheData) {

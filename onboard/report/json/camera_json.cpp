@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/report/json/camera_json.hpp"
+
+#include <nlohmann/json.hpp>
+
+namespace cairn::report {
+
+nlohmann::json labels_json(const RunReport& report) {
+  if (!report.labels) return nullptr;
+  const LabelStats& l = *report.labels;
+  return {{"images", l.images},
+          {"points", l.points},
+          {"voxels", l.voxels},
+          {"latency_p99_ms", l.latency_p99_ms ? nlohmann::json(*l.latency_p99_ms) : nlohmann::json(nullptr)},
+          {"passed", l.passed},
+          {"shed", l.shed},
+          {"refused", l.refused},
+          {"apart", l.apart}};
+}
+
+nlohmann::json depth_json(const RunReport& report) {
+  if (!report.depth) return nullptr;
+  const DepthStats& d = *report.depth;
+  return {{"images", d.images}, {"points", d.points}, {"passed", d.passed}, {"refused", d.refused}, {"apart", d.apart}};
+}
+
+}  // namespace cairn::report

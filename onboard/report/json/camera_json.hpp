@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <nlohmann/json_fwd.hpp>
+
+#include "onboard/report/figures/run_report.hpp"
+
+namespace cairn::report {
+
+/// What became of the pictures, as report.json has it under `labels` and `depth`; null where the run looked at none.
+[[nodiscard]] nlohmann::json labels_json(const RunReport& report);
+[[nodiscard]] nlohmann::json depth_json(const RunReport& report);
+
+}  // namespace cairn::report
