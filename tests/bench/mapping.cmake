@@ -3,5 +3,5 @@ cairn_bench(mapping
   SOURCES mapping_bench.cpp ../support/allocation_count.cpp
   LINK cairn_mapping)
 cairn_bench(labels
-  SOURCES labels_bench.cpp
+  SOURCES labels/labels_bench.cpp
   LINK cairn_mapping)

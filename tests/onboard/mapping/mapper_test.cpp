@@ -60,24 +60,6 @@ TEST_P(MapperOracle, GivesOctoMapsTreeAfterEveryScan) {
   EXPECT_TRUE(mapper.tree().is_canonical());
 }
 
-/// OctoMap with another sensor model and range for every second scan.
-TEST(MapperSensors, AnotherSensorHasItsOwnModelAndRange) {
-  Workers workers(1);
-  Mapper mapper(config_of(0.2, 30), workers);
-  const SensorTrust depth{.prob_hit = 0.6, .prob_miss = 0.45, .max_range_m = 4};
-  octomap::OcTree stock(0.2);
-  const ScanYard yard(300);
-  for (int i = 0; i < 6; ++i) {
-    const MapScan scan = yard.scan(3 * i);
-    const bool other = i % 2 == 1;
-    stock.setProbHit(other ? depth.prob_hit : 0.7);
-    stock.setProbMiss(other ? depth.prob_miss : 0.4);
-    ASSERT_TRUE(other ? mapper.insert(scan.points, scan.origin, depth) : mapper.insert(scan.points, scan.origin));
-    insert_into(stock, scan, other ? depth.max_range_m : 30);
-    ASSERT_EQ(differing_nodes(mapper.tree(), stock), 0U) << "scan " << i;
-  }
-}
-
 INSTANTIATE_TEST_SUITE_P(Settings, MapperOracle,
                          testing::Values(Setting{"usual", 0.2, 30, 1, 900, 4}, Setting{"fine", 0.1, 10, 1, 150, 4},
                                          Setting{"unlimited", 0.25, -1, 1, 300, 5},

@@ -94,7 +94,8 @@ TEST(LabelUpdater, EachVoxelTakesTheMeanOfItsPointsOnceForEachPicture) {
     LabelEvidence expected;
     for (const std::uint8_t k : {kRoad, kCar}) {
       double steps = 0;
-      for (const auto& p : inside) steps += p.class_id == k ? gain_256ths(p.probability) / 256.0 * p.weight / 255 / 2 : 0;
+      for (const auto& p : inside)
+        steps += p.class_id == k ? gain_256ths(p.probability) / 256.0 * p.weight / 255 / 2 : 0;
       expected.add(k, static_cast<unsigned>(std::floor(steps / static_cast<double>(inside.size()) + 0.5)));
     }
     EXPECT_EQ(LabelEvidence::from_id(node->label_id()), expected);
