@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/inspect/inspect.hpp"
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 #include <system_error>
@@ -25,6 +26,7 @@
 #include "tools/cli/inspect/inspect_stream.hpp"
 #include "tools/cli/inspect/native_file.hpp"
 #include "tools/cli/inspect/trajectory.hpp"
+#include "tools/cli/label/recorded_answers.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -72,6 +74,12 @@ Result<report::Json> inspect_stream(const InspectOptions& options, const Recordi
   return json;
 }
 
+void add_damage(const std::vector<std::string>& damage, report::Json& json) {
+  constexpr std::size_t kMostNamed = 16;
+  json["damaged"] = json["damaged"].get<std::uint64_t>() + damage.size();
+  for (std::size_t i = 0; i < std::min(damage.size(), kMostNamed); ++i) json["damage"].push_back(damage[i]);
+}
+
 Result<report::Json> inspect_recording(const InspectOptions& options) {
   auto reader = recording::RecordingReader::open(options.path);
   if (!reader) return reader.error();
@@ -90,9 +98,12 @@ Result<report::Json> inspect_recording(const InspectOptions& options) {
   const fs::path truth = options.path / "ground_truth.tum";
   json["ground_truth"] = fs::exists(truth, ignored) ? describe_trajectory(truth) : report::Json(nullptr);
   auto found = inspect_stream(options, recording, **reader, std::move(json));
-  if (!found || !recording.unfinished) return found;
-  (*found)["damaged"] = (*found)["damaged"].get<std::uint64_t>() + 1;
-  (*found)["damage"].push_back(to_string(recording::unfinished_recording(options.path)));
+  if (!found) return found;
+  std::vector<std::string> damage;
+  (*found)["labels"] = describe_labels(options.path, damage);
+  (*found)["boxes"] = describe_boxes(options.path, damage);
+  if (recording.unfinished) damage.push_back(to_string(recording::unfinished_recording(options.path)));
+  add_damage(damage, *found);
   return found;
 }
 

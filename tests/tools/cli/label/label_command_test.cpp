@@ -13,6 +13,7 @@
 #include "onboard/perception/networks/recorded/label_folder.hpp"
 #include "tests/onboard/perception/networks/tiny_onnx.hpp"
 #include "tests/tools/cli/run_command.hpp"
+#include "tools/cli/inspect/inspect_command.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -156,6 +157,23 @@ TEST_F(LabelCommand, AProfileWithoutNetworksSaysWhatToDo) {
   EXPECT_EQ(o.exit_code, app::kWrongArguments);
   EXPECT_THAT(o.err, HasSubstr("perception.segmentation.model"));
   EXPECT_EQ(label_with({recording_, "--config", all_networks(), "--overlay"}).exit_code, app::kWrongArguments);
+}
+
+TEST_F(LabelCommand, InspectSaysWhatWasKeptAndWhatIsDamaged) {
+  ASSERT_EQ(label_with({recording_, "--config", all_networks(), "--out", recording_}).exit_code, app::kDone);
+  const auto whole = run(add_inspect_command, {"inspect", recording_, "--json"}).json();
+  EXPECT_EQ(whole["labels"]["pictures"], 3);
+  EXPECT_EQ(whole["labels"]["sizes"][0], "6x4");
+  EXPECT_EQ(whole["labels"]["share"]["person"], 1.0);
+  EXPECT_EQ(whole["boxes"]["pictures"]["thermal"], 3);
+  EXPECT_EQ(whole["boxes"]["boxes"]["car"], 3);
+  EXPECT_EQ(whole["damaged"], 0);
+  std::ofstream(fs::path(recording_) / "labels/200000000.png") << "no picture";
+  std::ofstream(fs::path(recording_) / "boxes.csv", std::ios::app) << "1,";
+  const auto damaged = run(add_inspect_command, {"inspect", recording_, "--json"}).json();
+  EXPECT_EQ(damaged["labels"]["pictures"], 2);
+  EXPECT_EQ(damaged["damaged"], 2);
+  EXPECT_THAT(damaged["damage"][0].get<std::string>(), HasSubstr("labels/200000000.png"));
 }
 
 TEST_F(LabelCommand, ADamagedPictureIsLeftOutAndCounted) {
