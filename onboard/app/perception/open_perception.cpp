@@ -82,6 +82,7 @@ Result<Perception> open_perception(const RunOptions& options, const RobotProfile
               .width = (*setup)->camera.width(),
               .height = (*setup)->camera.height(),
               .segmenter = std::move(*segmenter),
+              .judged = !recorded,
               .period = from_seconds(1 / network.rate_hz)};
   on.labelling = std::move(*setup);
   return on;

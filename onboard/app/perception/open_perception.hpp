@@ -23,7 +23,8 @@ struct PerceptionParts {
   bool side_by_side = false;               ///< the left half is what is looked at
   int width = 0, height = 0;               ///< pixels of the picture that is looked at, as the calibration says
   std::unique_ptr<Segmenter> segmenter;
-  Duration period{};  ///< at least so long from one labelled picture to the next
+  bool judged = true;  ///< pictures on which nothing can be seen are left out; recorded labels need no judgement
+  Duration period{};   ///< at least so long from one labelled picture to the next
 };
 
 /// All that a run needs to label its map: what looks at pictures, and where the camera is.

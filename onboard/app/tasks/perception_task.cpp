@@ -4,6 +4,8 @@
 #include <string>
 #include <utility>
 
+#include "onboard/perception/health/picture_health.hpp"
+
 namespace cairn::app {
 
 using scheduler::Regime;
@@ -42,14 +44,25 @@ Result<const LabelImage*> PerceptionTask::segment() {
   const StageTimer timing(segmentation_);
   const auto seen = picture();
   if (!seen) return seen.error();
-  const Image& image = **seen;
-  if (image.width == parts_.width && image.height == parts_.height) return parts_.segmenter->segment(image);
+  if (const auto fit = judge(**seen); !fit) return fit.error();
+  return parts_.segmenter->segment(**seen);
+}
+
+/// A network has an answer for every picture, also for those on which nothing can be seen.
+Result<void> PerceptionTask::judge(const Image& picture) {
   const auto size = [](int w, int h) { return std::to_string(w) + "x" + std::to_string(h); };
-  return Error{Errc::kMalformed,
-               "a picture of another size than camera.intrinsics are of",
-               {},
-               {},
-               size(image.width, image.height) + ", not " + size(parts_.width, parts_.height)};
+  if (picture.width != parts_.width || picture.height != parts_.height)
+    return Error{Errc::kMalformed,
+                 "a picture of another size than camera.intrinsics are of",
+                 {},
+                 {},
+                 size(picture.width, picture.height) + ", not " + size(parts_.width, parts_.height)};
+  if (!parts_.judged) return {};
+  if (stuck_.step(newest_->channel, newest_->payload()))
+    return Error{Errc::kMalformed, "the camera is stuck: the same picture again and again", {}, {}, {}};
+  const health::PictureState state = health::judge(health::figures_of(picture.view()));
+  if (state == health::PictureState::kGood) return {};
+  return Error{Errc::kMalformed, "not labelled", {}, {}, std::string(to_string(state))};
 }
 
 /// What is looked at of the newest packet.

@@ -10,6 +10,7 @@
 #include "onboard/app/perception/picture_pace.hpp"
 #include "onboard/app/tasks/messages.hpp"
 #include "onboard/safety/overload.hpp"
+#include "onboard/safety/stuck.hpp"
 #include "onboard/scheduler/ports.hpp"
 
 namespace cairn::app {
@@ -28,7 +29,7 @@ class PerceptionTask final : public scheduler::Task {
     RelaxedCounter images;      ///< labelled
     RelaxedCounter passed;      ///< newer ones were there, or it was not time yet
     RelaxedCounter shed;        ///< left out under overload
-    RelaxedCounter refused;     ///< no picture, or the network failed
+    RelaxedCounter refused;     ///< no picture, nothing to be seen on it, or the network failed
     RelaxedCounter unlabelled;  ///< recorded labels lack them
   };
 
@@ -47,11 +48,13 @@ class PerceptionTask final : public scheduler::Task {
   void look(scheduler::Tick& tick);
   Result<const LabelImage*> segment();
   Result<const Image*> picture();
+  Result<void> judge(const Image& picture);
   void refuse(const Error& error);
 
   PerceptionParts parts_;
   PicturePace pace_;
   const Packet* newest_ = nullptr;  // of the tick
+  safety::StuckWatch stuck_;
   std::function<safety::Shed()> shed_;
   std::function<void(const LabelImage&)> tap_;
   Monitor& monitor_;

@@ -91,6 +91,7 @@ class PerceptionTaskTest : public ::testing::Test {
          .width = kEyeWidth,
          .height = kEyeHeight,
          .segmenter = std::move(parrot),
+         .judged = judged_,
          .period = period},
         {}, [] { return safety::Shed::kNothing; }, monitor_);
     perception.keep_labels([this](const LabelImage& labels) { kept_.push_back(labels.stamp); });
@@ -121,6 +122,7 @@ class PerceptionTaskTest : public ::testing::Test {
   }
 
   int silent_from_ = -1;
+  bool judged_ = false;
   Monitor monitor_;
   Keeper keeper_;
   std::vector<Time> kept_;
@@ -174,6 +176,36 @@ TEST_F(PerceptionTaskTest, APictureWithoutRecordedLabelsIsCountedAndNoEvent) {
   EXPECT_EQ(keeper_.all.size(), 1U);
   EXPECT_EQ(figures_.unlabelled, 2U);
   EXPECT_TRUE(monitor_.events().empty());
+}
+
+/// A picture with contrast; what differs from the others is its first pixel.
+Packet with_contrast(int n, std::uint8_t first) {
+  Packet packet = picture(n);
+  const auto pixels = std::span(packet.bytes).subspan(camera::kFrameHeaderBytes);
+  for (std::size_t i = 0; i < pixels.size(); ++i) pixels[i] = static_cast<std::byte>(i % 8 < 4 ? 200 : 60);
+  pixels[0] = static_cast<std::byte>(first);
+  return packet;
+}
+
+TEST_F(PerceptionTaskTest, NothingIsLabelledThatCannotBeSeen) {
+  judged_ = true;
+  auto packets = pictures(7);
+  packets[6] = with_contrast(6, 13);
+  run(std::move(packets));
+  ASSERT_EQ(keeper_.all.size(), 1U);
+  EXPECT_EQ(keeper_.all[0].classes[0], 13);
+  EXPECT_EQ(figures_.refused, 2U);
+  EXPECT_TRUE(reported("too dark"));
+}
+
+TEST_F(PerceptionTaskTest, ACameraThatIsStuckIsAnEvent) {
+  judged_ = true;
+  std::vector<Packet> packets;
+  for (int n = 0; n < 19; ++n) packets.push_back(with_contrast(n, n < 10 ? 13 : static_cast<std::uint8_t>(n)));
+  run(std::move(packets));
+  EXPECT_TRUE(reported("stuck"));
+  EXPECT_EQ(figures_.refused, 2U) << "the third and the fourth time";
+  EXPECT_EQ(keeper_.all.size(), 5U);
 }
 
 TEST_F(PerceptionTaskTest, TimeThatWentBackDoesNotBlindIt) {
