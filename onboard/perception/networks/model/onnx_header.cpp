@@ -7,6 +7,9 @@
 #include <string_view>
 #include <utility>
 
+#include "onboard/perception/networks/model/onnx_weights.hpp"
+#include "onboard/perception/networks/model/proto_message.hpp"
+
 namespace cairn::networks {
 namespace {
 
@@ -14,102 +17,17 @@ constexpr std::size_t kMaxTensors = 64, kMaxDimensions = 8, kMaxName = 256;
 
 // Field numbers of onnx.proto3.
 constexpr std::uint32_t kModelProducer = 2, kModelGraph = 7, kModelOpset = 8;
-constexpr std::uint32_t kGraphInitializer = 5, kGraphInput = 11, kGraphOutput = 12;
+constexpr std::uint32_t kGraphNode = 1, kGraphInitializer = 5, kGraphInput = 11, kGraphOutput = 12;
+constexpr std::uint32_t kNodeAttribute = 5, kAttributeTensor = 5;
 constexpr std::uint32_t kOpsetDomain = 1, kOpsetVersion = 2;
-constexpr std::uint32_t kTensorName = 8, kTensorLocation = 14;
 constexpr std::uint32_t kValueName = 1, kValueType = 2;
 constexpr std::uint32_t kTypeTensor = 1, kTensorShape = 2, kShapeDimension = 1, kDimensionValue = 1;
-
-/// One field of a message: a number, or bytes.
-struct Field {
-  std::uint32_t number = 0;
-  std::uint64_t value = 0;
-  std::string_view bytes;
-};
-
-/// Walks over the fields of one protobuf message. It ends early where the bytes are no message.
-class Message {
- public:
-  explicit Message(std::string_view bytes) : bytes_(bytes) {}
-
-  std::optional<Field> next() {
-    if (at_ == bytes_.size() || fault_) return std::nullopt;
-    const auto key = varint();
-    if (!key) return std::nullopt;
-    Field field;
-    field.number = static_cast<std::uint32_t>(*key >> 3U);
-    if (field.number == 0 || *key >> 32U != 0) return fail(Errc::kMalformed);
-    switch (*key & 7U) {
-      case 0:
-        field.value = varint().value_or(0);
-        break;
-      case 1:
-        take(8);
-        break;
-      case 2:
-        field.bytes = take(varint().value_or(0));
-        break;
-      case 5:
-        take(4);
-        break;
-      default:
-        return fail(Errc::kMalformed);
-    }
-    if (fault_) return std::nullopt;
-    return field;
-  }
-  [[nodiscard]] std::optional<Errc> fault() const { return fault_; }
-  [[nodiscard]] std::size_t at() const { return at_; }
-
- private:
-  std::optional<Field> fail(Errc code) {
-    fault_ = code;
-    return std::nullopt;
-  }
-  std::optional<std::uint64_t> varint() {
-    std::uint64_t value = 0;
-    for (unsigned shift = 0; shift < 64; shift += 7) {
-      if (at_ == bytes_.size()) {
-        fault_ = Errc::kTruncated;
-        return std::nullopt;
-      }
-      const auto byte = static_cast<unsigned char>(bytes_[at_++]);
-      value |= std::uint64_t{byte & 0x7FU} << shift;
-      if (byte < 0x80U) return value;
-    }
-    fault_ = Errc::kMalformed;
-    return std::nullopt;
-  }
-  std::string_view take(std::uint64_t size) {
-    if (fault_) return {};
-    if (size > bytes_.size() - at_) {
-      fault_ = Errc::kTruncated;
-      return {};
-    }
-    const std::string_view taken = bytes_.substr(at_, static_cast<std::size_t>(size));
-    at_ += taken.size();
-    return taken;
-  }
-
-  std::string_view bytes_;
-  std::size_t at_ = 0;
-  std::optional<Errc> fault_;
-};
-
-/// Calls `take` for each field. False: the bytes are no message, or `take` says so.
-template <class Take>
-bool each_field(std::string_view bytes, Take take) {
-  Message message(bytes);
-  while (const auto field = message.next())
-    if (!take(*field)) return false;
-  return !message.fault();
-}
 
 std::string short_name(std::string_view name) { return std::string(name.substr(0, kMaxName)); }
 
 bool parse_dimension(std::string_view bytes, OnnxTensor& tensor) {
   std::int64_t size = 0;
-  if (!each_field(bytes, [&](const Field& f) {
+  if (!each_field(bytes, [&](const ProtoField& f) {
         if (f.number == kDimensionValue) size = static_cast<std::int64_t>(f.value);
         return true;
       }))
@@ -120,47 +38,65 @@ bool parse_dimension(std::string_view bytes, OnnxTensor& tensor) {
 }
 
 bool parse_value(std::string_view bytes, OnnxTensor& tensor) {
-  const auto shape = [&](const Field& f) { return f.number != kShapeDimension || parse_dimension(f.bytes, tensor); };
-  const auto type = [&](const Field& f) { return f.number != kTensorShape || each_field(f.bytes, shape); };
-  return each_field(bytes, [&](const Field& f) {
+  const auto shape = [&](const ProtoField& f) {
+    return f.number != kShapeDimension || parse_dimension(f.bytes, tensor);
+  };
+  const auto type = [&](const ProtoField& f) { return f.number != kTensorShape || each_field(f.bytes, shape); };
+  return each_field(bytes, [&](const ProtoField& f) {
     if (f.number == kValueName) tensor.name = short_name(f.bytes);
     if (f.number != kValueType) return true;
-    return each_field(f.bytes, [&](const Field& t) { return t.number != kTypeTensor || each_field(t.bytes, type); });
+    return each_field(f.bytes,
+                      [&](const ProtoField& t) { return t.number != kTypeTensor || each_field(t.bytes, type); });
   });
 }
 
 struct Graph {
   std::vector<OnnxTensor> inputs, outputs;
   std::set<std::string_view> weights;  // files of old versions list them among the inputs
-  bool external = false;
+  bool external = false;               // some are in another file
+  bool unfit = false;                  // some have another number of values than their shape says
 };
 
 bool parse_weights(std::string_view bytes, Graph& graph) {
-  return each_field(bytes, [&](const Field& f) {
-    if (f.number == kTensorName) graph.weights.insert(f.bytes);
-    if (f.number == kTensorLocation && f.value == 1) graph.external = true;
-    return true;
-  });
+  OnnxWeights weights;
+  if (!parse_onnx_weights(bytes, weights)) return false;
+  graph.weights.insert(weights.name);
+  graph.external |= weights.external;
+  graph.unfit |= !weights.external && !weights.complete();
+  return true;
+}
+
+/// Constants of nodes are weights, too.
+bool parse_node(std::string_view bytes, Graph& graph) {
+  const auto attribute = [&](const ProtoField& f) {
+    return f.number != kAttributeTensor || parse_weights(f.bytes, graph);
+  };
+  return each_field(bytes,
+                    [&](const ProtoField& f) { return f.number != kNodeAttribute || each_field(f.bytes, attribute); });
+}
+
+bool parse_tensor(const ProtoField& f, std::vector<OnnxTensor>& list, const Graph& graph) {
+  OnnxTensor tensor;
+  if (!parse_value(f.bytes, tensor)) return false;
+  // Inputs that are weights are many in old files.
+  if (list.size() == kMaxTensors && !graph.weights.contains(tensor.name)) return f.number == kGraphInput;
+  list.push_back(std::move(tensor));
+  return true;
 }
 
 bool parse_graph(std::string_view bytes, Graph& graph) {
-  return each_field(bytes, [&](const Field& f) {
+  return each_field(bytes, [&](const ProtoField& f) {
+    if (f.number == kGraphNode) return parse_node(f.bytes, graph);
     if (f.number == kGraphInitializer) return parse_weights(f.bytes, graph);
-    if (f.number != kGraphInput && f.number != kGraphOutput) return true;
-    auto& list = f.number == kGraphInput ? graph.inputs : graph.outputs;
-    OnnxTensor tensor;
-    if (!parse_value(f.bytes, tensor)) return false;
-    // Inputs that are weights are many in old files.
-    if (list.size() == kMaxTensors && !graph.weights.contains(tensor.name)) return f.number == kGraphInput;
-    list.push_back(std::move(tensor));
-    return true;
+    if (f.number == kGraphInput) return parse_tensor(f, graph.inputs, graph);
+    return f.number != kGraphOutput || parse_tensor(f, graph.outputs, graph);
   });
 }
 
 bool parse_opset(std::string_view bytes, OnnxHeader& header) {
   std::string_view domain;
   std::int64_t version = 0;
-  const bool sound = each_field(bytes, [&](const Field& f) {
+  const bool sound = each_field(bytes, [&](const ProtoField& f) {
     if (f.number == kOpsetDomain) domain = f.bytes;
     if (f.number == kOpsetVersion) version = static_cast<std::int64_t>(f.value);
     return true;
@@ -178,6 +114,12 @@ Result<OnnxHeader> finish(OnnxHeader header, Graph graph) {
                  {},
                  {},
                  "save it again as one file (onnx.save without save_as_external_data)"};
+  if (graph.unfit)
+    return Error{Errc::kMalformed,
+                 "weights of the model have another size than they say",
+                 {},
+                 {},
+                 "copy the file again, or export it again"};
   for (OnnxTensor& input : graph.inputs)
     if (!graph.weights.contains(input.name)) header.inputs.push_back(std::move(input));
   header.outputs = std::move(graph.outputs);
@@ -196,7 +138,7 @@ Result<OnnxHeader> finish(OnnxHeader header, Graph graph) {
 Result<OnnxHeader> parse_onnx_header(std::span<const std::byte> file) {
   OnnxHeader header;
   std::optional<std::string_view> graph_bytes;
-  Message message({reinterpret_cast<const char*>(file.data()), file.size()});
+  ProtoMessage message({reinterpret_cast<const char*>(file.data()), file.size()});
   while (const auto field = message.next()) {
     if (field->number == kModelProducer) header.producer = short_name(field->bytes);
     if (field->number == kModelOpset && !parse_opset(field->bytes, header)) return no_model("its opset cannot be read");

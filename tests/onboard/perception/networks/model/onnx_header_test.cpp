@@ -62,9 +62,27 @@ TEST(OnnxHeader, OnePictureGoesIn) {
   EXPECT_THAT(to_string(header.error()), HasSubstr("this model has 2"));
 }
 
+// OpenCV 4.6 reads beyond the end of such weights.
+TEST(OnnxHeader, WeightsThatDoNotFillTheirShapeAreRefused) {
+  TinyOnnx few = test::colours(), many = test::colours(), huge = test::colours();
+  few.weights("short", {2, 2}, {1, 2, 3});
+  many.weights("long", {2}, {1, 2, 3});
+  huge.weights("huge", {1 << 30, 1 << 30, 1 << 30}, {1});
+  for (const TinyOnnx& model : {few, many, huge}) {
+    const auto header = header_of(model.text());
+    ASSERT_FALSE(header);
+    EXPECT_THAT(to_string(header.error()), HasSubstr("another size than they say"));
+  }
+  // As a constant of a node: attribute `value`, a tensor of two numbers that holds one.
+  const Proto tensor = Proto().bytes(1, "\x02").number(2, 1).bytes(4, "1234");
+  TinyOnnx constant = test::colours();
+  constant.raw(1, Proto().bytes(4, "Constant").message(5, Proto().bytes(1, "value").message(5, tensor)));
+  EXPECT_FALSE(header_of(constant.text()));
+}
+
 TEST(OnnxHeader, WeightsElsewhereAreRefusedWithTheRemedy) {
   TinyOnnx model = test::colours();
-  model.raw(5, Proto().bytes(8, "big").number(14, 1));
+  model.raw(5, Proto().number(1, 100).number(2, 1).bytes(8, "big").number(14, 1));
   const auto header = header_of(model.text());
   ASSERT_FALSE(header);
   EXPECT_EQ(header.error().code, Errc::kUnsupported);
