@@ -13,7 +13,11 @@ struct LabellingConfig {
   double occlusion_m = 0.5;       ///< a point so far behind the nearest point around its pixel is hidden …
   double occlusion_share = 0.05;  ///< … plus this share of the nearest point's depth
   int occlusion_window_px = 5;    ///< edge of the square around the pixel; odd
-  int border_px = 2;              ///< pixels next to another class that give no label: borders are where networks err
+  /// A point is hidden, too, if there are such nearer points above it and below it within this angle: the lasers of
+  /// many LiDARs are so far apart that a thing before it has gaps in the picture. The ground, which is nearer below
+  /// alone, hides nothing. 0: not looked for.
+  double occlusion_between_deg = 2.2;
+  int border_px = 2;        ///< pixels next to another class that give no label: borders are where networks err
   double line_time_us = 0;  ///< rolling shutter: from the exposure of a row to the next one's; 0: all rows at once
   /// Up to here a label counts fully, beyond it by the inverse of the distance: a pixel covers more and more of the
   /// world, and errors of the mount move labels farther.

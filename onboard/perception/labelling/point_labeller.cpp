@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace cairn::labelling {
 namespace {
@@ -14,6 +15,12 @@ constexpr float kNothing = std::numeric_limits<float>::infinity();
 /// `labels`.
 int scaled(double place, int pixels, int labels) {
   return std::clamp(static_cast<int>(std::floor((place + 0.5) * labels / pixels)), 0, labels - 1);
+}
+
+/// At most an eighth of the picture's height: depths_ has to have bounds.
+int pixels_of(double degrees, const cameras::CameraModel& camera) {
+  const double pixels = camera.parameters().fy * std::tan(degrees * std::numbers::pi / 180);
+  return static_cast<int>(std::min(std::ceil(pixels), camera.height() / 8.0));
 }
 
 Error wrong_size(const LabelImage& labels) {
@@ -39,37 +46,46 @@ PointLabeller::PointLabeller(const cameras::CameraModel& camera, const SE3& T_ba
     : config_(config),
       projection_(camera, T_base_camera, config.line_time_us),
       window_(config.occlusion_window_px / 2),
-      depths_(static_cast<std::size_t>(camera.width() + 2 * window_) *
-                  static_cast<std::size_t>(camera.height() + 2 * window_),
-              kNothing) {}
+      between_(pixels_of(config.occlusion_between_deg, camera)),
+      rim_(std::max(window_, between_)),
+      depths_(
+          static_cast<std::size_t>(camera.width() + 2 * rim_) * static_cast<std::size_t>(camera.height() + 2 * rim_),
+          kNothing) {}
 
 std::size_t PointLabeller::pixel_of(const Projected& p) const {
   const auto& camera = projection_.camera();
   const int u = std::clamp(static_cast<int>(std::lround(p.u)), 0, camera.width() - 1);
   const int v = std::clamp(static_cast<int>(std::lround(p.v)), 0, camera.height() - 1);
-  return static_cast<std::size_t>(v + window_) * static_cast<std::size_t>(camera.width() + 2 * window_) +
-         static_cast<std::size_t>(u + window_);
+  return static_cast<std::size_t>(v + rim_) * static_cast<std::size_t>(camera.width() + 2 * rim_) +
+         static_cast<std::size_t>(u + rim_);
 }
 
 void PointLabeller::fill_depths(std::span<const Projected> seen) {
   for (const Projected& p : seen) {
-    float& nearest = depths_[pixel_of(p)];
-    nearest = std::min(nearest, p.depth);
+    float* pixel = depths_.data() + pixel_of(p);
+    for (int x = -window_; x <= window_; ++x) pixel[x] = std::min(pixel[x], p.depth);
   }
 }
 
 void PointLabeller::clear_depths(std::span<const Projected> seen) {
-  for (const Projected& p : seen) depths_[pixel_of(p)] = kNothing;
+  for (const Projected& p : seen) {
+    float* pixel = depths_.data() + pixel_of(p);
+    std::fill(pixel - window_, pixel + window_ + 1, kNothing);
+  }
+}
+
+/// Whether something far nearer lies in the columns of the window, in rows `first` … `last` counted from the point's.
+bool PointLabeller::nearer_in_rows(const Projected& p, int first, int last) const {
+  const auto far_nearer = static_cast<float>((p.depth - config_.occlusion_m) / (1 + config_.occlusion_share));
+  const auto stride = static_cast<std::ptrdiff_t>(projection_.camera().width() + 2 * rim_);
+  const float* pixel = depths_.data() + pixel_of(p) + first * stride;
+  unsigned found = 0;  // a minimum would wait for each pixel before the next
+  for (int y = first; y <= last; ++y, pixel += stride) found |= static_cast<unsigned>(*pixel < far_nearer);
+  return found != 0;
 }
 
 bool PointLabeller::hidden(const Projected& p) const {
-  const std::size_t stride = static_cast<std::size_t>(projection_.camera().width() + 2 * window_);
-  const auto side = static_cast<std::size_t>(window_);
-  const float* row = depths_.data() + pixel_of(p) - side * stride - side;
-  float nearest = p.depth;
-  for (std::size_t y = 0; y <= 2 * side; ++y, row += stride)
-    for (std::size_t x = 0; x <= 2 * side; ++x) nearest = std::min(nearest, row[x]);
-  return p.depth > nearest + config_.occlusion_m + config_.occlusion_share * nearest;
+  return nearer_in_rows(p, -window_, window_) || (nearer_in_rows(p, -between_, -1) && nearer_in_rows(p, 1, between_));
 }
 
 bool PointLabeller::at_border(const LabelImage& labels, const Projected& p) const {

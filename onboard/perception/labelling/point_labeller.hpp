@@ -38,13 +38,16 @@ class PointLabeller {
   void fill_depths(std::span<const Projected> seen);
   void clear_depths(std::span<const Projected> seen);
   [[nodiscard]] bool hidden(const Projected& p) const;
+  [[nodiscard]] bool nearer_in_rows(const Projected& p, int first, int last) const;
   [[nodiscard]] bool at_border(const LabelImage& labels, const Projected& p) const;
   [[nodiscard]] std::size_t pixel_of(const Projected& p) const;
 
   LabellingConfig config_;
   Projection projection_;
   int window_;                 // pixels to each side
-  std::vector<float> depths_;  // nearest of each pixel, with a rim of `window_`; infinite between two scans
+  int between_;                // pixels above and below, for gaps between lasers
+  int rim_;                    // the larger of both: what depths_ has around the picture
+  std::vector<float> depths_;  // nearest in the window's columns around each pixel; infinite between two scans
 };
 
 }  // namespace cairn::labelling

@@ -73,6 +73,9 @@ std::vector<Setting> settings() {
     all.push_back({name, {}});
     change(all.back().config);
   };
+  with("window alone", [](auto& c) { c.occlusion_between_deg = 0; });
+  with("between 1 deg", [](auto& c) { c.occlusion_between_deg = 1; });
+  with("between 4 deg", [](auto& c) { c.occlusion_between_deg = 4; });
   with("no z-buffer", [](auto& c) { c.occlusion_m = 100; });
   with("no borders", [](auto& c) { c.border_px = 0; });
   with("neither", [](auto& c) { c.border_px = 0, c.occlusion_m = 100; });

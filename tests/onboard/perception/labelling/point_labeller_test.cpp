@@ -101,6 +101,18 @@ TEST(PointLabeller, WhatAnOccluderHidesGetsNoLabel) {
   EXPECT_GT(count(result.points, kRoad), 1000U);
 }
 
+/// As of a VLP-16: the car has gaps of seven pixels in the z-buffer.
+TEST(PointLabeller, LasersThatAreFarApartHideWhatIsBetweenThem) {
+  const PlacedScan scan = test::scan_from(SE3(), 0.004, 0.035);
+  const LabelImage labels = test::picture_from(SE3());
+  LabellingConfig near;
+  near.occlusion_between_deg = 0;
+  const Labelled result = labelled(labels, scan, SE3()), with_gaps = labelled(labels, scan, SE3(), near);
+  EXPECT_GT(test::wrong_labels(with_gaps.points), 5U);
+  EXPECT_EQ(test::wrong_labels(result.points), 0U);
+  EXPECT_EQ(count(result.points, kRoad), count(with_gaps.points, kRoad)) << "the ground hides nothing";
+}
+
 TEST(PointLabeller, TheCameraIsWhereItWasAtTheExposure) {
   const SE3 T_scan = pose(0.6, 0.2, 0.15), T_exposure = pose(0, 0, -0.1);
   const PlacedScan scan = test::scan_from(T_scan);

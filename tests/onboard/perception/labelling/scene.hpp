@@ -35,11 +35,11 @@ inline Hit look(const Vector3d& eye, const Vector3d& direction) {
 }
 
 /// A sweep of a LiDAR at the height of 1.5 m, whose base is at `T_odom_base`: as the scan of a robot that stands.
-inline PlacedScan scan_from(const SE3& T_odom_base, double step_rad = 0.004) {
+inline PlacedScan scan_from(const SE3& T_odom_base, double step_rad = 0.004, double ring_step = 0.01) {
   PlacedScan scan;
   scan.T_odom_base = T_odom_base;
   const Vector3d lidar(0, 0, 1.5);
-  for (double elevation = -0.3; elevation < 0.25; elevation += 0.01)
+  for (double elevation = -0.3; elevation < 0.25; elevation += ring_step)
     for (double azimuth = -0.8; azimuth < 0.8; azimuth += step_rad) {
       const Vector3d ray(std::cos(elevation) * std::cos(azimuth), std::cos(elevation) * std::sin(azimuth),
                          std::sin(elevation));
