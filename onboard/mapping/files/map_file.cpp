@@ -50,6 +50,8 @@ Result<void> save_bt(const SemanticOcTree& tree, const std::filesystem::path& pa
 }
 
 Result<void> save_ply(const SemanticOcTree& tree, const std::filesystem::path& path) {
+  const auto labelled = labelled_voxel_centres(tree);
+  if (labelled && !labelled->empty()) return write_file_atomic(path, encode_ply(*labelled));
   return save_points(tree, path, encode_ply);
 }
 

@@ -20,7 +20,7 @@ Result<std::unique_ptr<SemanticOcTree>> load_map(const std::filesystem::path& pa
 Result<void> save_cairn(const SemanticOcTree& tree, const std::filesystem::path& path, std::string_view metadata = {});
 Result<void> save_ot(const SemanticOcTree& tree, const std::filesystem::path& path);
 Result<void> save_bt(const SemanticOcTree& tree, const std::filesystem::path& path);
-/// Occupied voxel centres.
+/// Occupied voxel centres; the .ply has the colours of the classes where the map has labels.
 Result<void> save_ply(const SemanticOcTree& tree, const std::filesystem::path& path);
 Result<void> save_pcd(const SemanticOcTree& tree, const std::filesystem::path& path);
 

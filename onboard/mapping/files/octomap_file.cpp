@@ -9,6 +9,8 @@
 #include <utility>
 
 #include "hal/bytes.hpp"
+#include "onboard/mapping/files/class_colour.hpp"
+#include "onboard/mapping/tree/voxel_label.hpp"
 
 namespace cairn::mapping {
 namespace {
@@ -17,6 +19,7 @@ using Tree = Result<std::unique_ptr<SemanticOcTree>>;
 
 constexpr std::string_view kFirstLineOt = "# Octomap OcTree file";
 constexpr std::string_view kFirstLineBt = "# Octomap OcTree binary file";
+constexpr std::string_view kColoured = "ColorOcTree";  // a tree's type
 constexpr std::size_t kMaxHeaderBytes = 4096;
 constexpr double kMinResolution = 1e-4, kMaxResolution = 100.0;
 
@@ -62,7 +65,7 @@ Result<void> check(const Header& header) {
   if (!(header.resolution >= kMinResolution && header.resolution <= kMaxResolution))
     return fault(Errc::kMalformed, "the resolution is missing or senseless", 0,
                  std::to_string(header.resolution) + " m");
-  if (header.id != "OcTree" && header.id != "ColorOcTree")
+  if (header.id != "OcTree" && header.id != kColoured)
     return fault(Errc::kUnsupported, "the tree type is not supported", 0, header.id.substr(0, 64));
   return {};
 }
@@ -115,12 +118,20 @@ Tree decode(std::span<const std::byte> bytes, const MapLimits& limits, Next next
 
 const Error kTruncated{Errc::kTruncated, "the file ends inside the tree", {}, {}, {}};
 
+/// The label of a leaf with these bytes of colour: free space has none.
+VoxelLabel label_of(float log_odds, std::span<const std::byte> colour) {
+  const auto part = [&](std::size_t i) { return std::to_integer<std::uint8_t>(colour[i]); };
+  const auto class_id = log_odds < 0 ? std::nullopt : class_of({part(0), part(1), part(2)});
+  return class_id ? VoxelLabel::of(*class_id, 0) : VoxelLabel{};
+}
+
 Result<void> next_ot(const Header& header, SemanticOcTree&, TreeBuilder& builder, ByteReader& reader) {
   const auto log_odds = reader.read<float>();
-  const bool colour_there = header.id != "ColorOcTree" || reader.read_bytes(3).has_value();
+  const auto colour = reader.read_bytes(header.id == kColoured ? 3 : 0);
   const auto children = reader.read<std::uint8_t>();
-  if (!log_odds || !colour_there || !children) return kTruncated;
-  return *children == 0 ? builder.leaf(*log_odds) : builder.inner(*children);
+  if (!log_odds || !colour || !children) return kTruncated;
+  if (*children != 0) return builder.inner(*children);
+  return builder.leaf(*log_odds, colour->empty() ? 0U : label_of(*log_odds, *colour).code);
 }
 
 /// One bit pair per child: 0 unknown, 1 free, 2 occupied, 3 inner.
@@ -145,25 +156,78 @@ class BtNodes {
   std::array<std::uint16_t, SemanticOcTree::kDepth> pairs_{};  // of the open inner node at each depth
 };
 
-std::vector<std::byte> header_bytes(std::string_view first_line, const SemanticOcTree& tree) {
+std::vector<std::byte> header_bytes(std::string_view first_line, std::string_view type, const SemanticOcTree& tree) {
   std::ostringstream out;  // as OctoMap does: `res` gets six digits
-  out << first_line << "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\nid "
-      << tree.getTreeType() << "\nsize " << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
+  out << first_line << "\n# (feel free to add / change comments, but leave the first line as it is!)\n#\nid " << type
+      << "\nsize " << tree.size() << "\nres " << tree.getResolution() << "\ndata\n";
   const std::string text = std::move(out).str();
   const auto bytes = std::as_bytes(std::span(text));
   return {bytes.begin(), bytes.end()};
 }
 
-// These two recurse, but never deeper than the tree: 16 levels.
-void append_ot(std::vector<std::byte>& out, const SemanticNode& node) {
-  const SemanticNode* block = node.block();
+/// One bit for each child that is there.
+unsigned children_of(const SemanticNode& node) {
   unsigned children = 0;
-  for (unsigned i = 0; i < SemanticNode::kChildren && block != nullptr; ++i)
-    children |= (block[i].present() ? 1U : 0U) << i;
+  for (unsigned i = 0; i < SemanticNode::kChildren && node.block() != nullptr; ++i)
+    children |= (node.block()[i].present() ? 1U : 0U) << i;
+  return children;
+}
+
+// These recurse, but never deeper than the tree: 16 levels.
+void append_ot(std::vector<std::byte>& out, const SemanticNode& node) {
+  const unsigned children = children_of(node);
   append_le(out, node.getLogOdds());
   append_le(out, static_cast<std::uint8_t>(children));
   for (unsigned i = 0; i < SemanticNode::kChildren; ++i)
-    if ((children >> i & 1) != 0) append_ot(out, block[i]);
+    if ((children >> i & 1) != 0) append_ot(out, node.block()[i]);
+}
+
+VoxelLabel label_of(const SemanticNode& leaf) {
+  return leaf.getLogOdds() < 0 ? VoxelLabel{} : VoxelLabel::from_id(leaf.label_id());
+}
+
+bool any_label(const SemanticNode& node) {
+  const unsigned children = children_of(node);
+  if (children == 0) return label_of(node).any();
+  for (unsigned i = 0; i < SemanticNode::kChildren; ++i)
+    if ((children >> i & 1) != 0 && any_label(node.block()[i])) return true;
+  return false;
+}
+
+/// The colour of an inner node is the mean of its children's that have one, as OctoMap computes it.
+class MeanColour {
+ public:
+  void add(const Colour& colour) {
+    if (colour == kNoColour) return;
+    for (std::size_t i = 0; i < colour.size(); ++i) sums_[i] += colour[i];
+    ++count_;
+  }
+  [[nodiscard]] Colour mean() const {
+    if (count_ == 0) return kNoColour;
+    const auto of = [&](std::size_t i) { return static_cast<std::uint8_t>(sums_[i] / count_); };
+    return {of(0), of(1), of(2)};
+  }
+
+ private:
+  std::array<unsigned, 3> sums_{};
+  unsigned count_ = 0;
+};
+
+/// Appends the node and all below; returns its colour.
+Colour append_coloured(std::vector<std::byte>& out, const SemanticNode& node) {
+  const unsigned children = children_of(node);
+  append_le(out, node.getLogOdds());
+  const std::size_t place = out.size();
+  out.resize(place + 3);
+  append_le(out, static_cast<std::uint8_t>(children));
+  MeanColour mean;
+  for (unsigned i = 0; i < SemanticNode::kChildren; ++i)
+    if ((children >> i & 1) != 0) mean.add(append_coloured(out, node.block()[i]));
+  const VoxelLabel label = label_of(node);
+  const Colour leaf = label.any() ? colour_of(static_cast<std::uint8_t>(label.class_id())) : kNoColour;
+  const Colour colour = children == 0 ? leaf : mean.mean();
+  for (std::size_t i = 0; i < colour.size(); ++i) out[place + i] = std::byte{colour[i]};
+  return colour;
 }
 
 void append_bt(std::vector<std::byte>& out, const SemanticOcTree& tree, const SemanticNode& node) {
@@ -195,8 +259,14 @@ Tree decode_bt(std::span<const std::byte> bytes, const MapLimits& limits) {
 }
 
 std::vector<std::byte> encode_ot(const SemanticOcTree& tree) {
-  std::vector<std::byte> out = header_bytes(kFirstLineOt, tree);
-  if (tree.getRoot() != nullptr) append_ot(out, *tree.getRoot());
+  const SemanticNode* root = tree.getRoot();
+  const bool coloured = root != nullptr && any_label(*root);
+  std::vector<std::byte> out = header_bytes(kFirstLineOt, coloured ? kColoured : tree.getTreeType(), tree);
+  if (coloured) {
+    append_coloured(out, *root);
+  } else if (root != nullptr) {
+    append_ot(out, *root);
+  }
   return out;
 }
 
@@ -206,7 +276,7 @@ std::vector<std::byte> encode_bt(const SemanticOcTree& tree) {
   likely.prune();
   // The format has no word for a root without children: OctoMap itself writes an unknown map then.
   if (likely.getRoot() != nullptr && likely.getRoot()->block() == nullptr) likely.expandNode(likely.getRoot());
-  std::vector<std::byte> out = header_bytes(kFirstLineBt, likely);
+  std::vector<std::byte> out = header_bytes(kFirstLineBt, likely.getTreeType(), likely);
   if (likely.getRoot() != nullptr) append_bt(out, likely, *likely.getRoot());
   return out;
 }

@@ -16,12 +16,14 @@ namespace cairn::mapping {
 // the canonical tree with the leaves of the file (inner nodes are computed, whatever the file says), and default sensor
 // model. An error names the byte offset and the cause.
 
-/// .ot: full probabilities. Trees of type OcTree, and ColorOcTree without its colours.
+/// .ot: full probabilities. Trees of type OcTree, and ColorOcTree: a leaf that is occupied and painted exactly as a
+/// class of hal/semantic_class.hpp gets its label, with the surest grade. Other colours say nothing.
 Result<std::unique_ptr<SemanticOcTree>> decode_ot(std::span<const std::byte> bytes, const MapLimits& limits = {});
 /// .bt: free or occupied only; a free leaf gets the lower clamping value, an occupied one the upper.
 Result<std::unique_ptr<SemanticOcTree>> decode_bt(std::span<const std::byte> bytes, const MapLimits& limits = {});
 
-/// The bytes that octomap::OcTree::write() gives for the same tree.
+/// The bytes that octomap::OcTree::write() gives for the same tree. A tree with labels becomes a ColorOcTree: labelled
+/// voxels have the colour of their class, others none (white). The grade of a label is not in the file.
 [[nodiscard]] std::vector<std::byte> encode_ot(const SemanticOcTree& tree);
 /// The bytes that octomap::OcTree::writeBinary() gives for the same tree: its maximum likelihood, pruned. A tree that
 /// is one single cube is written as its eight octants, because the format cannot hold a root without children.

@@ -4,6 +4,12 @@
 #include <algorithm>
 #include <cstdint>
 #include <string>
+#include <string_view>
+
+#include "hal/bytes.hpp"
+#include "hal/semantic_class.hpp"
+#include "onboard/mapping/files/class_colour.hpp"
+#include "onboard/mapping/tree/voxel_label.hpp"
 
 namespace cairn::mapping {
 namespace {
@@ -17,6 +23,13 @@ std::vector<std::byte> join(const std::string& header, std::span<const Eigen::Ve
   out.insert(out.end(), text.begin(), text.end());
   out.insert(out.end(), data.begin(), data.end());
   return out;
+}
+
+std::string ply_header(std::size_t points, std::string_view more) {
+  return "ply\nformat binary_little_endian 1.0\ncomment centres of occupied voxels, metres, map frame\nelement "
+         "vertex " +
+         std::to_string(points) + "\nproperty float x\nproperty float y\nproperty float z\n" + std::string(more) +
+         "end_header\n";
 }
 
 }  // namespace
@@ -49,11 +62,38 @@ Result<std::vector<Eigen::Vector3f>> occupied_voxel_centres(const SemanticOcTree
   return points;
 }
 
+Result<std::vector<LabelledCentre>> labelled_voxel_centres(const SemanticOcTree& tree, std::size_t max_points) {
+  const auto voxels = listable_voxels(tree, max_points);
+  if (!voxels) return voxels.error();
+  std::vector<LabelledCentre> points;
+  points.reserve(*voxels);
+  bool any = false;
+  for_each_occupied_voxel(tree, [&](const Eigen::Vector3f& centre, const SemanticNode& leaf) {
+    const VoxelLabel label = VoxelLabel::from_id(leaf.label_id());
+    any = any || label.any();
+    points.push_back({centre, label.any() ? static_cast<std::uint8_t>(label.class_id()) : kNoClass});
+  });
+  if (!any) points.clear();
+  return points;
+}
+
 std::vector<std::byte> encode_ply(std::span<const Eigen::Vector3f> points) {
-  return join(
-      "ply\nformat binary_little_endian 1.0\ncomment centres of occupied voxels, metres, map frame\nelement vertex " +
-          std::to_string(points.size()) + "\nproperty float x\nproperty float y\nproperty float z\nend_header\n",
-      points);
+  return join(ply_header(points.size(), ""), points);
+}
+
+std::vector<std::byte> encode_ply(std::span<const LabelledCentre> points) {
+  constexpr Colour kGrey{205, 205, 205};
+  const std::string header = ply_header(
+      points.size(), "property uchar red\nproperty uchar green\nproperty uchar blue\nproperty uchar label\n");
+  const auto text = std::as_bytes(std::span(header));
+  std::vector<std::byte> out(text.begin(), text.end());
+  out.reserve(out.size() + 16 * points.size());
+  for (const LabelledCentre& p : points) {
+    for (const float coordinate : p.centre) append_le(out, coordinate);
+    for (const std::uint8_t part : p.class_id == kNoClass ? kGrey : colour_of(p.class_id)) append_le(out, part);
+    append_le(out, p.class_id);
+  }
+  return out;
 }
 
 std::vector<std::byte> encode_pcd(std::span<const Eigen::Vector3f> points) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <type_traits>
 #include <vector>
 
 #include "hal/result.hpp"
@@ -24,8 +25,8 @@ inline constexpr std::uint64_t kSpareVoxels = 2'000'000, kVoxelsPerNode = 64;
 /// kSpareVoxels + kVoxelsPerNode · nodes, or more than `max_points`.
 Result<std::size_t> listable_voxels(const SemanticOcTree& tree, std::size_t max_points = 100'000'000);
 
-/// Calls `visit(point)` for the centre of each occupied voxel, in metres in the map frame (float), in
-/// depth-first order. Ask listable_voxels() first.
+/// Calls `visit(point)` or `visit(point, leaf)` for the centre of each occupied voxel, in metres in the map frame
+/// (float), in depth-first order. Ask listable_voxels() first.
 template <class Visit>
 void for_each_occupied_voxel(const SemanticOcTree& tree, Visit&& visit) {
   for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf) {
@@ -37,7 +38,12 @@ void for_each_occupied_voxel(const SemanticOcTree& tree, Visit&& visit) {
       for (unsigned y = 0; y < edge; ++y)
         for (unsigned x = 0; x < edge; ++x) {
           const octomap::point3d centre = tree.keyToCoord(octomap::OcTreeKey(key(0, x), key(1, y), key(2, z)));
-          visit(Eigen::Vector3f(centre.x(), centre.y(), centre.z()));
+          const Eigen::Vector3f point(centre.x(), centre.y(), centre.z());
+          if constexpr (std::is_invocable_v<Visit&, const Eigen::Vector3f&, const SemanticNode&>) {
+            visit(point, *leaf);
+          } else {
+            visit(point);
+          }
         }
   }
 }
@@ -46,8 +52,19 @@ void for_each_occupied_voxel(const SemanticOcTree& tree, Visit&& visit) {
 Result<std::vector<Eigen::Vector3f>> occupied_voxel_centres(const SemanticOcTree& tree,
                                                             std::size_t max_points = 100'000'000);
 
+/// A voxel's centre as a PLY file holds it: the colour of its class, and the trainId or kNoClass.
+struct LabelledCentre {
+  Eigen::Vector3f centre;
+  std::uint8_t class_id;
+};
+/// The same voxels as occupied_voxel_centres() in the same order; none if no voxel has a label. Errors: the same.
+Result<std::vector<LabelledCentre>> labelled_voxel_centres(const SemanticOcTree& tree,
+                                                           std::size_t max_points = 100'000'000);
+
 /// Binary little-endian PLY with x, y, z as floats (G. Turk, "The PLY Polygon File Format").
 [[nodiscard]] std::vector<std::byte> encode_ply(std::span<const Eigen::Vector3f> points);
+/// The same with the properties red, green, blue and label (trainId; 255: none, painted light grey).
+[[nodiscard]] std::vector<std::byte> encode_ply(std::span<const LabelledCentre> points);
 /// Binary PCD v0.7 with x, y, z as floats (Point Cloud Library).
 [[nodiscard]] std::vector<std::byte> encode_pcd(std::span<const Eigen::Vector3f> points);
 

@@ -58,7 +58,11 @@ class Comparer {
     const bool occupied_b = pair.b != nullptr && b_.isNodeOccupied(pair.b);
     if (pair.a != nullptr) (occupied_a ? result_.occupied_a : result_.free_a) += n;
     if (pair.b != nullptr) (occupied_b ? result_.occupied_b : result_.free_b) += n;
-    if (occupied_a && occupied_b) result_.occupied_both += n;
+    if (occupied_a && occupied_b) {
+      result_.occupied_both += n;
+      const auto a = label_of(a_, *pair.a), b = label_of(b_, *pair.b);
+      if (a.any() && b.any()) result_.labels.add(a.class_id(), b.class_id(), n);
+    }
     if (pair.b == nullptr) {
       result_.only_a += n;
     } else if (pair.a == nullptr) {
@@ -92,7 +96,7 @@ MapSummary summarise(const mapping::SemanticOcTree& map) {
   s.nodes = map.size();
   s.memory_bytes = map.used_bytes();
   Eigen::AlignedBox3d box;
-  double occupied_bits = 0, occupied_book = 0, free_bits = 0;
+  double occupied_bits = 0, occupied_book = 0, free_bits = 0, label_bits = 0;
   for (auto leaf = map.begin_leafs(), end = map.end_leafs(); leaf != end; ++leaf) {
     const std::uint64_t n = voxels_below(leaf.getDepth());
     const double weight = static_cast<double>(n), p = leaf->getOccupancy(), half = leaf.getSize() / 2;
@@ -101,7 +105,11 @@ MapSummary summarise(const mapping::SemanticOcTree& map) {
     (occupied ? s.occupied : s.free) += n;
     (occupied ? occupied_bits : free_bits) += weight * binary_entropy(p);
     if (occupied) occupied_book += weight * book_entropy(p);
-    if (leaf->label_id() != 0) s.labelled += n;
+    if (const auto label = label_of(map, *leaf); label.any()) {
+      s.labelled += n;
+      s.by_class[label.class_id()] += n;
+      label_bits += weight * label_entropy(leaf->label_id());
+    }
     box.extend((centre.array() - half).matrix());
     box.extend((centre.array() + half).matrix());
     ++s.leaves;
@@ -109,6 +117,7 @@ MapSummary summarise(const mapping::SemanticOcTree& map) {
   if (!box.isEmpty()) s.min_m = box.min(), s.max_m = box.max();
   s.mean_entropy_occupancy = mean(occupied_bits, s.occupied);
   s.mean_entropy_book = mean(occupied_book, s.occupied);
+  s.mean_entropy_label = mean(label_bits, s.labelled);
   s.mean_entropy_known = mean(occupied_bits + free_bits, s.occupied + s.free);
   return s;
 }

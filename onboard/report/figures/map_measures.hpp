@@ -7,6 +7,7 @@
 
 #include "hal/result.hpp"
 #include "onboard/mapping/tree/semantic_octree.hpp"
+#include "onboard/report/labels/label_measures.hpp"
 
 namespace cairn::report {
 
@@ -19,12 +20,15 @@ namespace cairn::report {
 struct MapSummary {
   double resolution_m = 0;
   std::uint64_t occupied = 0, free = 0, labelled = 0;  ///< voxels
+  ClassCounts by_class{};                              ///< labelled voxels of each class
   std::uint64_t nodes = 0, leaves = 0;
   std::uint64_t memory_bytes = 0;                                                    ///< in use for the tree
   Eigen::Vector3d min_m = Eigen::Vector3d::Zero(), max_m = Eigen::Vector3d::Zero();  ///< box around all known voxels
   /// Means over the occupied voxels, which are the book's map; none where nothing is occupied.
   std::optional<double> mean_entropy_occupancy, mean_entropy_book;
   std::optional<double> mean_entropy_known;  ///< binary entropy over occupied and free voxels
+
+  std::optional<double> mean_entropy_label;  ///< over labelled voxels, bit; none where there are none
 
   [[nodiscard]] double voxel_volume_m3() const { return resolution_m * resolution_m * resolution_m; }
   [[nodiscard]] double known_volume_m3() const { return static_cast<double>(occupied + free) * voxel_volume_m3(); }
@@ -39,6 +43,7 @@ struct MapComparison {
   std::uint64_t occupied_a = 0, occupied_b = 0, occupied_both = 0;
   std::uint64_t free_a = 0, free_b = 0;
   std::uint64_t differing_log_odds = 0;  ///< known in both, but not with the same bits
+  LabelConfusion labels;                 ///< of the voxels that are labelled in both, [class in a][class in b]
 
   /// |A ∩ B| / |A ∪ B| over occupied voxels; none where nothing is occupied.
   [[nodiscard]] std::optional<double> iou_occupied() const;

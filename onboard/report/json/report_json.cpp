@@ -5,22 +5,11 @@
 
 #include "onboard/report/figures/accuracy.hpp"
 #include "onboard/report/json/camera_json.hpp"
+#include "onboard/report/json/json_values.hpp"
 #include "onboard/report/notes/notes.hpp"
 
 namespace cairn::report {
 namespace {
-
-template <class T>
-Json or_null(const std::optional<T>& value) {
-  return value ? Json(*value) : Json(nullptr);
-}
-
-Json numbers(const auto& values) {
-  Json list = Json::array();
-  for (Eigen::Index row = 0; row < values.rows(); ++row)
-    for (Eigen::Index column = 0; column < values.cols(); ++column) list.push_back(values(row, column));
-  return list;
-}
 
 /// A figure of a run that measured it.
 template <class T>
@@ -202,49 +191,6 @@ Json to_json(const TrajectoryError& e) {
           {"segments", e.segments ? Json(e.segments->segments) : Json(0)},
           {"matched", e.matched},
           {"unmatched", e.unmatched}};
-}
-
-Json to_json(const MapSummary& map) {
-  return {{"resolution_m", map.resolution_m},
-          {"occupied", map.occupied},
-          {"free", map.free},
-          {"labelled", map.labelled},
-          {"nodes", map.nodes},
-          {"leaves", map.leaves},
-          {"memory_bytes", map.memory_bytes},
-          {"known_volume_m3", map.known_volume_m3()},
-          {"min_m", numbers(map.min_m)},
-          {"max_m", numbers(map.max_m)},
-          {"mean_entropy_occupancy", or_null(map.mean_entropy_occupancy)},
-          {"mean_entropy_book", or_null(map.mean_entropy_book)},
-          {"mean_entropy_known", or_null(map.mean_entropy_known)}};
-}
-
-Json to_json(const MapComparison& c) {
-  return {{"same", c.same},
-          {"disagreeing", c.disagreeing},
-          {"only_a", c.only_a},
-          {"only_b", c.only_b},
-          {"iou_occupied", or_null(c.iou_occupied())},
-          {"occupied_a", c.occupied_a},
-          {"occupied_b", c.occupied_b},
-          {"occupied_both", c.occupied_both},
-          {"free_a", c.free_a},
-          {"free_b", c.free_b},
-          {"differing_log_odds", c.differing_log_odds}};
-}
-
-Json to_json(const MapError& e) {
-  return {{"accuracy_mean_m", e.mean_m},
-          {"accuracy_rmse_m", e.rmse_m},
-          {"precision", or_null(e.precision())},
-          {"recall", or_null(e.recall())},
-          {"occupied", e.occupied},
-          {"correct", e.correct},
-          {"true_occupied", e.true_occupied},
-          {"found", e.found},
-          {"contradicted", e.contradicted},
-          {"unseen", e.unseen}};
 }
 
 Json to_json(const RunReport& report) {

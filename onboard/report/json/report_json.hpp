@@ -6,6 +6,7 @@
 
 #include "onboard/report/figures/map_error.hpp"
 #include "onboard/report/figures/run_report.hpp"
+#include "onboard/report/labels/label_measures.hpp"
 
 namespace cairn::report {
 
@@ -17,6 +18,9 @@ using Json = nlohmann::ordered_json;
 [[nodiscard]] Json to_json(const MapSummary& map);
 [[nodiscard]] Json to_json(const MapComparison& comparison);
 [[nodiscard]] Json to_json(const MapError& error);
+[[nodiscard]] Json to_json(const LabelError& error);
+/// The classes that there are, by name.
+[[nodiscard]] Json to_json(const ClassCounts& counts);
 /// The content of report.json.
 [[nodiscard]] Json to_json(const RunReport& report);
 

@@ -93,18 +93,33 @@ std::string notes(const RunReport& report) {
   return "<section><h2>Worth a look</h2><ul class=\"notes\">\n" + items + "</ul></section>\n";
 }
 
+std::string height_key(const MapPicture& picture) {
+  std::string ramp;
+  for (int i = 0; i <= 10; ++i) {
+    const Rgba c = height_colour(i / 10.0);
+    ramp += fmt::format("{}#{:02x}{:02x}{:02x}", i > 0 ? "," : "", c.r, c.g, c.b);
+  }
+  return fmt::format(
+      "<span>z {} m<span class=\"ramp\" style=\"background:linear-gradient(90deg,{})\"></span>{} m</span>",
+      number(picture.low_m), ramp, number(picture.high_m));
+}
+
+std::string class_key(const MapPicture& picture) {
+  const auto entry = [](std::uint8_t class_id, std::string_view name) {
+    const Rgba c = class_colour(class_id);
+    return fmt::format("<span><i class=\"class\" style=\"background:#{:02x}{:02x}{:02x}\"></i>{}</span>", c.r, c.g, c.b,
+                       name);
+  };
+  std::string s;
+  for (const std::uint8_t class_id : classes_in(picture)) s += entry(class_id, kSemanticClasses[class_id].name);
+  return s + entry(kNoClass, "no label");
+}
+
 std::string map_section(const RunReport& report, const std::string& svg) {
   std::string s = "<section><h2>Map</h2>\n" + svg + "<div class=\"key\"><span><i></i>trajectory</span>";
   if (!report.ground_truth.empty()) s += "<span><i class=\"truth\"></i>ground truth</span>";
   if (report.picture) {
-    std::string ramp;
-    for (int i = 0; i <= 10; ++i) {
-      const Rgba c = height_colour(i / 10.0);
-      ramp += fmt::format("{}#{:02x}{:02x}{:02x}", i > 0 ? "," : "", c.r, c.g, c.b);
-    }
-    s += fmt::format(
-        "<span>z {} m<span class=\"ramp\" style=\"background:linear-gradient(90deg,{})\"></span>{} m</span>",
-        number(report.picture->low_m), ramp, number(report.picture->high_m));
+    s += report.picture->labelled() ? class_key(*report.picture) : height_key(*report.picture);
     if (report.picture->cut_m)
       s += fmt::format("<span>cut open at {} m, below the ceiling</span>", number(*report.picture->cut_m));
   }

@@ -52,6 +52,7 @@ svg.map { background: var(--unknown); border-radius: 6px; font-size: 17px; max-h
 .key i.truth { border-top: 2px dashed var(--ink); } .key i.bars { border-top: 9px solid var(--bars); }
 .key i.cpu { border-top: 2px solid var(--ink); } .key i.p99 { border-top: 2px solid var(--accent); }
 .key i.budget { border-top: 2px dashed var(--bad); } .key i.band { border-top: 10px solid var(--band); } .key i.curve { border-color: var(--accent); }
+.key i.class { width: 12px; height: 12px; border-top: 0; border-radius: 2px; }
 .key .ramp { display: inline-block; width: 110px; height: 10px; border-radius: 3px; vertical-align: middle; margin: 0 6px; }
 .charts { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 400px), 1fr)); gap: 14px 22px; }
 figure { margin: 0; min-width: 0; } figcaption { font-weight: 600; font-size: 14px; margin-bottom: 2px; overflow-wrap: anywhere; }

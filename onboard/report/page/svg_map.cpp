@@ -119,7 +119,9 @@ Result<std::string> svg_map(const RunReport& report) {
                   frame.size().x(), frame.size().y());
   if (report.picture) {
     const auto free = layer(frame, *report.picture, paint_free(*report.picture), "free");
-    const auto occupied = layer(frame, *report.picture, paint_occupied(*report.picture), "occupied");
+    const bool classes = report.picture->labelled();
+    const auto occupied = layer(frame, *report.picture,
+                                classes ? paint_classes(*report.picture) : paint_occupied(*report.picture), "occupied");
     if (!free) return free.error();
     if (!occupied) return occupied.error();
     s += *free + *occupied;

@@ -31,6 +31,16 @@ Rgba lit(Rgba colour, double light) {
   return light >= 0 ? mix(colour, {255, 255, 255, colour.a}, light) : mix(colour, {0, 0, 0, colour.a}, -light);
 }
 
+/// One pixel for each occupied cell, row 0 on top; the rest is transparent.
+template <class ColourOf>
+Raster painted(const MapPicture& p, ColourOf&& colour_of) {
+  Raster image(p.width, p.height, {0, 0, 0, 0});
+  for (int row = 0; row < p.height; ++row)
+    for (int column = 0; column < p.width; ++column)
+      if (p.filled[p.index(column, row)] != 0) image.at(column, p.height - 1 - row) = colour_of(column, row);
+  return image;
+}
+
 /// Where things go on the finished picture.
 struct Layout {
   int scale_x, scale_y;  // upper left corner of the map
@@ -52,9 +62,9 @@ Layout layout_of(const MapPicture& p, double pixels_per_m, int text) {
   return {44 * text, 14 * text, pixels(p.width), pixels(p.height), text, pixels_per_m, &p};
 }
 
-void put_map(Raster& image, const Layout& layout) {
+void put_map(Raster& image, const Layout& layout, bool classes) {
   const MapPicture& p = *layout.picture;
-  const Raster occupied = paint_occupied(p);
+  const Raster occupied = classes ? paint_classes(p) : paint_occupied(p);
   for (int y = 0; y < layout.map_height; ++y)
     for (int x = 0; x < layout.map_width; ++x) {
       const int column = std::min(p.width - 1, static_cast<int>((x + 0.5) / (layout.pixels_per_m * p.cell_m)));
@@ -130,6 +140,20 @@ void draw_scale_bar(Raster& image, const Layout& layout) {
   draw_text(image, x + pixels + 5 * t, y - 2 * t, metres(length) + " m", t, kInk);
 }
 
+constexpr int kClassRow = 11;  // pixels of the legend at text scale 1
+
+void draw_class_legend(Raster& image, const Layout& layout) {
+  const int t = layout.text, x = layout.scale_x + layout.map_width + 10 * t;
+  int y = layout.scale_y;
+  const auto row = [&](std::uint8_t class_id, std::string_view name) {
+    fill_rectangle(image, x, y, 9 * t, 8 * t, class_colour(class_id));
+    draw_text(image, x + 12 * t, y, name, t, kInk);
+    y += kClassRow * t;
+  };
+  for (const std::uint8_t class_id : classes_in(*layout.picture)) row(class_id, kSemanticClasses[class_id].name);
+  row(kNoClass, "no label");
+}
+
 void draw_legend(Raster& image, const Layout& layout) {
   const MapPicture& p = *layout.picture;
   const int t = layout.text, x = layout.scale_x + layout.map_width + 10 * t;
@@ -161,18 +185,32 @@ Rgba height_colour(double share) {
   return mix(kStops[below], kStops[below + 1], at - static_cast<double>(below));
 }
 
+Rgba class_colour(std::uint8_t class_id) {
+  if (class_id >= kSemanticClasses.size()) return {205, 205, 205, 255};
+  const SemanticClass& c = kSemanticClasses[class_id];
+  return {c.r, c.g, c.b, 255};
+}
+
+std::vector<std::uint8_t> classes_in(const MapPicture& picture) {
+  std::vector<std::uint8_t> found;
+  for (std::uint8_t i = 0; i < kSemanticClasses.size(); ++i)
+    if (std::ranges::find(picture.classes, i) != picture.classes.end()) found.push_back(i);
+  return found;
+}
+
 Raster paint_occupied(const MapPicture& p) {
-  Raster image(p.width, p.height, {0, 0, 0, 0});
-  for (int row = 0; row < p.height; ++row)
-    for (int column = 0; column < p.width; ++column) {
-      const std::uint32_t filled = p.filled[p.index(column, row)];
-      if (filled == 0) continue;
-      const double share = (p.height_of(column, row) - p.low_m) / std::max(p.high_m - p.low_m, 1e-9);
-      Rgba colour = lit(height_colour(share), slope_light(p, column, row));
-      colour.a = filled <= 2 ? 150 : 255;
-      image.at(column, p.height - 1 - row) = colour;
-    }
-  return image;
+  return painted(p, [&](int column, int row) {
+    const double share = (p.height_of(column, row) - p.low_m) / std::max(p.high_m - p.low_m, 1e-9);
+    Rgba colour = lit(height_colour(share), slope_light(p, column, row));
+    colour.a = p.filled[p.index(column, row)] <= 2 ? 150 : 255;
+    return colour;
+  });
+}
+
+Raster paint_classes(const MapPicture& p) {
+  return painted(p, [&](int column, int row) {
+    return lit(class_colour(p.classes[p.index(column, row)]), slope_light(p, column, row));
+  });
 }
 
 Raster paint_free(const MapPicture& p) {
@@ -195,14 +233,15 @@ Result<Raster> draw_map(const MapPicture& picture, const MapDrawing& drawing) {
     return Error{Errc::kLimit, "the picture would be too large", {}, {}, "choose fewer pixels per metre"};
   const int text = longer_m(picture) * pixels_per_m > 700 ? 2 : 1;
   const Layout layout = layout_of(picture, pixels_per_m, text);
-  const int height = std::max(layout.map_height, 64 * text);
-  Raster image(layout.scale_x + layout.map_width + 64 * text, layout.scale_y + height + 40 * text,
+  const int legend = drawing.classes ? kClassRow * static_cast<int>(classes_in(picture).size() + 1) : 64;
+  const int height = std::max(layout.map_height, legend * text), beside = drawing.classes ? 108 : 64;
+  Raster image(layout.scale_x + layout.map_width + beside * text, layout.scale_y + height + 40 * text,
                {255, 255, 255, 255});
-  put_map(image, layout);
+  put_map(image, layout, drawing.classes);
   draw_grid(image, layout);
   draw_paths(image, layout, drawing.paths);
   draw_names(image, layout, drawing.paths);
-  draw_legend(image, layout);
+  drawing.classes ? draw_class_legend(image, layout) : draw_legend(image, layout);
   draw_scale_bar(image, layout);
   return image;
 }

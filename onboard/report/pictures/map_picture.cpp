@@ -7,6 +7,8 @@
 #include <limits>
 #include <numeric>
 
+#include "onboard/report/labels/label_measures.hpp"
+
 namespace cairn::report {
 namespace {
 
@@ -18,6 +20,7 @@ struct Cube {
   std::array<int, 3> low;
   int edge;
   bool occupied;
+  std::uint8_t class_id;  // or kNoClass
 };
 
 /// Which of x, y, z go to the right, upwards and towards the viewer; the last one's sign.
@@ -36,8 +39,11 @@ template <class Visit>
 void for_each_cube(const mapping::SemanticOcTree& map, const Heights& heights, Visit&& visit) {
   for (auto leaf = map.begin_leafs(), end = map.end_leafs(); leaf != end; ++leaf) {
     const octomap::OcTreeKey key = leaf.getIndexKey();
-    const Cube cube{
-        {key[0], key[1], key[2]}, 1 << (mapping::SemanticOcTree::kDepth - leaf.getDepth()), map.isNodeOccupied(*leaf)};
+    const mapping::VoxelLabel label = label_of(map, *leaf);
+    const Cube cube{{key[0], key[1], key[2]},
+                    1 << (mapping::SemanticOcTree::kDepth - leaf.getDepth()),
+                    map.isNodeOccupied(*leaf),
+                    label.any() ? static_cast<std::uint8_t>(label.class_id()) : kNoClass};
     if (cube.low[2] <= heights.high && cube.low[2] + cube.edge > heights.low) visit(cube);
   }
 }
@@ -126,6 +132,7 @@ class Projector {
     const auto cells = static_cast<std::size_t>(picture_.width) * static_cast<std::size_t>(picture_.height);
     picture_.filled.assign(cells, 0);
     picture_.nearest_m.assign(cells, std::numeric_limits<float>::lowest());
+    picture_.classes.assign(cells, kNoClass);
     return true;
   }
 
@@ -205,13 +212,15 @@ class Projector {
   void mark_occupied() {
     for_each_cube(map_, heights_, [&](const Cube& c) {
       if (!c.occupied) return;
-      const double nearest = nearest_of(c);
+      const auto nearest = static_cast<float>(nearest_of(c));
       const Cells cells = cells_of(c);
       for (int y = cells.y0; y <= cells.y1; ++y)
         for (int x = cells.x0; x <= cells.x1; ++x) {
           const std::size_t i = picture_.index(x, y);
           picture_.filled[i] += static_cast<std::uint32_t>(c.edge);
-          picture_.nearest_m[i] = std::max(picture_.nearest_m[i], static_cast<float>(nearest));
+          if (nearest <= picture_.nearest_m[i]) continue;
+          picture_.nearest_m[i] = nearest;
+          picture_.classes[i] = c.class_id;
         }
     });
   }
@@ -260,6 +269,10 @@ Eigen::Vector2d project(MapView view, const Eigen::Vector3d& point) {
 double nearness(MapView view, const Eigen::Vector3d& point) {
   const Axes& axes = axes_of(view);
   return axes.near_sign * point[static_cast<Eigen::Index>(axes.near)];
+}
+
+bool MapPicture::labelled() const {
+  return std::ranges::any_of(classes, [](std::uint8_t class_id) { return class_id != kNoClass; });
 }
 
 double MapPicture::height_of(int column, int row) const {

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal/result.hpp"
+#include "hal/semantic_class.hpp"
 #include "onboard/mapping/tree/semantic_octree.hpp"
 
 namespace cairn::report {
@@ -44,12 +45,15 @@ struct MapPicture {
   std::vector<std::uint8_t> free;     ///< 1: some voxel of the column is known to be free
   std::vector<std::uint32_t> filled;  ///< occupied voxels in the column; 0: none
   std::vector<float> nearest_m;       ///< nearness() of the occupied voxel that one sees
+  std::vector<std::uint8_t> classes;  ///< trainId of the occupied voxel that one sees, or kNoClass
   double low_m = 0, high_m = 0;       ///< heights that the colours span
   std::optional<double> cut_m;        ///< what lies above was left out: the ceiling that was found
 
   [[nodiscard]] std::size_t index(int column, int row) const {
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
   }
+  /// Whether any voxel that one sees has a label.
+  [[nodiscard]] bool labelled() const;
   /// Height above z = 0 of what one sees in an occupied cell.
   [[nodiscard]] double height_of(int column, int row) const;
 };

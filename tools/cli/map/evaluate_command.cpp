@@ -17,6 +17,7 @@
 #include "onboard/report/figures/map_error.hpp"
 #include "onboard/report/figures/trajectory_error.hpp"
 #include "onboard/report/json/report_json.hpp"
+#include "onboard/report/labels/label_measures.hpp"
 #include "tools/cli/map/pose_option.hpp"
 #include "tools/cli/projection/projection_command.hpp"
 
@@ -103,6 +104,20 @@ std::string hint(const Options& options, const report::MapError& error) {
          "or --pose";
 }
 
+/// Empty where nothing can be said: the true map or the map has no labels.
+std::string in_words(const report::LabelError& e) {
+  const auto accuracy = e.confusion.agreement(), miou = e.confusion.miou(report::kMinTrueVoxels);
+  if (!accuracy) return {};
+  std::string text = fmt::format("labels     {:.4f} right of {} voxels, {:.4f} of the common ones are labelled\n",
+                                 *accuracy, e.labelled, e.labelled_share().value_or(0));
+  if (miou)
+    text += fmt::format("mean IoU   {:.4f} of classes with {} true voxels or more\n", *miou, report::kMinTrueVoxels);
+  for (std::size_t i = 0; i < report::kClasses; ++i)
+    if (const auto iou = e.confusion.iou(i); iou && e.confusion.voxels_of(i) > 0)
+      text += fmt::format("  {:<13} {:.4f}, {} voxels\n", kSemanticClasses[i].name, *iou, e.confusion.voxels_of(i));
+  return text;
+}
+
 int evaluate_map(const Options& options) {
   const fs::path file = file_in(options.estimate, "map.cairn"), true_file = file_in(options.truth, "world.ot");
   const auto map = mapping::load_map(file), truth = mapping::load_map(true_file);
@@ -116,9 +131,12 @@ int evaluate_map(const Options& options) {
     return report::map_error(**map, **truth, {*T, options.tolerance_m});
   });
   if (!error) return app::fail(at(file.string(), error.error()));
+  const auto labels = report::label_error(**map, **truth, *T);
+  if (!labels) return app::fail(at(file.string(), labels.error()));
   const std::string tip = hint(options, *error);
   if (options.json) {
     report::Json json = report::to_json(*error);
+    json.update(report::to_json(*labels));
     json["hint"] = tip.empty() ? report::Json(nullptr) : report::Json(tip);
     return app::print(json);
   }
@@ -128,6 +146,7 @@ int evaluate_map(const Options& options) {
   if (const auto r = error->recall()) std::cout << fmt::format("recall     {:.4f} of what was seen\n", *r);
   std::cout << fmt::format("true map   {} occupied voxels: {} found, {} called free, {} never seen\n",
                            error->true_occupied, error->found, error->contradicted, error->unseen);
+  std::cout << in_words(*labels);
   if (!tip.empty()) std::cout << "hint       " << tip << '\n';
   return app::kDone;
 }

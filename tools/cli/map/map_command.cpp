@@ -39,7 +39,7 @@ struct Options {
   std::string view = "top";
   std::optional<double> height_min_m, height_max_m;
   double pixels_per_m = 0;
-  bool json = false;
+  bool classes = false, json = false;
 };
 
 int wrong(const std::string& message) {
@@ -80,6 +80,11 @@ std::string info_text(const report::Json& json, const report::MapSummary& summar
       summary.known_volume_m3(), size.x(), size.y(), size.z(), summary.min_m.x(), summary.min_m.y(), summary.min_m.z(),
       summary.nodes, summary.leaves, static_cast<double>(summary.memory_bytes) / 0x1p20,
       json["file_bytes"].get<double>() / 0x1p20, json["checksum"] == "ok" ? "correct" : "this format has none");
+  for (std::size_t i = 0; i < report::kClasses; ++i)
+    if (summary.by_class[i] > 0)
+      text += fmt::format("    {:<13} {} voxels\n", kSemanticClasses[i].name, summary.by_class[i]);
+  if (summary.mean_entropy_label)
+    text += fmt::format("  label entropy {:.4f} bit over labelled voxels\n", *summary.mean_entropy_label);
   if (summary.mean_entropy_occupancy)
     text += fmt::format("  mean entropy  {:.4f} bit over occupied voxels ({:.4f} as −p log2 p), {:.4f} over all\n",
                         *summary.mean_entropy_occupancy, *summary.mean_entropy_book, *summary.mean_entropy_known);
@@ -112,8 +117,8 @@ int compare_maps(const Options& options) {
     add("mean_entropy_occupancy_b", summary_b.mean_entropy_occupancy);
     add("mean_entropy_book", summary_a.mean_entropy_book);
     add("mean_entropy_book_b", summary_b.mean_entropy_book);
-    // The fields are there for scripts; they are null until maps carry labels.
-    for (const char* name : {"label_agreement", "miou", "mean_entropy_label"}) json[name] = nullptr;
+    add("mean_entropy_label", summary_a.mean_entropy_label);
+    add("mean_entropy_label_b", summary_b.mean_entropy_label);
     return app::print(json);
   }
   std::cout << fmt::format(
@@ -122,6 +127,9 @@ int compare_maps(const Options& options) {
       c->same, c->differing_log_odds < c->disagreeing ? 0 : c->differing_log_odds - c->disagreeing, c->disagreeing,
       c->only_a, c->only_b, c->occupied_a, c->occupied_b, c->occupied_both, c->free_a, c->free_b);
   if (const auto iou = c->iou_occupied()) std::cout << fmt::format("occupied IoU {:.4f}\n", *iou);
+  if (const auto agreement = c->labels.agreement())
+    std::cout << fmt::format("labels       {} voxels labelled in both, {:.4f} of them alike; mean IoU {:.4f}\n",
+                             c->labels.total(), *agreement, c->labels.miou(0).value_or(0));
   return app::kDone;
 }
 
@@ -164,7 +172,13 @@ int render(const Options& options) {
   if (!picture) return app::fail(at(options.file.string(), picture.error()));
   auto paths = read_paths(options, *view);
   if (!paths) return app::fail(paths.error());
-  const auto image = report::draw_map(*picture, {options.pixels_per_m, std::move(*paths)});
+  if (options.classes && !picture->labelled())
+    return app::fail({Errc::kNotFound,
+                      "no voxel in this view has a label",
+                      options.file.string(),
+                      {},
+                      "leave out --classes; `cairn map info` counts the labels"});
+  const auto image = report::draw_map(*picture, {options.pixels_per_m, std::move(*paths), options.classes});
   if (!image) return app::fail(at(options.out.string(), image.error()));
   const auto png = report::encode_png(*image);
   if (!png) return app::fail(at(options.out.string(), png.error()));
@@ -172,7 +186,7 @@ int render(const Options& options) {
   report::Json json{{"out", options.out.string()}};
   json["width"] = image->width();
   json["height"] = image->height();
-  json["pixels_per_m"] = report::pixels_per_metre(*picture, {options.pixels_per_m, {}});
+  json["pixels_per_m"] = report::pixels_per_metre(*picture, {options.pixels_per_m, {}, false});
   json["cut_above_m"] = picture->cut_m ? report::Json(*picture->cut_m) : report::Json(nullptr);
   if (options.json) return app::print(json);
   std::cout << fmt::format("{}: {} × {} pixels\n", options.out.string(), image->width(), image->height());
@@ -222,6 +236,7 @@ void add_map_command(app::Commands& commands) {
   picture->add_option(
       "--height-max", options->height_max_m,
       "voxels above this height are left out, m; default: a view from above is cut open below the ceiling");
+  picture->add_flag("--classes", options->classes, "colours by class instead of height; grey: no label");
   picture->add_option("--trajectory", options->trajectory, "path to draw over the map (TUM)");
   picture->add_option("--ground-truth", options->ground_truth,
                       "path to draw dashed (TUM); with --trajectory it is moved into that frame");

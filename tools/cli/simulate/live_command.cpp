@@ -32,6 +32,11 @@ constexpr std::array kForRecordings{
     Foreign{"--profile", "a live robot is a husky"},
     Foreign{"--motion", "the robot moves as its motors are told"},
     Foreign{"--sensors", "a live robot has lidar, drive and gpio"},
+    Foreign{"--camera-rate", "a live robot has no camera"},
+    Foreign{"--camera-noise", "a live robot has no camera"},
+    Foreign{"--exposure", "a live robot has no camera"},
+    Foreign{"--exposure-error", "a live robot has no camera"},
+    Foreign{"--line-time", "a live robot has no camera"},
     Foreign{"--threads", "one thread plays the world"},
 };
 constexpr std::array kForLive{"--to", "--can", "--estop", "--start", "--truth", "--profile-out"};

@@ -142,6 +142,28 @@ void add_lidar_options(CLI::App& sub, simulator::LidarConfig& lidar) {
   sub.add_flag("--pps", lidar.pps, "lock the LiDAR's clock to UTC; otherwise it runs freely");
 }
 
+void add_camera_options(CLI::App& sub, simulator::StereoConfig& camera) {
+  sub.add_option("--camera-rate", camera.rate_hz,
+                 "pictures of the camera a second, 1/s; the trigger's pulses with them")
+      ->check(CLI::Range(0.01, 120.0))
+      ->capture_default_str();
+  sub.add_option("--camera-noise", camera.noise_factor, "factor on the noise of the camera's pictures")
+      ->check(CLI::Range(0.0, 20.0))
+      ->capture_default_str();
+  sub.add_option("--exposure", camera.exposure_stops,
+                 "exposure of the camera in stops: 1 is twice the light that fits, -1 half of it")
+      ->check(CLI::Range(-10.0, 10.0))
+      ->capture_default_str();
+  sub.add_option("--exposure-error", camera.exposure_error_stops,
+                 "how far an automatic exposure wanders, one standard deviation, stops")
+      ->check(CLI::Range(0.0, 4.0))
+      ->capture_default_str();
+  sub.add_option("--line-time", camera.line_time_s,
+                 "rolling shutter: time from one row of a picture to the next, s; 0: all rows at once")
+      ->check(CLI::Range(0.0, 1e-3))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_simulate_command(app::Commands& commands) {
@@ -175,6 +197,7 @@ void add_simulate_command(app::Commands& commands) {
       ->check(CLI::Range(1U, 256U))
       ->capture_default_str();
   add_lidar_options(*sub, s.lidar);
+  add_camera_options(*sub, s.stereo);
   sub->add_flag("--json", options->json, "one JSON object on stdout");
   add_live_options(*sub, options->live);
   sub->callback([&commands, options, sub] {

@@ -58,17 +58,25 @@ SE3 Stereo::T_world_eye(int eye, Time t) const {
   return trajectory_.T_world_base(t) * SE3::from_xyz_rpy(config_.base_camera_xyz_rpy) * T_left_eye;
 }
 
-void Stereo::expose_row(const Instant& instant, const SE3& T_world_eye, int eye, int row, std::uint64_t n,
+double Stereo::exposure_stops(Time t) const {
+  if (config_.exposure_error_stops == 0) return config_.exposure_stops;
+  constexpr double kWander_s = 1.5, kSpread = 4.0;  // value noise has a standard deviation of about a quarter
+  const double wander =
+      value_noise({to_seconds(t.time_since_epoch()) / kWander_s, static_cast<double>(seed_ % 8191), 0.0});
+  return config_.exposure_stops + config_.exposure_error_stops * kSpread * (wander - 0.5);
+}
+
+void Stereo::expose_row(const Instant& instant, const SE3& T_world_eye, int eye, int row, const Shot& shot,
                         std::byte* out, std::byte* labels) const {
   const auto width = static_cast<std::size_t>(config_.lens.width);
   std::vector<Sighting> seen(width);
   look(instant, config_.lens, T_world_eye, row, seen);
-  const auto noise = static_cast<float>(climate_.night ? config_.night_noise : config_.noise);
+  const auto noise = static_cast<float>(config_.noise_factor * (climate_.night ? config_.night_noise : config_.noise));
   const double pixel_rad = 1.0 / config_.lens.fx;
-  Random random(seed_, n, static_cast<std::uint64_t>(2 * row + eye));
+  Random random(seed_, shot.n, static_cast<std::uint64_t>(2 * row + eye));
   for (std::size_t u = 0; u + 1 < width; u += 2) {
-    const Pixel a = yuv(radiance(seen[u], climate_, instant, pixel_rad));
-    const Pixel b = yuv(radiance(seen[u + 1], climate_, instant, pixel_rad));
+    const Pixel a = yuv(shot.gain * radiance(seen[u], climate_, instant, pixel_rad));
+    const Pixel b = yuv(shot.gain * radiance(seen[u + 1], climate_, instant, pixel_rad));
     const std::uint64_t luma = random.next(), chroma = random.next();
     const auto low = static_cast<std::uint32_t>(chroma), high = static_cast<std::uint32_t>(chroma >> 32U);
     *out++ = step(a.y + noise * nearly_normal(static_cast<std::uint32_t>(luma)));
@@ -92,14 +100,17 @@ void Stereo::shoot(std::uint64_t n, Time t, Workers& workers, Packet& packet, st
   labels.resize(width * height);
   packet.arrival = t;
   packet.sequence = n;
+  const Shot shot{n, static_cast<float>(std::exp2(exposure_stops(t)))};
   const auto figures = people_.figures(t);
-  const Instant instant{tracer_, figures};
-  const std::array<SE3, 2> eyes{T_world_eye(0, t), T_world_eye(1, t)};
   workers.for_each(2 * height, [&](std::size_t chunk) {
     const std::size_t eye = chunk % 2, row = chunk / 2;
+    const bool rolling = config_.line_time_s > 0;
+    const Time then = rolling ? t + from_seconds(config_.line_time_s * static_cast<double>(row)) : t;
+    const auto moved = rolling ? people_.figures(then) : std::vector<Figure>();
+    const Instant instant{tracer_, rolling ? std::span<const Figure>(moved) : std::span<const Figure>(figures)};
     std::byte* out = packet.bytes.data() + camera::kFrameHeaderBytes + (2 * row + eye) * 2 * width;
-    expose_row(instant, eyes[eye], static_cast<int>(eye), static_cast<int>(row), n, out,
-               eye == 0 ? labels.data() + row * width : nullptr);
+    expose_row(instant, T_world_eye(static_cast<int>(eye), then), static_cast<int>(eye), static_cast<int>(row), shot,
+               out, eye == 0 ? labels.data() + row * width : nullptr);
   });
 }
 

@@ -18,13 +18,17 @@ struct StereoConfig {
   Lens lens{672, 376, 350.0, 350.0, 336.0, 188.0};  ///< of each eye
   double baseline_m = 0.12;                         ///< the right eye is at (0, −baseline, 0) of the left one
   double rate_hz = 15.0;
-  double noise = 1.3;        ///< 1 σ by day, in steps of the 8-bit luma
-  double night_noise = 3.5;  ///< 1 σ at the gain that night needs
+  double noise = 1.3;               ///< 1 σ by day, in steps of the 8-bit luma
+  double night_noise = 3.5;         ///< 1 σ at the gain that night needs
+  double noise_factor = 1.0;        ///< both are multiplied by it
+  double exposure_stops = 0.0;      ///< +1: twice the light that fits; −1: half
+  double exposure_error_stops = 0;  ///< 1 σ, about, of an automatic exposure that wanders within seconds
+  double line_time_s = 0.0;         ///< from one row's exposure to the next one's; 0: all at once
   Vector6 base_camera_xyz_rpy = (Vector6() << 0.34, 0.06, 0.42, 0.0, 0.0, 0.0).finished();  ///< T_base_lefteye
 };
 
-/// The camera on a robot that moves. Not modelled: motion blur, rolling shutter, distortion (ZED's pictures are
-/// rectified), automatic exposure: by day the exposure fits, by night it is at its limit and the picture stays dark.
+/// The camera on a robot that moves. Not modelled: motion blur and distortion (ZED's pictures are rectified). By day
+/// the exposure fits unless the config says otherwise, by night it is at its limit and the picture stays dark.
 class Stereo {
  public:
   /// All must outlive it.
@@ -37,11 +41,18 @@ class Stereo {
   void shoot(std::uint64_t n, Time t, Workers& workers, Packet& packet, std::vector<std::byte>& labels) const;
 
   [[nodiscard]] const StereoConfig& config() const { return config_; }
+  /// How much brighter than fits the frame at `t` is, in stops.
+  [[nodiscard]] double exposure_stops(Time t) const;
   /// Eye 0 is the left one.
   [[nodiscard]] SE3 T_world_eye(int eye, Time t) const;
 
  private:
-  void expose_row(const Instant& instant, const SE3& T_world_eye, int eye, int row, std::uint64_t n, std::byte* out,
+  /// What a row is exposed with.
+  struct Shot {
+    std::uint64_t n;  ///< the frame
+    float gain;       ///< of the light
+  };
+  void expose_row(const Instant& instant, const SE3& T_world_eye, int eye, int row, const Shot& shot, std::byte* out,
                   std::byte* labels) const;
 
   StereoConfig config_;

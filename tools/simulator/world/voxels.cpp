@@ -5,6 +5,10 @@
 #include <array>
 #include <cmath>
 #include <memory>
+#include <utility>
+
+#include "hal/semantic_class.hpp"
+#include "tools/simulator/world/clipped_area.hpp"
 
 namespace cairn::simulator {
 namespace {
@@ -35,13 +39,25 @@ bool crosses(const std::array<Vector3d, 3>& corners, const Vector3d& centre, dou
   return true;
 }
 
+/// State and class in one number: unknown, free, occupied without class, occupied with class 0, 1, …
+std::uint8_t content(Voxels::State state, std::uint8_t class_id) {
+  const bool labelled = state == Voxels::kOccupied && class_id != kIgnoredClass;
+  return static_cast<std::uint8_t>(labelled ? Voxels::kOccupied + 1 + class_id : state);
+}
+
+octomap::ColorOcTreeNode::Color colour(std::uint8_t content) {
+  if (content <= Voxels::kOccupied) return {};
+  const SemanticClass& c = kSemanticClasses[content - Voxels::kOccupied - 1U];
+  return {c.r, c.g, c.b};
+}
+
 /// Cubes of 1, 2, 4, … voxels: what they are if they are all the same, or that they are mixed.
 class Pyramid {
  public:
   static constexpr std::uint8_t kMixed = 255;
 
-  Pyramid(const Vector3i& first_key, const Vector3i& size, const std::vector<Voxels::State>& states) {
-    levels_.push_back({first_key, size, {states.begin(), states.end()}});
+  Pyramid(const Vector3i& first_key, const Vector3i& size, std::vector<std::uint8_t> contents) {
+    levels_.push_back({first_key, size, std::move(contents)});
     for (int level = 1; level <= kTreeDepth; ++level) levels_.push_back(halve(levels_.back()));
   }
 
@@ -97,13 +113,13 @@ class Pyramid {
 };
 
 /// OctoMap's own tree, with a way to build it from the root down, so that large free cubes cost one node.
-class TrueTree final : public octomap::OcTree {
+class TrueTree final : public octomap::ColorOcTree {
  public:
-  using OcTree::OcTree;
+  using ColorOcTree::ColorOcTree;
 
   void build(const Pyramid& pyramid) {
     if (pyramid.look(kTreeDepth, Vector3i::Zero()) == Voxels::kUnknown) return;
-    root = new octomap::OcTreeNode();
+    root = new octomap::ColorOcTreeNode();
     ++tree_size;
     size_changed = true;
     fill(pyramid, *root, kTreeDepth, Vector3i::Zero());
@@ -112,10 +128,11 @@ class TrueTree final : public octomap::OcTree {
 
  private:
   // Recursion is at most kTreeDepth deep.
-  void fill(const Pyramid& pyramid, octomap::OcTreeNode& node, int level, const Vector3i& at) {
-    const std::uint8_t state = pyramid.look(level, at);
-    if (state != Pyramid::kMixed) {
-      node.setLogOdds(state == Voxels::kOccupied ? getClampingThresMaxLog() : getClampingThresMinLog());
+  void fill(const Pyramid& pyramid, octomap::ColorOcTreeNode& node, int level, const Vector3i& at) {
+    const std::uint8_t content = pyramid.look(level, at);
+    if (content != Pyramid::kMixed) {
+      node.setLogOdds(content >= Voxels::kOccupied ? getClampingThresMaxLog() : getClampingThresMinLog());
+      node.setColor(colour(content));
       return;
     }
     for (int child = 0; child < 8; ++child) {
@@ -132,7 +149,9 @@ Voxels::Voxels(const World& world, double resolution, std::span<const Vector3d> 
   first_ = cell(world.bounds.min());
   size_ = cell(world.bounds.max()) - first_ + Vector3i::Ones();
   state_.assign(index(first_ + Vector3i(0, 0, size_.z())), kUnknown);
-  for (const Triangle& t : world.mesh.triangles()) mark(t);
+  std::vector<Share> shares;
+  for (const Triangle& t : world.mesh.triangles()) mark(t, shares);
+  classify(std::move(shares));
   flood(seeds);
 }
 
@@ -154,7 +173,13 @@ Voxels::State Voxels::at(const Vector3d& p) const {
   return inside(c) ? state_[index(c)] : kUnknown;
 }
 
-void Voxels::mark(const Triangle& t) {
+std::uint8_t Voxels::class_at(const Vector3d& p) const {
+  const Vector3i c = cell(p);
+  return inside(c) ? class_[index(c)] : kIgnoredClass;
+}
+
+void Voxels::mark(const Triangle& t, std::vector<Share>& shares) {
+  const std::uint8_t class_id = properties(t.material).class_id;
   const std::array<Vector3d, 3> corners{t.a.cast<double>(), t.b.cast<double>(), t.c.cast<double>()};
   const Vector3i low = cell(corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]));
   const Vector3i high = cell(corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]));
@@ -162,8 +187,28 @@ void Voxels::mark(const Triangle& t) {
     for (int y = low.y(); y <= high.y(); ++y) {
       for (int x = low.x(); x <= high.x(); ++x) {
         const Vector3d centre = resolution_ * Vector3d(x + 0.5, y + 0.5, z + 0.5);
-        if (crosses(corners, centre, 0.5 * resolution_)) state_[index({x, y, z})] = kOccupied;
+        if (!crosses(corners, centre, 0.5 * resolution_)) continue;
+        const std::size_t voxel = index({x, y, z});
+        state_[voxel] = kOccupied;
+        const double area = clipped_area(corners, centre, 0.5 * resolution_);
+        shares.push_back({static_cast<std::uint32_t>(voxel), class_id, static_cast<float>(area)});
       }
+    }
+  }
+}
+
+void Voxels::classify(std::vector<Share> shares) {
+  class_.assign(state_.size(), kIgnoredClass);
+  std::ranges::stable_sort(shares, {}, [](const Share& s) { return std::pair(s.voxel, s.class_id); });
+  for (std::size_t i = 0; i < shares.size();) {
+    const std::uint32_t voxel = shares[i].voxel;
+    float largest = -1;
+    while (i < shares.size() && shares[i].voxel == voxel) {
+      const std::uint8_t class_id = shares[i].class_id;
+      float area = 0;
+      for (; i < shares.size() && shares[i].voxel == voxel && shares[i].class_id == class_id; ++i)
+        area += shares[i].area;
+      if (area > largest) largest = area, class_[voxel] = class_id;
     }
   }
 }
@@ -200,9 +245,11 @@ void Voxels::flood(std::span<const Vector3d> seeds) {
   }
 }
 
-std::unique_ptr<octomap::OcTree> Voxels::to_octree() const {
+std::unique_ptr<octomap::ColorOcTree> Voxels::to_octree() const {
   auto tree = std::make_unique<TrueTree>(resolution_);
-  tree->build(Pyramid(first_ + Vector3i::Constant(kKeyOrigin), size_, state_));
+  std::vector<std::uint8_t> contents(state_.size());
+  std::ranges::transform(state_, class_, contents.begin(), content);
+  tree->build(Pyramid(first_ + Vector3i::Constant(kKeyOrigin), size_, std::move(contents)));
   return tree;
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <octomap/octomap.h>
+#include <octomap/ColorOcTree.h>
 
 #include <cstdint>
 #include <memory>
@@ -16,6 +16,7 @@ namespace cairn::simulator {
 ///   occupied  voxels that a surface passes through (exact triangle–cube overlap),
 ///   free      voxels without surface that are connected with the robots' surroundings through voxel faces,
 ///   unknown   the rest: the inside of walls, furniture and the ground, and all beyond the bounds of the mesh.
+/// The class of an occupied voxel is that of the materials whose surface inside of it is largest.
 class Voxels {
  public:
   enum State : std::uint8_t { kUnknown = 0, kFree = 1, kOccupied = 2 };
@@ -24,11 +25,21 @@ class Voxels {
   Voxels(const World& world, double resolution, std::span<const Eigen::Vector3d> seeds);
 
   [[nodiscard]] State at(const Eigen::Vector3d& p) const;
-  /// Log-odds at OctoMap's default clamping limits: occupied 3.5, free −2. Equal neighbours are pruned.
-  [[nodiscard]] std::unique_ptr<octomap::OcTree> to_octree() const;
+  /// The trainId of an occupied voxel; kIgnoredClass where it has none, and everywhere else.
+  [[nodiscard]] std::uint8_t class_at(const Eigen::Vector3d& p) const;
+  /// Log-odds at OctoMap's default clamping limits: occupied 3.5, free −2. The colours are those of the classes, white
+  /// for none. Neighbours that are equal in both are pruned.
+  [[nodiscard]] std::unique_ptr<octomap::ColorOcTree> to_octree() const;
 
  private:
-  void mark(const Triangle& triangle);
+  /// The area, m², of one triangle in a voxel.
+  struct Share {
+    std::uint32_t voxel;
+    std::uint8_t class_id;
+    float area;
+  };
+  void mark(const Triangle& triangle, std::vector<Share>& shares);
+  void classify(std::vector<Share> shares);
   void flood(std::span<const Eigen::Vector3d> seeds);
   [[nodiscard]] State* row(int y, int z);  // null outside
   [[nodiscard]] Eigen::Vector3i cell(const Eigen::Vector3d& p) const;
@@ -39,6 +50,7 @@ class Voxels {
   Eigen::Vector3i first_;  ///< lowest voxel, counted from the origin of the world as OctoMap counts
   Eigen::Vector3i size_;
   std::vector<State> state_;
+  std::vector<std::uint8_t> class_;  ///< as class_at()
 };
 
 }  // namespace cairn::simulator

@@ -145,7 +145,7 @@ TEST(OctoMapFileRead, EmptyMapsAreMaps) {
   EXPECT_EQ(to_string(encode_bt(SemanticOcTree(0.25))), stock_bt(octomap::OcTree(0.25)));
 }
 
-TEST(OctoMapFileRead, ColoursAreSkipped) {
+TEST(OctoMapFileRead, TreesWithoutColourHaveNoLabels) {
   auto colour = random_map<octomap::ColorOcTree>(2, 500);
   const auto stock = random_map<octomap::OcTree>(2, 500);
   const auto tree = decode_ot(to_bytes(stock_ot(*colour)));

@@ -8,6 +8,7 @@
 #include <string>
 #include <tuple>
 
+#include "onboard/mapping/tree/voxel_label.hpp"
 #include "tests/onboard/mapping/random_maps.hpp"
 #include "tests/support/hostile_maps.hpp"
 
@@ -68,6 +69,24 @@ TEST(PointFiles, CarryTheFloatsAfterAHeaderThatCountsThem) {
   EXPECT_NE(pcd.find("\nWIDTH 2\n"), pcd.npos);
   EXPECT_NE(pcd.find("\nPOINTS 2\n"), pcd.npos);
   EXPECT_TRUE(pcd.ends_with("DATA binary\n" + floats));
+}
+
+TEST(PointFiles, ThePlyOfALabelledMapHasColours) {
+  SemanticOcTree map(0.1);
+  map.updateNode(octomap::point3d(0.05F, 0.05F, 0.05F), true)->set_label_id(VoxelLabel::of(13, 2).code);
+  map.updateNode(octomap::point3d(0.15F, 0.05F, 0.05F), true);
+  const auto points = labelled_voxel_centres(map);
+  ASSERT_TRUE(points);
+  const std::string ply = text_of(encode_ply(*points));
+  EXPECT_NE(ply.find("property uchar blue\nproperty uchar label\nend_header\n"), ply.npos);
+  const std::string body = ply.substr(ply.size() - 32);
+  EXPECT_EQ(body.substr(12, 4), std::string("\x00\x00\x8e\x0d", 4));
+  EXPECT_EQ(body.substr(28, 4), "\xcd\xcd\xcd\xff");
+}
+
+TEST(PointFiles, WithoutLabelsThereAreNoLabelledCentres) {
+  EXPECT_TRUE(labelled_voxel_centres(*random_map<SemanticOcTree>(2, 100))->empty());
+  EXPECT_EQ(labelled_voxel_centres(*support::whole_tree(2.0F)).error().code, Errc::kLimit);
 }
 
 }  // namespace

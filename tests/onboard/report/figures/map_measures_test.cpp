@@ -144,7 +144,27 @@ TEST(Summarise, CountsLabels) {
   mapping::SemanticOcTree map(0.5);
   map.updateNode(octomap::point3d(1, 1, 1), true)->set_label_id(7);
   map.updateNode(octomap::point3d(3, 1, 1), true);
-  EXPECT_EQ(summarise(map).labelled, 1U);
+  map.updateNode(octomap::point3d(5, 1, 1), false)->set_label_id(7);  // free space has no class
+  const MapSummary s = summarise(map);
+  EXPECT_EQ(s.labelled, 1U);
+  EXPECT_EQ(s.by_class[1], 1U);
+  EXPECT_DOUBLE_EQ(s.mean_entropy_label.value(), label_entropy(7));
+  EXPECT_FALSE(summarise(mapping::SemanticOcTree(0.5)).mean_entropy_label.has_value());
+}
+
+TEST(Compare, CountsTheClassesOfVoxelsThatBothLabel) {
+  mapping::SemanticOcTree a(0.5), b(0.5);
+  const auto label = [](mapping::SemanticOcTree& map, float x, unsigned class_id) {
+    map.updateNode(octomap::point3d(x, 1, 1), true)->set_label_id(mapping::VoxelLabel::of(class_id, 0).code);
+  };
+  label(a, 1, 2), label(b, 1, 2);
+  label(a, 3, 2), label(b, 3, 8);
+  label(a, 5, 2), b.updateNode(octomap::point3d(5, 1, 1), true);
+  const auto c = compare(a, b);
+  ASSERT_TRUE(c.has_value());
+  EXPECT_EQ(c->labels.total(), 2U);
+  EXPECT_DOUBLE_EQ(c->labels.agreement().value(), 0.5);
+  EXPECT_DOUBLE_EQ(c->labels.miou(0).value(), (0.5 + 0.0) / 2);
 }
 
 TEST(Entropy, IsOneBitAtOneHalfAndNoneWhenCertain) {

@@ -37,6 +37,29 @@ TEST(PaintOccupied, ShowsFloorsThinnerThanWalls) {
   EXPECT_EQ(paint_occupied(tiny()).at(0, 1).a, 255);
 }
 
+TEST(PaintClasses, HasTheClassesColours) {
+  MapPicture p = tiny();
+  p.classes = {13, kNoClass, kNoClass, kNoClass};
+  EXPECT_EQ(paint_classes(p).at(0, 1), (Rgba{0, 0, 142, 255}));
+  EXPECT_EQ(paint_classes(p).at(1, 1).a, 0);
+  EXPECT_EQ(classes_in(p), std::vector<std::uint8_t>{13});
+  p.classes[0] = kNoClass;
+  EXPECT_EQ(paint_classes(p).at(0, 1), class_colour(kNoClass));
+}
+
+std::size_t pixels_of(const Raster& image, Rgba colour) {
+  return static_cast<std::size_t>(std::count(image.data(), image.data() + image.width() * image.height(), colour));
+}
+
+TEST(DrawMap, TheLegendNamesTheClasses) {
+  MapPicture p = tiny();
+  p.classes = {13, kNoClass, kNoClass, kNoClass};
+  const Raster image = draw_map(p, {40, {}, true}).value();
+  const std::size_t cell = 40 * 40, swatch = 9 * 8;
+  EXPECT_GT(pixels_of(image, {0, 0, 142, 255}), swatch + cell / 2);
+  EXPECT_EQ(pixels_of(image, class_colour(kNoClass)), swatch);
+}
+
 TEST(PaintFree, MarksFreeCellsOnly) {
   const Raster image = paint_free(tiny());
   EXPECT_EQ(image.at(1, 1), (Rgba{255, 255, 255, 255}));
@@ -81,10 +104,6 @@ TEST(DrawMap, DrawsPathsAtTheirPlace) {
       }
   EXPECT_GT(changed, 40);
   EXPECT_LT(lowest - highest, 12);
-}
-
-std::size_t pixels_of(const Raster& image, Rgba colour) {
-  return static_cast<std::size_t>(std::count(image.data(), image.data() + image.width() * image.height(), colour));
 }
 
 TEST(DrawMap, GivesEachPathItsColourAndName) {

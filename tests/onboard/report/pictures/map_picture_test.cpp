@@ -26,6 +26,18 @@ std::unique_ptr<mapping::SemanticOcTree> posts() {
   return map;
 }
 
+TEST(LookAt, TheClassIsThatOfTheVoxelThatOneSees) {
+  auto map = posts();
+  EXPECT_FALSE(look_at(*map, {})->labelled());
+  map->search(0.25, 0.25, 0.25)->set_label_id(mapping::VoxelLabel::of(0, 0).code);
+  EXPECT_FALSE(look_at(*map, {})->labelled()) << "hidden below another voxel";
+  map->search(0.25, 0.25, 0.75)->set_label_id(mapping::VoxelLabel::of(5, 0).code);
+  const auto p = look_at(*map, {});
+  EXPECT_TRUE(p->labelled());
+  EXPECT_EQ(p->classes[p->index(0, 0)], 5);
+  EXPECT_EQ(p->classes[p->index(4, 2)], kNoClass);
+}
+
 TEST(LookAt, FromAboveXGoesRightAndYUp) {
   const auto p = look_at(*posts(), {});
   ASSERT_TRUE(p.has_value());

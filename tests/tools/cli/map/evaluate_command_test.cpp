@@ -5,6 +5,7 @@
 
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "onboard/mapping/files/map_file.hpp"
+#include "onboard/mapping/tree/voxel_label.hpp"
 #include "tests/tools/cli/run_command.hpp"
 
 namespace cairn::cli {
@@ -99,6 +100,39 @@ TEST(EvaluateMap, TakesThePoseFromFlagOrTrajectories) {
   EXPECT_THAT(unaligned["hint"].get<std::string>(), HasSubstr("--trajectory"));
   EXPECT_THAT(evaluate({"map", folder.path(), "--ground-truth", folder.path()}).out,
               HasSubstr("seem not to be aligned"));
+}
+
+/// Labels the lower half of a wall as wall, the upper one as `upper`.
+void label_wall(mapping::SemanticOcTree& tree, unsigned upper) {
+  for (auto leaf = tree.begin_leafs(); leaf != tree.end_leafs(); ++leaf)
+    leaf->set_label_id(mapping::VoxelLabel::of(leaf.getZ() < 0.5 ? 3 : upper, 0).code);
+}
+
+TEST(EvaluateMap, SaysHowManyLabelsAreRight) {
+  const TemporaryFolder folder;
+  const auto truth = wall({}), map = wall({});
+  label_wall(*truth, 3);
+  label_wall(*map, 8);
+  ASSERT_TRUE(mapping::save_cairn(*map, folder / "map.cairn"));
+  ASSERT_TRUE(mapping::save_ot(*truth, folder / "world.ot"));
+  const auto json = evaluate({"map", folder.path(), "--ground-truth", folder.path(), "--json"}).json();
+  EXPECT_EQ(json["label_accuracy"], 0.5);
+  EXPECT_EQ(json["miou"], 0.5);
+  EXPECT_EQ(json["iou_by_class"], (nlohmann::json{{"wall", 0.5}}));
+  EXPECT_EQ(json["true_voxels_by_class"], (nlohmann::json{{"wall", 200}}));
+  EXPECT_EQ(json["labelled_share"], 1.0);
+  EXPECT_THAT(evaluate({"map", folder.path(), "--ground-truth", folder.path()}).out,
+              HasSubstr("labels     0.5000 right of 200 voxels"));
+}
+
+TEST(EvaluateMap, WithoutLabelsTheFieldsAreNull) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(mapping::save_cairn(*wall({}), folder / "map.cairn"));
+  ASSERT_TRUE(mapping::save_ot(*wall({}), folder / "world.ot"));
+  const auto json = evaluate({"map", folder.path(), "--ground-truth", folder.path(), "--json"}).json();
+  EXPECT_TRUE(json.at("label_accuracy").is_null());
+  EXPECT_TRUE(json.at("miou").is_null());
+  EXPECT_EQ(json["precision"], 1.0);
 }
 
 TEST(EvaluateMap, RefusesHalfAPose) {

@@ -8,6 +8,7 @@
 
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "onboard/mapping/files/map_file.hpp"
+#include "onboard/mapping/tree/voxel_label.hpp"
 #include "tests/tools/cli/run_command.hpp"
 
 namespace cairn::cli {
@@ -78,6 +79,42 @@ TEST(MapCommand, CompareNamesAllFields) {
   EXPECT_NEAR(json["iou_occupied"], 2.0 / 3, 1e-12);
   EXPECT_GT(json["mean_entropy_occupancy"], 0.0);
   for (const char* name : {"label_agreement", "miou", "mean_entropy_label"}) EXPECT_TRUE(json.at(name).is_null());
+}
+
+/// The small map with a car and a pole.
+std::unique_ptr<mapping::SemanticOcTree> labelled_map() {
+  auto tree = small_map();
+  tree->search(0.05, 0.05, 0.05)->set_label_id(mapping::VoxelLabel::of(13, 0).code);
+  tree->search(1.05, 0.05, 0.05)->set_label_id(mapping::VoxelLabel::of(5, 0).code);
+  return tree;
+}
+
+TEST(MapCommand, InfoAndCompareCountClasses) {
+  const TemporaryFolder folder;
+  auto other = labelled_map();
+  other->search(1.05, 0.05, 0.05)->set_label_id(mapping::VoxelLabel::of(6, 0).code);
+  ASSERT_TRUE(mapping::save_ot(*labelled_map(), folder / "a.ot"));
+  ASSERT_TRUE(mapping::save_cairn(*other, folder / "b.cairn"));
+  const auto info = map({"info", folder / "a.ot", "--json"}).json();
+  EXPECT_EQ(info["labelled"], 2);
+  EXPECT_EQ(info["classes"], (nlohmann::json{{"car", 1}, {"pole", 1}}));
+  EXPECT_THAT(map({"info", folder / "a.ot"}).out, HasSubstr("    pole          1 voxels"));
+  const auto json = map({"compare", folder / "a.ot", folder / "b.cairn", "--json"}).json();
+  EXPECT_EQ(json["labelled_both"], 2);
+  EXPECT_EQ(json["label_agreement"], 0.5);
+  EXPECT_NEAR(json["miou"], 1.0 / 3, 1e-12);  // car 1, pole 0, traffic light 0
+  EXPECT_GT(json["mean_entropy_label"], 0.0);
+  EXPECT_THAT(map({"compare", folder / "a.ot", folder / "b.cairn"}).out, HasSubstr("2 voxels labelled in both"));
+}
+
+TEST(MapCommand, RendersClassesWhereThereAreAny) {
+  const TemporaryFolder folder;
+  ASSERT_TRUE(mapping::save_cairn(*labelled_map(), folder / "a.cairn"));
+  ASSERT_TRUE(mapping::save_cairn(*small_map(), folder / "b.cairn"));
+  EXPECT_EQ(map({"render", folder / "a.cairn", "--classes", "--out", folder / "a.png"}).exit_code, app::kDone);
+  const Outcome none = map({"render", folder / "b.cairn", "--classes", "--out", folder / "b.png"});
+  EXPECT_EQ(none.exit_code, app::kFailed);
+  EXPECT_THAT(none.err, HasSubstr("no voxel in this view has a label"));
 }
 
 TEST(MapCommand, CompareRefusesAnotherResolution) {

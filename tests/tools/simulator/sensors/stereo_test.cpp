@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <set>
 
@@ -114,6 +115,85 @@ TEST(Stereo, TheEyesSeeTheSamePatternShiftedByTheDisparity) {
   }
   ASSERT_GT(count, 1000);
   EXPECT_LT(at_match, 0.75 * beside) << at_match / count << " against " << beside / count;
+}
+
+/// A small lens keeps these tests fast.
+StereoConfig coarse_eyes() {
+  StereoConfig config;
+  config.lens = {168, 94, 87.5, 87.5, 84, 47};
+  return config;
+}
+
+TEST(Stereo, ExposureMakesBrighterAndDarker) {
+  const SceneWithPeople scene("street", 0);
+  const Trajectory robot = scene.resting(scene.place, 0.4);
+  std::vector<double> brightness;
+  for (const double stops : {-2.0, 0.0, 2.0}) {
+    StereoConfig config = coarse_eyes();
+    config.exposure_stops = stops;
+    brightness.push_back(mean(shoot({config, scene.tracer, scene.crowd, scene.climate, robot, 1}, kTestStart).image));
+  }
+  EXPECT_LT(brightness[0], 0.7 * brightness[1]);
+  EXPECT_GT(brightness[2], 1.2 * brightness[1]);
+}
+
+TEST(Stereo, AnAutomaticExposureWandersAroundTheOneThatFits) {
+  const SceneWithPeople scene("lobby", 0);
+  const Trajectory robot = scene.resting(scene.place, 0.4);
+  StereoConfig config = coarse_eyes();
+  config.exposure_stops = 0.5;
+  config.exposure_error_stops = 0.4;
+  const Stereo stereo(config, scene.tracer, scene.crowd, scene.climate, robot, 7);
+  double sum = 0, sum2 = 0, step = 0;
+  constexpr int kFrames = 3000;
+  for (int i = 0; i < kFrames; ++i) {
+    const Time t = kTestStart + std::chrono::milliseconds(100 * i);
+    const double error = stereo.exposure_stops(t) - 0.5;
+    sum += error;
+    sum2 += error * error;
+    step = std::max(step, std::abs(stereo.exposure_stops(t + std::chrono::milliseconds(66)) - error - 0.5));
+  }
+  EXPECT_NEAR(sum / kFrames, 0.0, 0.1);
+  EXPECT_NEAR(std::sqrt(sum2 / kFrames), 0.4, 0.1);
+  EXPECT_LT(step, 0.2) << "slowly";
+}
+
+TEST(Stereo, NoiseIsMultiplied) {
+  const SceneWithPeople scene("lobby", 0);
+  const Trajectory robot = scene.resting(scene.place, 0.4);
+  const auto with = [&](double factor) {
+    StereoConfig config = coarse_eyes();
+    config.noise_factor = factor;
+    return shoot({config, scene.tracer, scene.crowd, scene.climate, robot, 1}, kTestStart).image;
+  };
+  const Image clean = with(0), usual = with(1), noisy = with(4);
+  const auto difference = [&](const Image& image) {
+    double sum = 0;
+    for (std::size_t i = 0; i < image.bytes.size(); ++i)
+      sum += std::abs(static_cast<double>(image.bytes[i]) - static_cast<double>(clean.bytes[i]));
+    return sum;
+  };
+  EXPECT_GT(difference(usual), 0);
+  EXPECT_NEAR(difference(noisy) / difference(usual), 4.0, 0.6);
+}
+
+TEST(Stereo, ARollingShutterSeesEachRowLater) {
+  const SceneWithPeople scene("street");
+  const auto [person, t] = scene.somebody();
+  const Trajectory robot = scene.looking_at(person, t);
+  StereoConfig rolling = coarse_eyes();
+  rolling.line_time_s = 4e-3;
+  const Stereo global(coarse_eyes(), scene.tracer, scene.crowd, scene.climate, robot, 1);
+  const auto labels = shoot({rolling, scene.tracer, scene.crowd, scene.climate, robot, 1}, t).labels;
+  const auto width = static_cast<std::ptrdiff_t>(rolling.lens.width);
+  const auto row_of = [&](const std::vector<std::byte>& all, int row) {
+    return std::vector<std::byte>(all.begin() + row * width, all.begin() + (row + 1) * width);
+  };
+  for (const int row : {0, 30, 60, 90}) {
+    const auto then = shoot(global, t + std::chrono::milliseconds(4 * row)).labels;
+    EXPECT_EQ(row_of(labels, row), row_of(then, row)) << row;
+  }
+  EXPECT_NE(labels, shoot(global, t).labels) << "a person walks";
 }
 
 TEST(Stereo, AtLeastTenOfCityscapesClassesAppearInTheStreet) {

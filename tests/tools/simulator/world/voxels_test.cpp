@@ -7,6 +7,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "hal/semantic_class.hpp"
+#include "onboard/mapping/files/class_colour.hpp"
 #include "tools/simulator/world/random.hpp"
 #include "tools/simulator/world/tracer.hpp"
 
@@ -53,7 +55,7 @@ TEST(Voxels, OccupiedVoxelsHaveASurface) {
     }
   }
   octomap::KeySet touched;
-  const octomap::OcTree grid(0.1);
+  const octomap::ColorOcTree grid(0.1);
   for (const Vector3d& s : samples) {
     for (int corner = 0; corner < 27; ++corner) {
       const Vector3d p = s + 0.02 * Vector3d(corner % 3 - 1, corner / 3 % 3 - 1, corner / 9 - 1);
@@ -89,30 +91,53 @@ TEST(Voxels, OctreeSaysTheSameEverywhere) {
   std::stringstream file;
   ASSERT_TRUE(voxels.to_octree()->write(file));
   const std::unique_ptr<octomap::AbstractOcTree> read(octomap::AbstractOcTree::read(file));
-  const auto* tree = dynamic_cast<const octomap::OcTree*>(read.get());
+  const auto* tree = dynamic_cast<const octomap::ColorOcTree*>(read.get());
   ASSERT_NE(tree, nullptr);
   EXPECT_EQ(tree->getResolution(), 0.1);
   EXPECT_EQ(tree->size(), tree->calcNumNodes());
   for (double x = -2.95; x < 3; x += 0.1) {
     for (double y = -2.95; y < 3; y += 0.1) {
       for (double z = -0.45; z < 3; z += 0.1) {
-        const octomap::OcTreeNode* node = tree->search(x, y, z);
+        const octomap::ColorOcTreeNode* node = tree->search(x, y, z);
         const Voxels::State expected = voxels.at({x, y, z});
         const Voxels::State found = node == nullptr              ? Voxels::kUnknown
                                     : tree->isNodeOccupied(node) ? Voxels::kOccupied
                                                                  : Voxels::kFree;
         ASSERT_EQ(found, expected) << x << ' ' << y << ' ' << z;
+        if (node == nullptr) continue;
+        const auto label = mapping::class_of({node->getColor().r, node->getColor().g, node->getColor().b});
+        ASSERT_EQ(label.value_or(kIgnoredClass), voxels.class_at({x, y, z})) << x << ' ' << y << ' ' << z;
       }
     }
   }
 }
 
-TEST(Voxels, OctreeIsPrunedAsOctomapWouldPruneIt) {
+TEST(Voxels, TheLargestSurfaceGivesTheClass) {
+  World world;
+  world.mesh.box({0.5, 0.5, 0.0, 0}, 0.84, 0.84, 0.85, Material::kPlaster);  // wall
+  world.mesh.quad({0.0, 0.0, 0.01}, {1.0, 0.0, 0.01}, {1.0, 1.0, 0.01}, {0.0, 1.0, 0.01}, Material::kAsphalt);
+  world.mesh.quad({0.3, 0.3, 0.88}, {0.7, 0.3, 0.88}, {0.7, 0.7, 0.88}, {0.3, 0.7, 0.88}, Material::kWood);
+  world.bounds = world.mesh.bounds();
+  const Voxels voxels(world, 0.1, {});
+  EXPECT_EQ(voxels.class_at({0.02, 0.02, 0.05}), *find_class("road"));  // 0.01 m² of road, 0.0044 m² of wall
+  EXPECT_EQ(voxels.class_at({0.05, 0.55, 0.25}), *find_class("wall"));
+  EXPECT_EQ(voxels.class_at({0.15, 0.55, 0.85}), *find_class("wall"));
+  EXPECT_EQ(voxels.class_at({0.5, 0.5, 0.5}), kIgnoredClass);  // inside
+  EXPECT_EQ(voxels.class_at({5, 5, 5}), kIgnoredClass);        // outside of all
+}
+
+TEST(Voxels, ASurfaceWithoutClassGivesNone) {
+  World world;
+  world.mesh.box({0.5, 0.5, 0.0, 0}, 0.9, 0.9, 0.85, Material::kWood);
+  world.bounds = world.mesh.bounds();
+  const Voxels voxels(world, 0.1, {});
+  EXPECT_EQ(voxels.at({0.05, 0.55, 0.25}), Voxels::kOccupied);
+  EXPECT_EQ(voxels.class_at({0.05, 0.55, 0.25}), kIgnoredClass);
+}
+
+TEST(Voxels, InnerNodesAreAsOctomapComputesThem) {
   const Vector3d seeds[] = {{0.0, -0.8, 0.5}};
   const auto tree = Voxels(hall(), 0.1, seeds).to_octree();
-  const std::size_t nodes = tree->size();
-  tree->prune();
-  EXPECT_EQ(tree->size(), nodes);
   std::ostringstream before, after;
   tree->write(before);
   tree->updateInnerOccupancy();
