@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/simulator/simulated_profile.hpp"
 
+#include <algorithm>
+
 namespace cairn::simulator {
 namespace {
 
@@ -22,6 +24,19 @@ void set_lens(cameras::CameraIntrinsics& intrinsics, const Lens& lens, double ba
   intrinsics.cy = lens.cy - 0.5;
   intrinsics.baseline_m = baseline_m;
 }
+
+/// config/models/cairn-segmentation.md: it was trained on the simulator's pictures.
+networks::NetworkConfig shipped_segmentation() {
+  networks::NetworkConfig network;
+  network.model = "models/cairn-segmentation.onnx";
+  network.sha256 = "e82f6205f24848f97ff02d77199e686c4581f48e79262b458c7ce52f4303770d";
+  network.mean = {127.5, 127.5, 127.5};
+  network.divisor = 64;
+  return network;
+}
+
+/// Three frame periods, and never less than the default.
+double silent_ms(double usual_ms, double rate_hz) { return std::clamp(3000 / rate_hz, usual_ms, 1000.0); }
 
 }  // namespace
 
@@ -46,10 +61,12 @@ app::RobotProfile simulated_profile(const SimulationConfig& config) {
   profile.depth.driver.cx = depth.cx - 0.5;
   profile.depth.driver.cy = depth.cy - 0.5;
   profile.depth.driver.max_depth_m = config.depth.max_depth_m;
+  if (config.sensors.camera) profile.perception.networks.segmentation = shipped_segmentation();
   if (config.sensors.drive) profile.drive.driver = husky_drive();
   if (config.sensors.gpio) profile.gpio.driver.estop_line = "estop";
   if (config.sensors.gpio) profile.gpio.driver.trigger_line = "trigger";
   profile.gpio.driver.trigger_rate_hz = config.stereo.rate_hz;
+  profile.failsafe.camera_silent_ms = silent_ms(profile.failsafe.camera_silent_ms, config.stereo.rate_hz);
   return profile;
 }
 

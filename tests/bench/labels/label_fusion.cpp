@@ -17,7 +17,7 @@
 #include "onboard/mapping/mapper.hpp"
 #include "onboard/perception/labelling/point_labeller.hpp"
 #include "onboard/perception/networks/recorded/label_picture.hpp"
-#include "onboard/report/figures/label_measures.hpp"
+#include "onboard/report/labels/label_measures.hpp"
 #include "tests/bench/recorded_drive.hpp"
 
 namespace {

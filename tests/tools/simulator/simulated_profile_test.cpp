@@ -3,8 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <filesystem>
+#include <vector>
+
 #include "hal/files/file.hpp"
+#include "hal/files/sha256.hpp"
 #include "onboard/app/run.hpp"
+#include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace cairn::simulator {
@@ -53,6 +58,20 @@ TEST(SimulatedProfile, SaysHowTheCamerasSee) {
   depth.cx = profile.depth.driver.cx;
   depth.cy = profile.depth.driver.cy;
   expect_same_lens(config.depth.lens, depth);
+}
+
+TEST(SimulatedProfile, NamesTheShippedNetworkAndWaitsForTheCameraAsLongAsItsRateSays) {
+  SimulationConfig config;
+  EXPECT_FALSE(simulated_profile(config).perception.networks.segmentation.exists()) << "without a camera";
+  config.sensors.camera = true;
+  config.stereo.rate_hz = 5;
+  const auto profile = simulated_profile(config);
+  const auto& network = profile.perception.networks.segmentation;
+  const std::vector<std::filesystem::path> model{places::source() / "config" / network.model};
+  const auto sum = sha256_of_files(model);
+  ASSERT_TRUE(sum) << to_string(sum.error());
+  EXPECT_EQ(*sum, network.sha256);
+  EXPECT_EQ(profile.failsafe.camera_silent_ms, 600);
 }
 
 /// A drive and an e-stop cannot be read without the profile.
