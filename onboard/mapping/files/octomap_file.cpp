@@ -258,11 +258,11 @@ Tree decode_bt(std::span<const std::byte> bytes, const MapLimits& limits) {
   return decode(bytes, limits, BtNodes{});
 }
 
-std::vector<std::byte> encode_ot(const SemanticOcTree& tree) {
+std::vector<std::byte> encode_ot(const SemanticOcTree& tree, OtTree type) {
   const SemanticNode* root = tree.getRoot();
-  const bool coloured = root != nullptr && any_label(*root);
+  const bool coloured = type == OtTree::kByLabels ? root != nullptr && any_label(*root) : type == OtTree::kColoured;
   std::vector<std::byte> out = header_bytes(kFirstLineOt, coloured ? kColoured : tree.getTreeType(), tree);
-  if (coloured) {
+  if (coloured && root != nullptr) {
     append_coloured(out, *root);
   } else if (root != nullptr) {
     append_ot(out, *root);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <memory>
 #include <span>
 #include <vector>
@@ -22,9 +23,15 @@ Result<std::unique_ptr<SemanticOcTree>> decode_ot(std::span<const std::byte> byt
 /// .bt: free or occupied only; a free leaf gets the lower clamping value, an occupied one the upper.
 Result<std::unique_ptr<SemanticOcTree>> decode_bt(std::span<const std::byte> bytes, const MapLimits& limits = {});
 
-/// The bytes that octomap::OcTree::write() gives for the same tree. A tree with labels becomes a ColorOcTree: labelled
-/// voxels have the colour of their class, others none (white). The grade of a label is not in the file.
-[[nodiscard]] std::vector<std::byte> encode_ot(const SemanticOcTree& tree);
+/// Which of OctoMap's trees a .ot file holds.
+enum class OtTree : std::uint8_t {
+  kByLabels,  ///< a ColorOcTree where the map has labels, else an OcTree
+  kPlain,     ///< OcTree
+  kColoured,  ///< ColorOcTree
+};
+/// The bytes that octomap::OcTree::write() gives for the same tree, or ColorOcTree's: labelled voxels have the colour
+/// of their class, others none (white). The grade of a label is not in the file.
+[[nodiscard]] std::vector<std::byte> encode_ot(const SemanticOcTree& tree, OtTree type = OtTree::kByLabels);
 /// The bytes that octomap::OcTree::writeBinary() gives for the same tree: its maximum likelihood, pruned. A tree that
 /// is one single cube is written as its eight octants, because the format cannot hold a root without children.
 [[nodiscard]] std::vector<std::byte> encode_bt(const SemanticOcTree& tree);
