@@ -89,6 +89,13 @@ PreviousRun find_previous_run(StateFolder& state, const RobotProfile& profile, T
   return previous;
 }
 
+/// What a replay goes on from: what the live run that made the recording went on from.
+PreviousRun recorded_previous_run(const std::filesystem::path& recording, Monitor& monitor) {
+  PreviousRun previous;
+  previous.resumed = resumed_in_recording(recording, monitor);
+  return previous;
+}
+
 /// The profile for these options, if they fit together.
 Result<ChosenProfile> checked_profile(const RunOptions& options) {
   if (const auto fits = check(options); !fits) return fits.error();
@@ -120,19 +127,13 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
 
   std::optional<StateFolder> state;
   if (live && !options.state.empty()) state.emplace(options.state, result->monitor);
-  PreviousRun previous;
-  if (state) previous = find_previous_run(*state, *profile, clock.now(), result->monitor);
-  if (!live) previous.resumed = resumed_in_recording(options.recording, result->monitor);
-
+  const PreviousRun previous = state  ? find_previous_run(*state, *profile, clock.now(), result->monitor)
+                               : live ? PreviousRun()
+                                      : recorded_previous_run(options.recording, result->monitor);
   auto sight = open_perception(options, *profile, chosen->file, door->recording.sources, result->monitor);
   if (!sight) return sight.error();
   RobotTasks tasks(door->recording.sources, *profile, options, previous, std::move(*sight), result->monitor);
-  const RunContext context{.door = *door,
-                           .profile = *profile,
-                           .options = options,
-                           .previous = previous,
-                           .monitor = result->monitor,
-                           .results = results->path()};
+  const RunContext context{*door, *profile, options, previous, result->monitor, results->path()};
   LiveRun live_run(tasks, context, clock);
   const auto ran = live ? live_run.run(state ? &state->generations : nullptr)  // packets → scans → poses and map
                         : replay_recording(tasks, context);

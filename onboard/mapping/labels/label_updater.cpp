@@ -68,11 +68,14 @@ LabelReport LabelUpdater::update(std::span<const LabelledPoint> points, Semantic
 }
 
 void LabelUpdater::place(std::span<const LabelledPoint> points, const SemanticOcTree& tree) {
+  // OctoMap converts to int before it looks whether that is possible. NaN is not within, either.
+  const auto farthest = static_cast<float>(tree.getResolution() * (1U << (SemanticOcTree::kDepth - 1)));
+  const auto inside = [farthest](const Eigen::Vector3f& p) { return (p.array().abs() < farthest).all(); };
   placed_.clear();
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Eigen::Vector3f& p = points[i].point_odom;
     octomap::OcTreeKey key;
-    if (points[i].class_id < VoxelLabel::kClasses && p.allFinite() && tree.coordToKeyChecked(p.x(), p.y(), p.z(), key))
+    if (points[i].class_id < VoxelLabel::kClasses && inside(p) && tree.coordToKeyChecked(p.x(), p.y(), p.z(), key))
       placed_.push_back({path_of(key), static_cast<std::uint32_t>(i)});
     else
       ++report_.not_occupied;

@@ -193,8 +193,9 @@ Rgba class_colour(std::uint8_t class_id) {
 
 std::vector<std::uint8_t> classes_in(const MapPicture& picture) {
   std::vector<std::uint8_t> found;
-  for (std::uint8_t i = 0; i < kSemanticClasses.size(); ++i)
-    if (std::ranges::find(picture.classes, i) != picture.classes.end()) found.push_back(i);
+  for (std::size_t i = 0; i < kSemanticClasses.size(); ++i)
+    if (const auto id = static_cast<std::uint8_t>(i); std::ranges::find(picture.classes, id) != picture.classes.end())
+      found.push_back(id);
   return found;
 }
 

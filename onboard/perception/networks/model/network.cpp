@@ -84,7 +84,7 @@ std::vector<std::int64_t> shape_of(const cv::Mat& values) { return {values.size.
 }  // namespace
 
 struct Network::Parts {
-  Parts(cv::dnn::Net n, InputTensor i, NetworkFacts f) : net(std::move(n)), input(std::move(i)), facts(std::move(f)) {
+  Parts(const cv::dnn::Net& n, InputTensor i, NetworkFacts f) : net(n), input(std::move(i)), facts(std::move(f)) {
     net.setPreferableBackend(cv::dnn::DNN_BACKEND_OPENCV);
     net.setPreferableTarget(cv::dnn::DNN_TARGET_CPU);
     names = net.getUnconnectedOutLayersNames();
