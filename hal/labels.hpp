@@ -28,6 +28,7 @@ struct LabelImage {
     classes.resize(static_cast<std::size_t>(w) * static_cast<std::size_t>(h));
     probabilities.resize(classes.size());
   }
+  /// Of the pixel in both arrays.
   [[nodiscard]] std::size_t index(int x, int y) const {
     return static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x);
   }
