@@ -19,6 +19,7 @@ class Sha256 {
   Sha256(const Sha256&) = delete;
   Sha256& operator=(const Sha256&) = delete;
 
+  /// Adds bytes to the sum.
   void update(std::span<const std::byte> bytes);
   /// 64 lower-case hexadecimal digits. Ends the sum: nothing may follow.
   [[nodiscard]] std::string finish();

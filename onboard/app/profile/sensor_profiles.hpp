@@ -52,8 +52,11 @@ struct DepthProfile : MountedCamera<depth::Config> {
 struct PictureSize {
   int width = 0, height = 0;
 };
+// Doxygen takes these overloads for one function, so they are left out of the API reference.
+/// \cond OVERLOADS
 [[nodiscard]] PictureSize picture_size(const CameraProfile& profile);
 [[nodiscard]] PictureSize picture_size(const ThermalProfile& profile);
+/// \endcond
 
 /// The drive on its CAN bus. It exists when its interface is named.
 struct DriveProfile {
