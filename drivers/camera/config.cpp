@@ -47,9 +47,9 @@ void declare(config::Section& s, CaptureConfig& c) {
 void declare(config::Section& s, Config& c) {
   s.group("capture", c.capture, "what the device is asked for");
   s.flag("side_by_side", c.side_by_side,
-         "two pictures in one frame, the left half from the left eye; not used by cairn run yet");
+         "two pictures in one frame; the left half is the left eye's, which is looked at");
   s.number("latency_ms", c.latency_ms, {0, 1000}, "ms",
-           "from the exposure to the frame's stamp; subtracted by the decoder; not used by cairn run yet");
+           "from the exposure to the frame's stamp; subtracted by the decoder");
 }
 
 Result<void> check(const CaptureConfig& config) { return verdict(faults_of(config)); }

@@ -20,10 +20,10 @@ void declare(config::Section& s, RobotProfile& p) {
   s.integer("threads", p.threads, {1, 64}, "", "threads for odometry and mapping; the result does not depend on it");
   s.group("lidar", p.lidar, "the LiDAR and its mount");
   s.group("camera", p.camera,
-          "the colour camera, single or stereo; it exists when capture.device is named; it is watched and recorded, by "
-          "cairn record and cairn run --record");
-  s.group("thermal", p.thermal, "the thermal camera; likewise");
-  s.group("depth", p.depth, "the depth camera; likewise");
+          "the colour camera, single or stereo; it exists when capture.device is named; a live run opens it for "
+          "perception.segmentation, and to record it (--record)");
+  s.group("thermal", p.thermal, "the thermal camera; a live run opens it to record it");
+  s.group("depth", p.depth, "the depth camera; a live run opens it for depth.map, and to record it");
   s.group("drive", p.drive, "the drive on its CAN bus; it exists when interface is named");
   s.group("gpio", p.gpio, "e-stop, camera trigger and PPS; they exist when their lines are named");
   s.group("odometry", p.odometry, "scan-to-map registration");

@@ -106,7 +106,7 @@ void RobotTasks::add_depth(const RobotProfile& profile, bool live, Monitor& moni
   graph.connect(depth->clouds, mapping.clouds, {.capacity = kWaitingPictures, .lag = spec.deadline()});
 }
 
-/// Above mapping in nothing: what it says of a picture is in the map when its deadline has passed.
+/// In virtual time its labels reach mapping when its deadline has passed.
 void RobotTasks::add_perception(Perception sight, const ScheduleProfile& schedule, bool live, Monitor& monitor) {
   const scheduler::TaskSpec& spec = schedule.perception;
   perception.emplace(
