@@ -17,8 +17,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// What a recording may hold besides the files of its sources.
-constexpr std::array kOwnNames{kIndexFile, "ground_truth.tum", kProfileFile, "schedule.log", "resume",
-                               "labels",   "lidar_labels.bin", "people.csv", "world.ot"};
+constexpr std::array kOwnNames{kIndexFile,  "ground_truth.tum", kProfileFile, "schedule.log",   "resume",  "labels",
+                               "boxes.csv", "lidar_labels.bin", "people.csv", "true_boxes.csv", "world.ot"};
 
 Error in_the_way(const fs::path& file) {
   return {Errc::kIo, "there is a recording already", file.string(), {}, "choose another folder or allow overwriting"};

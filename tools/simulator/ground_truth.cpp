@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/simulator/ground_truth.hpp"
 
+#include <algorithm>
 #include <string>
+#include <utility>
 
 #include "drivers/camera/picture_file.hpp"
 #include "drivers/recording/formats/trajectory_file.hpp"
@@ -41,10 +43,24 @@ Result<void> GroundTruth::add_picture_labels(Time t, const Lens& lens, const std
   return file->close(false);
 }
 
+void GroundTruth::add_boxes(const std::string& camera, Time t, std::vector<Detection> people) {
+  boxes_.push_back({t, camera, std::move(people)});
+}
+
+/// A line's order is that of its stamp, but cameras are recorded one after the other.
+Result<void> GroundTruth::write_boxes() {
+  if (boxes_.empty()) return {};
+  std::ranges::stable_sort(boxes_, {}, &networks::RecordedBoxes::stamp);
+  std::string text(networks::kBoxHeader);
+  for (const networks::RecordedBoxes& picture : boxes_) text += networks::to_csv(picture);
+  return write_file_atomic(dir_ / "true_boxes.csv", text);
+}
+
 Result<void> GroundTruth::write(const Trajectory& trajectory) {
   if (lidar_labels_) {
     if (auto closed = lidar_labels_->close(); !closed) return closed;
   }
+  if (auto written = write_boxes(); !written) return written;
   std::vector<recording::StampedPose> poses;
   for (std::size_t i = 0; i < trajectory.knots().size(); ++i) {
     poses.push_back({trajectory.knot_time(i), SE3::from_xyz_rpy(trajectory.knots()[i])});

@@ -115,7 +115,7 @@ class RobotRecorder {
   Result<void> record_source(recording::SensorKind kind, const Sink& sink) {
     if (kind == recording::kVelodyne) return lidar(sink);
     if (kind == recording::kCamera) return camera(sink);
-    if (kind == recording::kThermal) return count(record_thermal(run_, config_.thermal, sink), summary_.thermal_frames);
+    if (kind == recording::kThermal) return thermal(sink);
     if (kind == recording::kDepth) return count(record_depth(run_, config_.depth, sink), summary_.depth_frames);
     if (kind == recording::kDrive) return count(record_motors(run_, config_.wheels, sink), summary_.can_frames);
     return count(record_lines(run_, config_.stereo.rate_hz, sink), summary_.line_events);
@@ -144,11 +144,20 @@ class RobotRecorder {
 
   Result<void> camera(const Sink& sink) {
     if (auto opened = truth_.open_picture_labels(); !opened) return opened;
-    const auto labels = [&](Time t, const std::vector<std::byte>& classes) {
+    const auto truth = [&](Time t, const std::vector<std::byte>& classes, const SeenPeople& seen) {
+      truth_.add_boxes(std::string(to_string(recording::kCamera)), t, seen.boxes({}));
       return truth_.add_picture_labels(t, config_.stereo.lens, classes);
     };
     const auto progress = [this](double d) { tell(lidar_share() + d * (1 - lidar_share())); };
-    return count(record_stereo(run_, config_.stereo, sink, labels, progress), summary_.camera_frames);
+    return count(record_stereo(run_, config_.stereo, sink, truth, progress), summary_.camera_frames);
+  }
+
+  Result<void> thermal(const Sink& sink) {
+    constexpr LeastSeen kLeast{6};
+    const auto truth = [&](Time t, const SeenPeople& seen) {
+      truth_.add_boxes(std::string(to_string(recording::kThermal)), t, seen.boxes(kLeast));
+    };
+    return count(record_thermal(run_, config_.thermal, sink, truth), summary_.thermal_frames);
   }
 
   void tell(double done) const {

@@ -26,22 +26,26 @@ Result<std::uint64_t> expose(const SensorRun& run, double rate_hz, const Sink& s
 }  // namespace
 
 Result<std::uint64_t> record_stereo(const SensorRun& run, const StereoConfig& config, const Sink& sink,
-                                    const PictureLabels& labels, const Progress& progress) {
+                                    const PictureTruth& truth, const Progress& progress) {
   const Stage& s = run.stage;
   const Stereo stereo(config, s.tracer, s.people, s.climate, run.trajectory, mix(run.seed ^ kStereoStream));
   std::vector<std::byte> classes;
+  SeenPeople seen;
   return expose(run, config.rate_hz, sink, [&](std::uint64_t n, Time t, Packet& packet) -> Result<void> {
-    stereo.shoot(n, t, run.workers, packet, classes);
+    stereo.shoot(n, t, run.workers, packet, classes, &seen);
     if (progress) progress(to_seconds(t - kStart) / to_seconds(run.end - kStart));
-    return labels(t, classes);
+    return truth(t, classes, seen);
   });
 }
 
-Result<std::uint64_t> record_thermal(const SensorRun& run, const ThermalConfig& config, const Sink& sink) {
+Result<std::uint64_t> record_thermal(const SensorRun& run, const ThermalConfig& config, const Sink& sink,
+                                     const ThermalTruth& truth) {
   const Stage& s = run.stage;
+  SeenPeople seen;
   const ThermalCamera thermal(config, s.tracer, s.people, s.climate, run.trajectory, mix(run.seed ^ kThermalStream));
   return expose(run, config.rate_hz, sink, [&](std::uint64_t n, Time t, Packet& packet) -> Result<void> {
-    thermal.shoot(n, t, run.workers, packet);
+    thermal.shoot(n, t, run.workers, packet, &seen);
+    truth(t, seen);
     return {};
   });
 }

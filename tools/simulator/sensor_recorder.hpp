@@ -17,13 +17,15 @@ struct SensorRun {
   std::uint64_t seed;
   Workers& workers;
 };
-/// The classes of the picture taken at a time.
-using PictureLabels = std::function<Result<void>(Time, const std::vector<std::byte>&)>;
+/// The truth about the picture taken at a time: the classes of the left eye's pixels, and who is on it.
+using PictureTruth = std::function<Result<void>(Time, const std::vector<std::byte>&, const SeenPeople&)>;
+using ThermalTruth = std::function<void(Time, const SeenPeople&)>;
 
 /// Each hands all packets of one sensor to `sink`, in order, and returns how many there were.
 Result<std::uint64_t> record_stereo(const SensorRun& run, const StereoConfig& config, const Sink& sink,
-                                    const PictureLabels& labels, const Progress& progress);
-Result<std::uint64_t> record_thermal(const SensorRun& run, const ThermalConfig& config, const Sink& sink);
+                                    const PictureTruth& truth, const Progress& progress);
+Result<std::uint64_t> record_thermal(const SensorRun& run, const ThermalConfig& config, const Sink& sink,
+                                     const ThermalTruth& truth);
 Result<std::uint64_t> record_depth(const SensorRun& run, const DepthConfig& config, const Sink& sink);
 /// CAN frames, both ways; the drive is armed once the e-stop allows it.
 Result<std::uint64_t> record_motors(const SensorRun& run, const WheelConfig& config, const Sink& sink);

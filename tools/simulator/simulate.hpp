@@ -78,6 +78,7 @@ inline constexpr double kMaxSeconds = 3600.0;
 ///   world.ot           see Voxels; without people
 ///   people.csv         with people; see Crowd::to_csv
 ///   labels/STAMP.png   trainIds of the left eye's pixels, one picture for each of the camera's
+///   true_boxes.csv     with camera or thermal: who is on which picture, in the form of boxes.csv; see SeenPeople
 ///   lidar_labels.bin   with camera or people: 384 trainIds for each data packet, in the packet's order, 255 where
 ///                      nothing returned or what returned has no class
 /// The bytes of a sensor do not depend on which others there are. The same config gives the same bytes, for any number

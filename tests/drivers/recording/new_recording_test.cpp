@@ -62,7 +62,8 @@ TEST_F(NewRecordingTest, WhatComesToNothingKeepsTheOldOne) {
 
 TEST_F(NewRecordingTest, AnOldOneIsRefusedOrReplacedWhole) {
   make("old");
-  for (const char* file : {"ground_truth.tum", "profile.yaml", "schedule.log", "labels/1.png", "resume/map.cairn"})
+  for (const char* file : {"ground_truth.tum", "profile.yaml", "schedule.log", "labels/1.png", "boxes.csv",
+                           "true_boxes.csv", "resume/map.cairn"})
     test::spit(place / file, "of the old recording");
   test::spit(place / "notes.txt", "mine");
   const auto refused = NewRecording::begin(place, Overwrite::kNo);

@@ -32,6 +32,7 @@ report::Json to_json(const LabelOptions& options, const LabelReport& r) {
   report::Json json{{"recording", options.recording.string()},
                     {"out", options.out.empty() ? report::Json(nullptr) : report::Json(options.out.string())},
                     {"pictures", r.pictures},
+                    {"correcting", r.correcting},
                     {"damaged", r.damaged},
                     {"damage", r.damage},
                     {"notes", r.notes},
@@ -44,6 +45,8 @@ report::Json to_json(const LabelOptions& options, const LabelReport& r) {
 void print_text(const LabelOptions& options, const LabelReport& r) {
   for (const auto& [name, figures] : figures_of(r))
     if (*figures) std::cout << (*figures)->to_text(name);
+  if (r.correcting > 0)
+    std::cout << r.correcting << " thermal pictures left out: taken during a flat-field correction\n";
   if (!options.out.empty()) std::cout << "written to " << options.out.string() << '\n';
   for (const std::string& note : r.notes) std::cerr << "cairn: note: " << note << '\n';
   for (const std::string& damage : r.damage) std::cerr << "cairn: left out: " << damage << '\n';

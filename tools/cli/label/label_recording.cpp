@@ -85,7 +85,12 @@ class Labelling {
     return output_.keep_overlay(camera, picture, labels, found);
   }
 
-  Result<void> label_thermal(const std::string& camera, const Image& picture) {
+  Result<void> label_thermal(const std::string& camera, const ThermalImage& seen) {
+    if (seen.correcting) {  // frozen or wrong
+      ++report_.correcting;
+      return {};
+    }
+    const Image& picture = seen.stretched;
     ++report_.pictures;
     const Detections* found = detect(*networks_.thermal_detector, *report_.thermal_detection, camera, picture);
     return output_.keep_overlay(camera, picture, nullptr, found);
@@ -170,7 +175,7 @@ class Pictures {
     if (!thermal_ || cameras_.thermal_source != index) return {};
     const auto picture = cameras_.thermal.decode(packet);
     if (!picture) return at(id, picture.error());
-    return *picture == nullptr ? Result<void>{} : labelling.label_thermal(id, (*picture)->stretched);
+    return *picture == nullptr ? Result<void>{} : labelling.label_thermal(id, **picture);
   }
 
  private:

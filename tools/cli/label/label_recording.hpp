@@ -28,6 +28,7 @@ struct LabelReport {
   std::uint64_t pictures = 0;                                                ///< that were decoded: colour and thermal
   std::uint64_t damaged = 0;                                                 ///< that could not be
   std::vector<std::string> damage;                                           ///< the first ones of them
+  std::uint64_t correcting = 0;    ///< thermal pictures left out: taken during a flat-field correction
   std::vector<std::string> notes;  ///< what a user should know, one sentence each
   bool interrupted = false;
 

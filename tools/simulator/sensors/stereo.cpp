@@ -67,7 +67,7 @@ double Stereo::exposure_stops(Time t) const {
 }
 
 void Stereo::expose_row(const Instant& instant, const SE3& T_world_eye, int eye, int row, const Shot& shot,
-                        std::byte* out, std::byte* labels) const {
+                        std::byte* out, std::byte* labels, SeenPeople* people) const {
   const auto width = static_cast<std::size_t>(config_.lens.width);
   std::vector<Sighting> seen(width);
   look(instant, config_.lens, T_world_eye, row, seen);
@@ -84,11 +84,13 @@ void Stereo::expose_row(const Instant& instant, const SE3& T_world_eye, int eye,
     *out++ = step(b.y + noise * nearly_normal(static_cast<std::uint32_t>(luma >> 32U)));
     *out++ = step(0.5F * (a.v + b.v) + 0.5F * noise * nearly_normal(high));
   }
+  if (people != nullptr) people->add_row(row, T_world_eye.translation(), seen, instant.people);
   if (labels == nullptr) return;
   for (const Sighting& s : seen) *labels++ = static_cast<std::byte>(s.class_id());
 }
 
-void Stereo::shoot(std::uint64_t n, Time t, Workers& workers, Packet& packet, std::vector<std::byte>& labels) const {
+void Stereo::shoot(std::uint64_t n, Time t, Workers& workers, Packet& packet, std::vector<std::byte>& labels,
+                   SeenPeople* seen) const {
   const auto width = static_cast<std::size_t>(config_.lens.width),
              height = static_cast<std::size_t>(config_.lens.height);
   const camera::FrameHeader header{static_cast<std::uint32_t>(camera::FrameFormat::kYuyv),
@@ -98,6 +100,7 @@ void Stereo::shoot(std::uint64_t n, Time t, Workers& workers, Packet& packet, st
   camera::append_header(packet.bytes, header);
   packet.bytes.resize(camera::kFrameHeaderBytes + 4 * width * height);
   labels.resize(width * height);
+  if (seen != nullptr) seen->begin(people_.size(), config_.lens.height);
   packet.arrival = t;
   packet.sequence = n;
   const Shot shot{n, static_cast<float>(std::exp2(exposure_stops(t)))};
@@ -110,7 +113,7 @@ void Stereo::shoot(std::uint64_t n, Time t, Workers& workers, Packet& packet, st
     const Instant instant{tracer_, rolling ? std::span<const Figure>(moved) : std::span<const Figure>(figures)};
     std::byte* out = packet.bytes.data() + camera::kFrameHeaderBytes + (2 * row + eye) * 2 * width;
     expose_row(instant, T_world_eye(static_cast<int>(eye), then), static_cast<int>(eye), static_cast<int>(row), shot,
-               out, eye == 0 ? labels.data() + row * width : nullptr);
+               out, eye == 0 ? labels.data() + row * width : nullptr, eye == 0 ? seen : nullptr);
   });
 }
 

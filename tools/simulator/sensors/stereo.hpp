@@ -9,6 +9,7 @@
 #include "tools/simulator/motion/trajectory.hpp"
 #include "tools/simulator/people/crowd.hpp"
 #include "tools/simulator/sensors/look.hpp"
+#include "tools/simulator/sensors/seen_people.hpp"
 #include "tools/simulator/sensors/view.hpp"
 
 namespace cairn::simulator {
@@ -37,8 +38,10 @@ class Stereo {
 
   /// Takes frame `n` at `t`: `packet` becomes a frame as V4L2 gives it (drivers/camera/frame.hpp): YUYV, both eyes side
   /// by side, stamped with the start of the exposure. `labels`: the trainId of every pixel of the left eye, row by row.
-  /// The bytes depend neither on the number of workers nor on the frames before.
-  void shoot(std::uint64_t n, Time t, Workers& workers, Packet& packet, std::vector<std::byte>& labels) const;
+  /// `seen`: who is on the left eye's picture; null if nobody asks. The bytes depend neither on the number of workers
+  /// nor on the frames before.
+  void shoot(std::uint64_t n, Time t, Workers& workers, Packet& packet, std::vector<std::byte>& labels,
+             SeenPeople* seen = nullptr) const;
 
   [[nodiscard]] const StereoConfig& config() const { return config_; }
   /// How much brighter than fits the frame at `t` is, in stops.
@@ -52,8 +55,9 @@ class Stereo {
     std::uint64_t n;  ///< the frame
     float gain;       ///< of the light
   };
+  /// `labels` and `people` are null for the right eye.
   void expose_row(const Instant& instant, const SE3& T_world_eye, int eye, int row, const Shot& shot, std::byte* out,
-                  std::byte* labels) const;
+                  std::byte* labels, SeenPeople* people) const;
 
   StereoConfig config_;
   const Tracer& tracer_;

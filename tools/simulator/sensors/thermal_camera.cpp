@@ -47,9 +47,10 @@ ThermalCamera::Correction ThermalCamera::correction(Time t) const {
 }
 
 void ThermalCamera::expose_row(const Instant& instant, const SE3& T_world_camera, int row, std::uint64_t frame,
-                               std::uint64_t correction, std::byte* out) const {
+                               std::uint64_t correction, std::byte* out, SeenPeople* people) const {
   std::vector<Sighting> seen(static_cast<std::size_t>(config_.lens.width));
   look(instant, config_.lens, T_world_camera, row, seen);
+  if (people != nullptr) people->add_row(row, T_world_camera.translation(), seen, instant.people);
   Random noise(seed_, kNoiseStream ^ frame << 8U, static_cast<std::uint64_t>(row));
   Random fixed(seed_, kFixedStream ^ correction << 8U, static_cast<std::uint64_t>(row));
   for (const Sighting& s : seen) {
@@ -81,7 +82,7 @@ void ThermalCamera::append_telemetry(std::uint64_t n, Time t, std::vector<std::b
   store16(word(kCentikelvin), 1);
 }
 
-void ThermalCamera::shoot(std::uint64_t n, Time t, Workers& workers, Packet& packet) const {
+void ThermalCamera::shoot(std::uint64_t n, Time t, Workers& workers, Packet& packet, SeenPeople* seen) const {
   const auto width = static_cast<std::size_t>(config_.lens.width),
              height = static_cast<std::size_t>(config_.lens.height);
   packet.bytes.clear();
@@ -98,10 +99,11 @@ void ThermalCamera::shoot(std::uint64_t n, Time t, Workers& workers, Packet& pac
   const auto figures = people_.figures(exposed);
   const Instant instant{tracer_, figures};
   const SE3 T_world_camera = trajectory_.T_world_base(exposed) * SE3::from_xyz_rpy(config_.base_camera_xyz_rpy);
+  if (seen != nullptr) seen->begin(people_.size(), config_.lens.height);
   workers.for_each(height, [&](std::size_t row) {
     expose_row(instant, T_world_camera, static_cast<int>(row), frame,
                static_cast<std::uint64_t>(newest.began / config_.correction_period),
-               packet.bytes.data() + camera::kFrameHeaderBytes + 2 * width * row);
+               packet.bytes.data() + camera::kFrameHeaderBytes + 2 * width * row, seen);
   });
   append_telemetry(n, t, packet.bytes);
 }

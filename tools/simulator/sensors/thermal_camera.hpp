@@ -7,6 +7,7 @@
 #include "hal/workers.hpp"
 #include "tools/simulator/motion/trajectory.hpp"
 #include "tools/simulator/people/crowd.hpp"
+#include "tools/simulator/sensors/seen_people.hpp"
 #include "tools/simulator/sensors/warmth.hpp"
 
 namespace cairn::simulator {
@@ -30,8 +31,9 @@ class ThermalCamera {
   ThermalCamera(const ThermalConfig& config, const Tracer& tracer, const Crowd& people, const Climate& climate,
                 const Trajectory& trajectory, std::uint64_t seed);
 
-  /// Frame `n` at `t` as V4L2 gives it: Y16, 160×122.
-  void shoot(std::uint64_t n, Time t, Workers& workers, Packet& packet) const;
+  /// Frame `n` at `t` as V4L2 gives it: Y16, 160×122. `seen`: who is on it, without the rows of telemetry; null if
+  /// nobody asks. A frozen picture shows people where they were.
+  void shoot(std::uint64_t n, Time t, Workers& workers, Packet& packet, SeenPeople* seen = nullptr) const;
 
   [[nodiscard]] const ThermalConfig& config() const { return config_; }
 
@@ -43,7 +45,7 @@ class ThermalCamera {
   [[nodiscard]] Duration uptime(Time t) const;
   [[nodiscard]] Correction correction(Time t) const;
   void expose_row(const Instant& instant, const SE3& T_world_camera, int row, std::uint64_t frame,
-                  std::uint64_t correction, std::byte* out) const;
+                  std::uint64_t correction, std::byte* out, SeenPeople* people) const;
   void append_telemetry(std::uint64_t n, Time t, std::vector<std::byte>& out) const;
 
   ThermalConfig config_;

@@ -11,6 +11,7 @@
 #include "drivers/recording/recording_writer.hpp"
 #include "onboard/perception/networks/recorded/box_file.hpp"
 #include "onboard/perception/networks/recorded/label_folder.hpp"
+#include "tests/drivers/thermal/lepton.hpp"
 #include "tests/onboard/perception/networks/tiny_onnx.hpp"
 #include "tests/tools/cli/run_command.hpp"
 #include "tools/cli/inspect/inspect_command.hpp"
@@ -118,6 +119,41 @@ TEST_F(LabelCommand, LeavesWhatARunCanUseInsteadOfTheNetworks) {
   EXPECT_EQ((*found)->found.at(0).width, 12);
   for (const char* file : {"overlay/camera/300000000.png", "overlay/thermal/100000000.png"})
     EXPECT_TRUE(fs::exists(folder_ / "out" / file)) << file;
+}
+
+TEST_F(LabelCommand, BoxesOfAllCamerasAreInTheOrderOfTheirStamps) {
+  ASSERT_EQ(label_with({recording_, "--config", all_networks(), "--out", folder_ / "out"}).exit_code, app::kDone);
+  const auto bytes = read_file(folder_ / "out/boxes.csv", 10'000).value();
+  std::vector<networks::RecordedBoxes> pictures;
+  ASSERT_TRUE(networks::parse_boxes({reinterpret_cast<const char*>(bytes.data()), bytes.size()}, "boxes", pictures));
+  std::vector<std::string> cameras;
+  for (const auto& picture : pictures) cameras.push_back(picture.camera);
+  EXPECT_THAT(cameras, testing::ElementsAre("camera", "thermal", "camera", "thermal", "camera", "thermal"));
+  EXPECT_TRUE(std::ranges::is_sorted(pictures, {}, &networks::RecordedBoxes::stamp));
+}
+
+/// A flat-field correction runs at 0.1 s, and the picture settles for a second.
+TEST_F(LabelCommand, ThermalPicturesOfAFlatFieldCorrectionAreLeftOut) {
+  recording::Recording r;
+  r.robot = "robot_1";
+  r.sources = {{"thermal", recording::kThermal, "thermal/data.csv", "thermal", "lepton3"}};
+  auto writer = recording::RecordingWriter::create(folder_ / "corrected", r).value();
+  for (std::uint32_t n = 1; n <= 15; ++n) {
+    thermal::test::Telemetry telemetry;
+    telemetry.counter(n).put32(
+        3, static_cast<std::uint32_t>(n == 1 ? thermal::FlatField::kRunning : thermal::FlatField::kNever) << 4U);
+    Packet packet = thermal::test::lepton3(telemetry, 30000, n, Time(std::chrono::milliseconds(100 * n)));
+    packet.source = SourceId{0};
+    ASSERT_TRUE(writer.write(packet));
+  }
+  ASSERT_TRUE(writer.close());
+  std::ofstream(folder_ / "lepton.yaml")
+      << "thermal: {model: lepton3}\nperception:\n"
+         "  thermal_detection: {model: box.onnx, classes: person, strides: \"16\"}\n";
+  const Outcome o = label_with({folder_ / "corrected", "--config", folder_ / "lepton.yaml", "--json"});
+  ASSERT_EQ(o.exit_code, app::kDone) << o.err;
+  EXPECT_EQ(o.json()["correcting"], 10);
+  EXPECT_EQ(o.json()["thermal_detection"]["pictures"], 5);
 }
 
 TEST_F(LabelCommand, WithoutAFolderItOnlySaysWhatItSaw) {
