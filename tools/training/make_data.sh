@@ -2,8 +2,9 @@
 # SPDX-License-Identifier: Apache-2.0
 # Renders the pictures that the shipped segmentation network learns from, and those that judge it.
 #
-#   tools/training/make_data.sh OUT [TRAIN_RUNS] [VALIDATION_RUNS] [TEST_RUNS]
+#   tools/training/make_data.sh OUT [TRAIN_RUNS] [VALIDATION_RUNS] [TEST_RUNS] [MORE_RUNS]
 #
+# MORE_RUNS adds training runs of the scenes that are hardest to learn: street and office.
 # OUT gets train/, validation/ and test/: pictures of the left eye at 336x192 (BGR) and their truth (trainIds).
 # Seeds: training 10000…49999, validation 50000…69999, test from 70000. A run is four robots for 40 s, a picture
 # every 5 s. JOBS=N runs N simulations at a time (default 1).
@@ -17,14 +18,18 @@ scenes=(street carpark forest office street lobby carpark street forest office s
         street)
 motions=(gentle brisk handheld gentle aggressive)
 
+hard=(street street office)
+
 # One line for each run: folder, scene, seed, further options. The pattern repeats; only the seed differs.
+# plan SPLIT FIRST_SEED RUNS SCENE…
 plan() {
   local split=$1 first=$2 runs=$3 i scene options
+  local -a shown=("${@:4}")
   for ((i = 0; i < runs; ++i)); do
     options="--motion ${motions[i % 5]}"
     if ((i % 13 == 12)); then options="--profile uav"; fi
     if ((i % 3 == 1)); then options+=" --people 10"; fi
-    scene=${scenes[i % 16]}
+    scene=${shown[i % ${#shown[@]}]}
     echo "$out/$split $scene $((first + 13 * i)) $options"
   done
 }
@@ -49,7 +54,8 @@ render() {
 export -f render
 export cairn here
 {
-  plan validation 50000 "${3:-13}"
-  plan train 10000 "${2:-68}"
-  plan test 70000 "${4:-26}"
+  plan validation 50000 "${3:-13}" "${scenes[@]}"
+  plan train 10000 "${2:-68}" "${scenes[@]}"
+  plan train 20000 "${5:-0}" "${hard[@]}"
+  plan test 70000 "${4:-26}" "${scenes[@]}"
 } | xargs -P "${JOBS:-1}" -I{} bash -c 'render {}'

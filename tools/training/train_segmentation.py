@@ -3,10 +3,13 @@
 """Trains the segmentation network that Cairn ships, on one core, with Debian's python3-torch.
 
     tools/training/train_segmentation.py DATA OUT [--epochs 24] [--whole 4] [--batch 16] [--threads 1]
+                                         [--from CHECKPOINT] [--rate 4e-3] [--balance 1]
 
 DATA is what make_data.sh left. OUT gets the network after each epoch: last.pt to go on from, best.pt and
 cairn-segmentation.onnx of the epoch with the best mean IoU on the validation pictures, and log.txt.
 An interrupted call goes on after the last epoch. The same data and thread count give the same network.
+--from begins with the weights of another training (its last.pt or best.pt) and a fresh schedule.
+--rate is the highest learning rate. --balance is how much more rare classes count: 0 not at all, 1 as in ENet.
 """
 import argparse
 import copy
@@ -23,7 +26,7 @@ import network
 import pictures
 
 SEED = 19
-MOST_RATE, WEIGHT_DECAY = 4e-3, 1e-3
+WEIGHT_DECAY = 1e-3
 AVERAGE = 0.998  # of the running mean of the weights, a step
 
 
@@ -35,14 +38,20 @@ def arguments() -> argparse.Namespace:
     parser.add_argument("--whole", type=int, default=4, help="epochs at the end that learn from whole pictures")
     parser.add_argument("--batch", type=int, default=16)
     parser.add_argument("--threads", type=int, default=1)
+    parser.add_argument("--from", type=pathlib.Path, dest="start", metavar="CHECKPOINT")
+    parser.add_argument("--rate", type=float, default=4e-3)
+    parser.add_argument("--balance", type=float, default=1.0)
     return parser.parse_args()
 
 
-def class_weights(truth: np.ndarray) -> torch.Tensor:
-    """Rare classes count more: 1 / ln(1.02 + share), as ENet does (Paszke et al., 2016). Absent ones count nothing."""
+def class_weights(truth: np.ndarray, balance: float) -> torch.Tensor:
+    """Rare classes count more: 1 / ln(1.02 + share) to the power of `balance`. Absent ones count nothing.
+
+    With the power 1 these are the weights of ENet (Paszke et al., 2016).
+    """
     counts = np.bincount(truth[truth < network.CLASSES].ravel(), minlength=network.CLASSES)
     shares = counts / counts.sum()
-    weights = np.where(counts > 0, 1.0 / np.log(1.02 + shares), 0.0)
+    weights = np.where(counts > 0, np.log(1.02 + shares) ** -balance, 0.0)
     return torch.tensor(weights / weights[counts > 0].min(), dtype=torch.float32)
 
 
@@ -51,9 +60,15 @@ def to_input(batch: np.ndarray) -> torch.Tensor:
     return torch.from_numpy(scaled).permute(0, 3, 1, 2)  # channels last in memory: the faster layout
 
 
-def learning_rate(step: int, steps: int) -> float:
+def learning_rate(most: float, step: int, steps: int) -> float:
     warm = min(1.0, (step + 1) / 200)
-    return MOST_RATE * warm * (0.5 + 0.5 * math.cos(math.pi * step / steps)) + 1e-6
+    return most * warm * (0.5 + 0.5 * math.cos(math.pi * step / steps)) + 1e-6
+
+
+def weights_in(checkpoint: pathlib.Path) -> dict[str, torch.Tensor]:
+    """The running mean of the weights that a training left: last.pt holds it among other things, best.pt alone."""
+    state = torch.load(checkpoint)
+    return state.get("mean", state)
 
 
 class Trainer:
@@ -62,9 +77,12 @@ class Trainer:
         self.pictures, self.truth, _ = pictures.load(args.data / "train")
         self.judged, self.judged_truth, _ = pictures.load(args.data / "validation")
         self.net = network.Segmentation().to(memory_format=torch.channels_last)
+        if args.start is not None:
+            self.net.load_state_dict(weights_in(args.start))
         self.mean = copy.deepcopy(self.net)
-        self.optimizer = torch.optim.AdamW(self.net.parameters(), lr=MOST_RATE, weight_decay=WEIGHT_DECAY)
-        self.loss = torch.nn.CrossEntropyLoss(class_weights(self.truth), ignore_index=pictures.IGNORED)
+        self.optimizer = torch.optim.AdamW(self.net.parameters(), lr=args.rate, weight_decay=WEIGHT_DECAY)
+        weights = class_weights(self.truth, args.balance)
+        self.loss = torch.nn.CrossEntropyLoss(weights, ignore_index=pictures.IGNORED)
         self.epoch, self.best, self.seconds = 0, 0.0, 0.0
         self.steps = len(self.pictures) // args.batch
         self.resume()
@@ -105,7 +123,7 @@ class Trainer:
         for i in range(self.steps):
             step = self.epoch * self.steps + i
             for group in self.optimizer.param_groups:
-                group["lr"] = learning_rate(step, self.args.epochs * self.steps)
+                group["lr"] = learning_rate(self.args.rate, step, self.args.epochs * self.steps)
             seen, truth = self.batch(order[i * self.args.batch:(i + 1) * self.args.batch], random)
             self.optimizer.zero_grad()
             loss = self.loss(self.net(seen), truth)

@@ -22,6 +22,7 @@ Json to_json(const LabelError& e) {
           {"miou", or_null(e.confusion.miou(kMinTrueVoxels))},
           {"iou_by_class", std::move(by_class)},
           {"true_voxels_by_class", std::move(voxels)},
+          {"label_tolerance_m", e.tolerance_m},
           {"label_common", e.common},
           {"labelled_share", or_null(e.labelled_share())}};
 }

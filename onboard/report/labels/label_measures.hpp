@@ -47,14 +47,19 @@ inline constexpr std::uint64_t kMinTrueVoxels = 200;
 
 /// How the labels of a map agree with those of the true map.
 struct LabelError {
-  std::uint64_t common = 0;    ///< voxels that are occupied in both maps and labelled in the true one
+  double tolerance_m = 0;      ///< along an axis, from the centre of a voxel to that of a true voxel, at most
+  std::uint64_t common = 0;    ///< occupied voxels of the map with an occupied, labelled true voxel there
   std::uint64_t labelled = 0;  ///< of these, labelled in the map
   LabelConfusion confusion;    ///< of these, [true class][class in the map]
 
   [[nodiscard]] std::optional<double> labelled_share() const;
 };
-/// A voxel of the map is compared with the voxel of the true map that its centre lies in; there is no tolerance.
-/// `T_truth_map` is the map's frame in the true map's frame. Error: more occupied voxels than can be listed.
+/// A voxel of the map is moved into the true map's frame. It is compared with the occupied, labelled true voxels that
+/// overlap the smallest box around it that is parallel to their axes. It is right if one of them has its class. Else
+/// its true class is that of the nearest of them. Where both grids coincide this compares voxel with voxel. Where they
+/// do not, a point that lies in one voxel of a grid may lie in any of the voxels that this one overlaps in the other
+/// grid. At most two true voxels each way are searched, however coarse the map is. `T_truth_map` is the map's frame in
+/// the true map's frame. Error: more occupied voxels than can be listed.
 [[nodiscard]] Result<LabelError> label_error(const mapping::SemanticOcTree& map, const mapping::SemanticOcTree& truth,
                                              const SE3& T_truth_map);
 

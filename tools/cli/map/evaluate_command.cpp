@@ -173,6 +173,9 @@ void add_trajectory(app::Commands& commands, CLI::App& evaluate, const std::shar
 
 void add_map(app::Commands& commands, CLI::App& evaluate, const std::shared_ptr<Options>& options) {
   CLI::App* sub = evaluate.add_subcommand("map", "compares the occupied voxels of a map with the true ones");
+  sub->footer(
+      "A label is right if an occupied true voxel that the voxel overlaps has the same class: their centres are at "
+      "most label_tolerance_m apart along each axis, about one voxel.");
   sub->add_option("estimate", options->estimate, "map, or the folder of a run")->required();
   sub->add_option("--ground-truth", options->truth, "true map, or the folder of a recording")->required();
   CLI::Option* pose =
