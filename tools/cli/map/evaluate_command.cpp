@@ -8,16 +8,22 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "onboard/app/cli/working_line.hpp"
+#include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/figures/map_error.hpp"
 #include "onboard/report/figures/trajectory_error.hpp"
 #include "onboard/report/json/report_json.hpp"
 #include "onboard/report/labels/label_measures.hpp"
+#include "tools/cli/evaluate/mover_error.hpp"
+#include "tools/cli/evaluate/path.hpp"
+#include "tools/cli/evaluate/people_command.hpp"
+#include "tools/cli/evaluate/true_scans.hpp"
 #include "tools/cli/map/pose_option.hpp"
 #include "tools/cli/projection/projection_command.hpp"
 
@@ -33,6 +39,7 @@ struct Options {
   std::vector<double> pose;  // x y z roll pitch yaw of the map in the true map's frame
   fs::path trajectory, true_trajectory;
   double tolerance_m = 0;
+  fs::path recording;  // that says which returns are people
   bool json = false;
 };
 
@@ -94,6 +101,16 @@ Result<SE3> T_truth_map(const Options& options) {
   return report::align(matched, report::Alignment::kFirst);
 }
 
+report::Json to_json(const MoverError& e) {
+  const auto share = [](std::optional<double> value) { return value ? report::Json(*value) : report::Json(nullptr); };
+  return {{"static_accuracy", share(e.static_accuracy())},
+          {"dynamic_accuracy", share(e.dynamic_accuracy())},
+          {"seen_static_accuracy", share(e.seen_static_accuracy())},
+          {"static_voxels", e.static_voxels},
+          {"seen_static_voxels", e.seen_static_voxels},
+          {"movers_voxels", e.mover_voxels}};
+}
+
 /// What to try where hardly a voxel is right; empty: nothing.
 std::string hint(const Options& options, const report::MapError& error) {
   constexpr double kHardly = 0.5;
@@ -118,6 +135,55 @@ std::string in_words(const report::LabelError& e) {
   return text;
 }
 
+/// The path that the map was made with, in the map's frame: the run's where it is given, else the true one.
+Result<Path> path_of_map(const Options& options, const Path& truth, const SE3& T_world_map) {
+  if (options.trajectory.empty()) return truth.moved(T_world_map.inverse());
+  return Path::read(file_in(options.trajectory, "trajectory.tum"));
+}
+
+Result<MoverError> compare_movers(const Options& options, const app::RobotProfile& profile, const Path& truth,
+                                  const Path& path, const mapping::SemanticOcTree& map, MoverTruth& movers) {
+  constexpr Duration kSameScan = std::chrono::milliseconds(20);
+  auto done = for_each_true_scan(options.recording, profile, truth, [&](const TrueScan& scan) { movers.count(scan); });
+  if (!done) return done.error();
+  Result<void> inserted;
+  done = for_each_true_scan(options.recording, profile, path, [&](const TrueScan& scan) {
+    if (inserted && path.has_pose_near(scan.stamp, kSameScan)) inserted = movers.insert(scan);
+  });
+  if (!done) return done.error();
+  if (!inserted) return at(options.recording.string(), inserted.error());
+  return movers.judge(map);
+}
+
+/// How the map treats people who walk about; none where no recording says who they are.
+Result<std::optional<MoverError>> mover_error(const Options& options, const mapping::SemanticOcTree& map,
+                                              const mapping::SemanticOcTree& truth, const SE3& T_world_map) {
+  if (options.recording.empty()) return std::optional<MoverError>();
+  const auto chosen = app::choose_profile({}, options.recording);
+  if (!chosen) return chosen.error();
+  const auto true_path = Path::read(options.recording / "ground_truth.tum");
+  if (!true_path) return true_path.error();
+  const auto path = path_of_map(options, *true_path, T_world_map);
+  if (!path) return path.error();
+  mapping::MappingConfig config = chosen->profile.mapping;
+  config.resolution_m = map.getResolution();
+  MoverTruth movers(truth, T_world_map, config);
+  const auto error = app::while_working("placing the recording's returns in the world", [&] {
+    return compare_movers(options, chosen->profile, *true_path, *path, map, movers);
+  });
+  if (!error) return error.error();
+  return std::optional(*error);
+}
+
+void print(const MoverError& e) {
+  if (const auto share = e.static_accuracy())
+    std::cout << fmt::format("static     {:.4f} kept of {} voxels that a map without people has\n", *share,
+                             e.static_voxels);
+  if (const auto share = e.dynamic_accuracy())
+    std::cout << fmt::format("dynamic    {:.4f} free of {} voxels that people walked through\n", *share,
+                             e.mover_voxels);
+}
+
 int evaluate_map(const Options& options) {
   const fs::path file = file_in(options.estimate, "map.cairn"), true_file = file_in(options.truth, "world.ot");
   const auto map = mapping::load_map(file), truth = mapping::load_map(true_file);
@@ -133,10 +199,13 @@ int evaluate_map(const Options& options) {
   if (!error) return app::fail(at(file.string(), error.error()));
   const auto labels = report::label_error(**map, **truth, *T);
   if (!labels) return app::fail(at(file.string(), labels.error()));
+  const auto movers = mover_error(options, **map, **truth, *T);
+  if (!movers) return app::fail(movers.error());
   const std::string tip = hint(options, *error);
   if (options.json) {
     report::Json json = report::to_json(*error);
     json.update(report::to_json(*labels));
+    if (*movers) json.update(to_json(**movers));
     json["hint"] = tip.empty() ? report::Json(nullptr) : report::Json(tip);
     return app::print(json);
   }
@@ -147,6 +216,7 @@ int evaluate_map(const Options& options) {
   std::cout << fmt::format("true map   {} occupied voxels: {} found, {} called free, {} never seen\n",
                            error->true_occupied, error->found, error->contradicted, error->unseen);
   std::cout << in_words(*labels);
+  if (*movers) print(**movers);
   if (!tip.empty()) std::cout << "hint       " << tip << '\n';
   return app::kDone;
 }
@@ -191,6 +261,10 @@ void add_map(app::Commands& commands, CLI::App& evaluate, const std::shared_ptr<
   sub->add_option("--tolerance", options->tolerance_m,
                   "distance up to which a voxel counts as correct, m; default: a voxel's diagonal")
       ->check(app::above_zero);
+  sub->add_option("--recording", options->recording,
+                  "simulated recording with people: adds the shares of what stands that the map keeps, and of where "
+                  "people walked that it leaves free; --ground-truth is then the true map without people")
+      ->check(CLI::ExistingDirectory);
   add(commands, sub, options, evaluate_map);
 }
 
@@ -202,6 +276,7 @@ void add_evaluate_command(app::Commands& commands) {
   const auto options = std::make_shared<Options>();
   add_trajectory(commands, evaluate, options);
   add_map(commands, evaluate, options);
+  add_evaluate_people_command(commands, evaluate);
   add_projection_command(commands, evaluate);
 }
 

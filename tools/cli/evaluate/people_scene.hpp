@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "hal/result.hpp"
+#include "hal/se3.hpp"
+#include "onboard/app/profile/robot_profile.hpp"
+#include "tools/cli/evaluate/people_error.hpp"
+#include "tools/cli/evaluate/people_file.hpp"
+
+namespace cairn::cli {
+
+/// What a camera sees, seen from above.
+class ViewAngle {
+ public:
+  /// `T_base_camera`: body axes. `left`, `right`: angles from the view to the picture's edges, rad, left is positive.
+  ViewAngle(const SE3& T_base_camera, double left, double right)
+      : T_camera_base_(T_base_camera.inverse()), left_(left), right_(right) {}
+
+  /// Whether the camera looks at this point of base_link, however high or far it is.
+  [[nodiscard]] bool sees(const Eigen::Vector3d& point_base) const;
+
+ private:
+  SE3 T_camera_base_;
+  double left_, right_;
+};
+
+/// The angles of the recording's calibrated cameras. `which`: camera, thermal or any. Errors: kNotFound where there is
+/// none.
+[[nodiscard]] Result<std::vector<ViewAngle>> view_angles(const std::filesystem::path& recording,
+                                                         const app::RobotProfile& profile, const std::string& which);
+
+/// The people of a simulated recording at the time of each scan, and how the robot saw them.
+struct PeopleScan {
+  struct Person {
+    std::int64_t id = 0;
+    Eigen::Vector2d position_world{0, 0};  ///< metres
+    std::uint32_t returns = 0;             ///< of people, less than kReturnsWithin_m from there
+  };
+  Time stamp{};
+  SE3 T_world_base;
+  std::vector<Person> people;
+};
+
+inline constexpr double kReturnsWithin_m = 0.5;      ///< from above; a person is 0.5 m wide
+inline constexpr std::uint32_t kVisibleReturns = 5;  ///< the LiDAR's returns that make a person visible
+
+/// Errors: those of for_each_true_scan().
+[[nodiscard]] Result<std::vector<PeopleScan>> people_scans(const std::filesystem::path& recording,
+                                                           const app::RobotProfile& profile,
+                                                           std::span<const PersonRow> truth);
+
+/// Who counts: the people and tracks of a place that the robot can know.
+struct PeopleZone {
+  double within_m = 15;               ///< from the robot, from above
+  std::span<const ViewAngle> angles;  ///< empty: all around
+};
+
+/// Tracks joined with the scans that they belong to.
+struct JoinedPeople {
+  std::vector<PeopleFrame> frames;  ///< one for each scan
+  std::size_t without_scan = 0;     ///< rows of tracks at times without a scan
+};
+/// `tracks_world`: the run's rows, moved into the world.
+[[nodiscard]] JoinedPeople join(std::span<const PeopleScan> scans, std::span<const PersonRow> tracks_world,
+                                const PeopleZone& zone);
+
+}  // namespace cairn::cli
