@@ -67,6 +67,7 @@ app::RobotProfile simulated_profile(const SimulationConfig& config) {
   if (config.sensors.gpio) profile.gpio.driver.trigger_line = "trigger";
   profile.gpio.driver.trigger_rate_hz = config.stereo.rate_hz;
   profile.failsafe.camera_silent_ms = silent_ms(profile.failsafe.camera_silent_ms, config.stereo.rate_hz);
+  profile.failsafe.thermal_silent_ms = silent_ms(profile.failsafe.thermal_silent_ms, config.thermal.rate_hz);
   return profile;
 }
 

@@ -37,6 +37,7 @@ constexpr std::array kForRecordings{
     Foreign{"--exposure", "a live robot has no camera"},
     Foreign{"--exposure-error", "a live robot has no camera"},
     Foreign{"--line-time", "a live robot has no camera"},
+    Foreign{"--thermal-rate", "a live robot has no camera"},
     Foreign{"--threads", "one thread plays the world"},
 };
 constexpr std::array kForLive{"--to", "--can", "--estop", "--start", "--truth", "--profile-out"};

@@ -164,6 +164,12 @@ void add_camera_options(CLI::App& sub, simulator::StereoConfig& camera) {
       ->capture_default_str();
 }
 
+void add_thermal_options(CLI::App& sub, simulator::ThermalConfig& thermal) {
+  sub.add_option("--thermal-rate", thermal.rate_hz, "pictures of the thermal camera a second, 1/s")
+      ->check(CLI::Range(0.01, 120.0))
+      ->capture_default_str();
+}
+
 }  // namespace
 
 void add_simulate_command(app::Commands& commands) {
@@ -198,6 +204,7 @@ void add_simulate_command(app::Commands& commands) {
       ->capture_default_str();
   add_lidar_options(*sub, s.lidar);
   add_camera_options(*sub, s.stereo);
+  add_thermal_options(*sub, s.thermal);
   sub->add_flag("--json", options->json, "one JSON object on stdout");
   add_live_options(*sub, options->live);
   sub->callback([&commands, options, sub] {
