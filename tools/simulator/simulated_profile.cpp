@@ -35,6 +35,33 @@ networks::NetworkConfig shipped_segmentation() {
   return network;
 }
 
+/// What both detectors of people have in common: one grid of cells of 8 pixels, one class.
+networks::NetworkConfig people_network(const char* model, const char* sha256, double score_threshold) {
+  networks::NetworkConfig network = networks::PerceptionConfig().detection;
+  network.model = model;
+  network.sha256 = sha256;
+  network.mean = {127.5, 127.5, 127.5};
+  network.divisor = 64;
+  network.classes = "person";
+  network.strides = "8";
+  network.score_threshold = score_threshold;
+  return network;
+}
+
+/// config/models/cairn-people-visible.md
+networks::NetworkConfig shipped_detection() {
+  return people_network("models/cairn-people-visible.onnx",
+                        "f9679c2d696c933f72cf9089e9f853b9d5cb4417a85ef0597258e686e494c1d6", 0.43);
+}
+
+/// config/models/cairn-people-thermal.md
+networks::NetworkConfig shipped_thermal_detection() {
+  auto network = people_network("models/cairn-people-thermal.onnx",
+                                "4fda3f852ae47aa3bd54d454bb74d27a15178aa8fed369193c4df2f091440217", 0.56);
+  network.channels = "grey";
+  return network;
+}
+
 /// Three frame periods, and never less than the default.
 double silent_ms(double usual_ms, double rate_hz) { return std::clamp(3000 / rate_hz, usual_ms, 1000.0); }
 
@@ -61,7 +88,10 @@ app::RobotProfile simulated_profile(const SimulationConfig& config) {
   profile.depth.driver.cx = depth.cx - 0.5;
   profile.depth.driver.cy = depth.cy - 0.5;
   profile.depth.driver.max_depth_m = config.depth.max_depth_m;
-  if (config.sensors.camera) profile.perception.networks.segmentation = shipped_segmentation();
+  networks::PerceptionConfig& networks = profile.perception.networks;
+  if (config.sensors.camera) networks.segmentation = shipped_segmentation();
+  if (config.sensors.camera) networks.detection = shipped_detection();
+  if (config.sensors.thermal) networks.thermal_detection = shipped_thermal_detection();
   if (config.sensors.drive) profile.drive.driver = husky_drive();
   if (config.sensors.gpio) profile.gpio.driver.estop_line = "estop";
   if (config.sensors.gpio) profile.gpio.driver.trigger_line = "trigger";

@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <vector>
 
 #include "hal/files/file.hpp"
 #include "hal/files/sha256.hpp"
 #include "onboard/app/run.hpp"
+#include "onboard/perception/networks/open_networks.hpp"
 #include "tests/support/places.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -60,18 +62,49 @@ TEST(SimulatedProfile, SaysHowTheCamerasSee) {
   expect_same_lens(config.depth.lens, depth);
 }
 
-TEST(SimulatedProfile, NamesTheShippedNetworkAndWaitsForTheCameraAsLongAsItsRateSays) {
+TEST(SimulatedProfile, NamesTheShippedNetworksOfTheSensorsThatAreCarried) {
   SimulationConfig config;
-  EXPECT_FALSE(simulated_profile(config).perception.networks.segmentation.exists()) << "without a camera";
+  const auto none = simulated_profile(config).perception.networks;
+  EXPECT_FALSE(none.segmentation.exists() || none.detection.exists() || none.thermal_detection.exists());
   config.sensors.camera = true;
+  EXPECT_FALSE(simulated_profile(config).perception.networks.thermal_detection.exists());
+  config.sensors.thermal = true;
+  const auto all = simulated_profile(config).perception.networks;
+  for (const networks::NetworkConfig* network : {&all.segmentation, &all.detection, &all.thermal_detection}) {
+    const std::vector<std::filesystem::path> model{places::source() / "config" / network->model};
+    const auto sum = sha256_of_files(model);
+    ASSERT_TRUE(sum) << to_string(sum.error());
+    EXPECT_EQ(*sum, network->sha256) << network->model;
+  }
+}
+
+/// As a run opens them: the files, their inputs and their outputs fit the profile.
+TEST(SimulatedProfile, TheShippedNetworksCanBeRun) {
+  SimulationConfig config;
+  config.sensors.camera = config.sensors.thermal = true;
+  const auto all = simulated_profile(config).perception.networks;
+  const std::vector<std::filesystem::path> folders{places::source() / "config"};
+  const auto segmenter = networks::open_segmenter(all.segmentation, folders);
+  EXPECT_TRUE(segmenter) << to_string(segmenter.error());
+  Image black;
+  for (const networks::NetworkConfig* network : {&all.detection, &all.thermal_detection}) {
+    const auto detector = networks::open_detector(*network, folders);
+    ASSERT_TRUE(detector) << to_string(detector.error());
+    black.resize(network == &all.detection ? PixelFormat::kBgr8 : PixelFormat::kMono8, 160, 120);
+    std::ranges::fill(black.bytes, std::byte{0});
+    const auto found = (*detector)->detect(black);
+    ASSERT_TRUE(found) << to_string(found.error());
+    EXPECT_TRUE((*found)->found.empty()) << "nobody is in the dark";
+  }
+}
+
+TEST(SimulatedProfile, WaitsForCamerasAsLongAsTheirRatesSay) {
+  SimulationConfig config;
   config.stereo.rate_hz = 5;
+  config.thermal.rate_hz = 4;
   const auto profile = simulated_profile(config);
-  const auto& network = profile.perception.networks.segmentation;
-  const std::vector<std::filesystem::path> model{places::source() / "config" / network.model};
-  const auto sum = sha256_of_files(model);
-  ASSERT_TRUE(sum) << to_string(sum.error());
-  EXPECT_EQ(*sum, network.sha256);
   EXPECT_EQ(profile.failsafe.camera_silent_ms, 600);
+  EXPECT_EQ(profile.failsafe.thermal_silent_ms, 750);
 }
 
 /// A drive and an e-stop cannot be read without the profile.
