@@ -74,6 +74,7 @@ Result<TrackPoint> Robot::locate(const Scan& scan, Budget& budget, LocatedScan& 
 
 void Robot::begin_map(std::uint32_t epoch) {
   auto before = mapper_.begin_anew();
+  map_began_.reset();
   const std::uint32_t ended = std::exchange(mapped_epoch_, epoch);
   if (before->size() == 0) return;
   earlier_.push_back({.epoch = ended, .tree = std::move(before)});
@@ -97,12 +98,16 @@ Result<void> Robot::extend_map(const LocatedScan& scan, const MapShare& share) {
   const Eigen::Vector3f origin_odom = (T_odom_base * T_base_lidar_.translation()).cast<float>();
   const auto inserted = mapper_.insert(points_odom_, origin_odom);
   if (!inserted) return inserted.error();
+  if (!map_began_) map_began_ = scan.stamp;
   if (labeller_ || depth_) (void)recent_.add(scan.stamp, T_odom_base, scan.twist, scan.epoch, scan.points_base);
   return {};
 }
 
 Result<std::optional<SE3>> Robot::T_odom_base_at(Time t) const {
   if (recent_.size() == 0 || recent_[recent_.size() - 1].stamp < t) return std::nullopt;
+  if (t < recent_[0].stamp && !before_map(t))
+    return Error{
+        Errc::kNotFound, "the picture came too late, its scans have gone: it is left out of the map", {}, {}, {}};
   const auto T_odom_base = recent_.pose_at(t);
   if (!T_odom_base || recent_.nearest(t)->epoch != mapped_epoch_)
     return Error{Errc::kNotFound, "no scans around the picture: it is left out of the map", {}, {}, {}};

@@ -121,6 +121,9 @@ class Robot {
   /// (the robot has no LabellingSetup).
   Result<std::optional<mapping::LabelReport>> label_map(const LabelImage& labels);
 
+  /// Whether the map has a scan, and `t` is before its first one. Of extend_map()'s thread.
+  [[nodiscard]] bool before_map(Time t) const { return map_began_ && t < *map_began_; }
+
   /// The next scan decides whether the robot is where the previous run ended. Grant it every
   /// iteration.
   [[nodiscard]] bool resuming() const { return odometry_.resuming(); }
@@ -154,6 +157,7 @@ class Robot {
   std::vector<TrackPoint> track_;
   std::uint32_t epoch_ = 0;         // odometry's
   std::uint32_t mapped_epoch_ = 0;  // mapping's: of the map
+  std::optional<Time> map_began_;   // its first scan
   std::vector<EarlierMap> earlier_;
   std::size_t dropped_maps_ = 0;
   std::vector<Eigen::Vector3f> points_odom_;  // reused

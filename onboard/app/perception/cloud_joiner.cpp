@@ -13,6 +13,10 @@ void CloudJoiner::add(DepthCloud& cloud) {
 
 void CloudJoiner::join() {
   for (; !waiting_.empty(); waiting_.pop()) {
+    if (robot_.before_map(waiting_.front().stamp)) {
+      ++figures_.apart;  // at every start
+      continue;
+    }
     const auto put = robot_.extend_map(waiting_.front());
     if (put && !*put) return;  // the scan after the picture is still to come
     if (!put) {

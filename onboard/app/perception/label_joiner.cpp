@@ -17,6 +17,15 @@ void LabelJoiner::add(LabelImage& labels) {
 
 void LabelJoiner::join(const scheduler::Tick& tick) {
   for (; !waiting_.empty(); waiting_.pop()) {
+    const Time exposed = waiting_.front().stamp;
+    if (exposed > tick.release() + kAhead) {
+      leave_out(waiting_.front(), "the picture's time is in the future: its labels are left out; check its clock");
+      continue;
+    }
+    if (robot_.before_map(exposed)) {
+      ++figures_.apart;  // at every start
+      continue;
+    }
     const auto written = robot_.label_map(waiting_.front());
     if (written && !*written) return;  // the scan after the picture is still to come
     if (written)

@@ -19,6 +19,8 @@ inline constexpr const char* kPictureToMap = "picture_to_map";  ///< stage: from
 class LabelJoiner {
  public:
   static constexpr std::size_t kWaiting = 4;  ///< pictures; of more, the oldest is left out
+  /// A picture whose time is so far ahead is not waited for.
+  static constexpr Duration kAhead = std::chrono::milliseconds(500);
 
   /// What became of the pictures. Any thread may read.
   struct Figures {

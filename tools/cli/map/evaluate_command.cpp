@@ -34,7 +34,7 @@ namespace fs = std::filesystem;
 
 struct Options {
   fs::path estimate, truth;
-  std::string align = "se3";
+  std::string align;
   double max_gap_s = to_seconds(report::TrajectoryErrorOptions{}.max_gap);
   std::vector<double> pose;  // x y z roll pitch yaw of the map in the true map's frame
   fs::path trajectory, true_trajectory;
@@ -98,7 +98,7 @@ Result<SE3> T_truth_map(const Options& options) {
   const auto matched = report::match_by_time(*estimate, *truth, from_seconds(options.max_gap_s));
   if (matched.empty())
     return Error{Errc::kMalformed, "both trajectories have no common time", options.trajectory.string(), {}, {}};
-  return report::align(matched, report::Alignment::kFirst);
+  return report::align(matched, report::alignment_from(options.align).value_or(report::Alignment::kFirst));
 }
 
 report::Json to_json(const MoverError& e) {
@@ -228,6 +228,7 @@ void add(app::Commands& commands, CLI::App* sub, const std::shared_ptr<Options>&
 
 void add_trajectory(app::Commands& commands, CLI::App& evaluate, const std::shared_ptr<Options>& options) {
   CLI::App* sub = evaluate.add_subcommand("trajectory", "compares a trajectory with the true one");
+  options->align = "se3";
   sub->add_option("estimate", options->estimate, "TUM file, or the folder of a run")->required();
   sub->add_option("--ground-truth", options->truth, "TUM file, or the folder of a recording")->required();
   sub->add_option(
@@ -243,6 +244,7 @@ void add_trajectory(app::Commands& commands, CLI::App& evaluate, const std::shar
 
 void add_map(app::Commands& commands, CLI::App& evaluate, const std::shared_ptr<Options>& options) {
   CLI::App* sub = evaluate.add_subcommand("map", "compares the occupied voxels of a map with the true ones");
+  options->align = "first";
   sub->footer(
       "A label is right if an occupied true voxel that the voxel overlaps has the same class: their centres are at "
       "most label_tolerance_m apart along each axis, about one voxel.");
@@ -252,10 +254,14 @@ void add_map(app::Commands& commands, CLI::App& evaluate, const std::shared_ptr<
       sub->add_option("--pose", options->pose, "x,y,z,roll,pitch,yaw of the map in the true map, m and rad")
           ->delimiter(',')
           ->expected(6);
-  CLI::Option* from = sub->add_option("--trajectory", options->trajectory,
-                                      "the run's trajectory; its first pose and the true one give the pose")
-                          ->excludes(pose);
+  CLI::Option* from =
+      sub->add_option("--trajectory", options->trajectory, "the run's trajectory; it and the true one give the pose")
+          ->excludes(pose);
   CLI::Option* to = sub->add_option("--ground-truth-trajectory", options->true_trajectory, "the true trajectory");
+  sub->add_option("--align", options->align,
+                  "how the trajectories give the pose: first (their first poses coincide), se3 (least squares)")
+      ->check(CLI::IsMember({"first", "se3"}))
+      ->capture_default_str();
   from->needs(to);
   to->needs(from);
   sub->add_option("--tolerance", options->tolerance_m,
@@ -273,9 +279,8 @@ void add_map(app::Commands& commands, CLI::App& evaluate, const std::shared_ptr<
 void add_evaluate_command(app::Commands& commands) {
   CLI::App& evaluate = *commands.app.add_subcommand("evaluate", "errors against ground truth, and of a calibration");
   evaluate.require_subcommand(1);
-  const auto options = std::make_shared<Options>();
-  add_trajectory(commands, evaluate, options);
-  add_map(commands, evaluate, options);
+  add_trajectory(commands, evaluate, std::make_shared<Options>());
+  add_map(commands, evaluate, std::make_shared<Options>());
   add_evaluate_people_command(commands, evaluate);
   add_projection_command(commands, evaluate);
 }

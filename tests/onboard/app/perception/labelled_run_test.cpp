@@ -108,6 +108,7 @@ TEST_F(LabelledRun, TheMapKnowsFloorCeilingAndWalls) {
   ASSERT_TRUE(labels);
   EXPECT_GE(labels->images, 5U);
   EXPECT_EQ(labels->refused, 0U);
+  EXPECT_FALSE(has_event(**result, "picture")) << "a start is no fault";
   const auto map = mapping::load_map(*folder_ / "truth" / "map.cairn");
   ASSERT_TRUE(map) << to_string(map.error());
   const auto track = recording::read_tum(*folder_ / "truth" / "trajectory.tum");
