@@ -51,13 +51,13 @@ networks::NetworkConfig people_network(const char* model, const char* sha256, do
 /// config/models/cairn-people-visible.md
 networks::NetworkConfig shipped_detection() {
   return people_network("models/cairn-people-visible.onnx",
-                        "f9679c2d696c933f72cf9089e9f853b9d5cb4417a85ef0597258e686e494c1d6", 0.43);
+                        "7eb4e016cbca67e4ea8f0f8fb60dee6dd1a2a0614f6190953f23a89001f85981", 0.43);
 }
 
 /// config/models/cairn-people-thermal.md
 networks::NetworkConfig shipped_thermal_detection() {
   auto network = people_network("models/cairn-people-thermal.onnx",
-                                "4fda3f852ae47aa3bd54d454bb74d27a15178aa8fed369193c4df2f091440217", 0.56);
+                                "cb29be94c7870e08f4e33d7539cc4b09e491769c5f6a942212a83b8c8ae81c60", 0.55);
   network.channels = "grey";
   return network;
 }

@@ -25,7 +25,6 @@ import people_pictures
 from people_network import STRIDE
 
 NMS = 0.45
-LEAST_HEIGHT = {"camera": 9.0, "thermal": 6.0}  # pixels of the input; as in training
 SHOWN = {3: 188, 1: 120}  # rows of the input that the picture fills, by its planes
 # Heights in pixels of the input, and how far a whole person of 1.7 m is away then.
 FAR = 1e9
@@ -71,7 +70,7 @@ def is_night(name: str) -> bool:
 
 def tallies(detector: Detector, kind: str, examples: list, groups: dict) -> dict[str, people_boxes.Tally]:
     """One tally for each group: name -> whether an example belongs to it."""
-    result = {name: people_boxes.Tally(LEAST_HEIGHT[kind]) for name in groups}
+    result = {name: people_boxes.Tally(people_boxes.LEAST_HEIGHT[kind]) for name in groups}
     for example in examples:
         found = detector.find(example.picture, 0.05)
         for name, belongs in groups.items():
@@ -110,7 +109,7 @@ def judge(args: argparse.Namespace) -> None:
     known = tallies(detector, args.kind, people_pictures.load(args.data / "validation", args.kind), groups)
     light = known["day"] if args.kind == "camera" else None
     if light is None:
-        light = people_boxes.Tally(LEAST_HEIGHT[args.kind])
+        light = people_boxes.Tally(people_boxes.LEAST_HEIGHT[args.kind])
         for tally in known.values():
             light.scores += tally.scores
             light.right += tally.right

@@ -2,6 +2,7 @@
 """Boxes of people: how they are matched, and what is counted."""
 import numpy as np
 
+LEAST_HEIGHT = {"camera": 9.0, "thermal": 6.0}  # pixels of the input: smaller people are neither learnt nor punished
 OVERLAP = 0.5  # intersection over union from which on a box has found a person
 
 

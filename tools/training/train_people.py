@@ -27,7 +27,6 @@ from people_network import STRIDE
 SEED = 23
 MOST_RATE, WEIGHT_DECAY = 3e-3, 1e-3
 AVERAGE = 0.998  # of the running mean of the weights, a step
-LEAST_HEIGHT = {"camera": 9.0, "thermal": 6.0}  # pixels: smaller people are neither learnt nor punished
 LEAST_SHARE = 0.2  # of a person who is to be found
 REACH = 1.2  # cells from a box's middle within which a cell answers for it
 
@@ -148,7 +147,7 @@ class Trainer:
     def shows(self, example: people_pictures.Example) -> bool:
         """Whether somebody can be learnt from it."""
         people = example.people
-        tall = people[:, 3] - people[:, 1] >= LEAST_HEIGHT[self.args.kind]
+        tall = people[:, 3] - people[:, 1] >= people_boxes.LEAST_HEIGHT[self.args.kind]
         return not example.dark and bool(np.any(tall & (people[:, 4] >= LEAST_SHARE)))
 
     def order(self, random: np.random.Generator) -> np.ndarray:
@@ -181,7 +180,7 @@ class Trainer:
             picture, people = people_pictures.vary(self.learnt[i], random, view)
             seen.append(picture)
             truth.append(targets(people, self.learnt[i].dark, view.height // STRIDE, view.width // STRIDE,
-                                 LEAST_HEIGHT[self.args.kind]))
+                                 people_boxes.LEAST_HEIGHT[self.args.kind]))
         return to_input(np.stack(seen)), torch.from_numpy(np.stack(truth))
 
     def average(self, step: int) -> None:
@@ -213,7 +212,7 @@ class Trainer:
     @torch.no_grad()
     def judge(self) -> people_boxes.Tally:
         self.mean.eval()
-        tally = people_boxes.Tally(LEAST_HEIGHT[self.args.kind])
+        tally = people_boxes.Tally(people_boxes.LEAST_HEIGHT[self.args.kind])
         lit = [example for example in self.judged if not example.dark]
         for i in range(0, len(lit), 16):
             part = lit[i:i + 16]
