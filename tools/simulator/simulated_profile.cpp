@@ -29,7 +29,7 @@ void set_lens(cameras::CameraIntrinsics& intrinsics, const Lens& lens, double ba
 networks::NetworkConfig shipped_segmentation() {
   networks::NetworkConfig network;
   network.model = "models/cairn-segmentation.onnx";
-  network.sha256 = "e82f6205f24848f97ff02d77199e686c4581f48e79262b458c7ce52f4303770d";
+  network.sha256 = "5e36b912da5e06984b15d28f6967455fd521627ceff2eb9af50c13a1af028760";
   network.mean = {127.5, 127.5, 127.5};
   network.divisor = 64;
   return network;
