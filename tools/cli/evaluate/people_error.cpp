@@ -87,8 +87,9 @@ void PeopleJudge::count(const PeopleFrame& frame, const Pairs& pairs) {
   for (const auto& [p, t] : pairs) {
     const PeopleFrame::Person& person = frame.people[p];
     at_somebody[t] = true;
-    std::erase_if(partner_, [&](const auto& other) { return other.second == frame.tracks[t].id; });
-    partner_[person.id] = frame.tracks[t].id;
+    const std::int64_t track = frame.tracks[t].id;
+    std::erase_if(partner_, [track](const auto& other) { return other.second == track; });
+    partner_[person.id] = track;
     if (person.counts) note_found(person, frame.tracks[t], frame.stamp);
   }
   for (std::size_t p = 0; p < frame.people.size(); ++p) {

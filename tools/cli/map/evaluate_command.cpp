@@ -184,6 +184,28 @@ void print(const MoverError& e) {
                              e.mover_voxels);
 }
 
+int say(const Options& options, const report::MapError& e, const report::LabelError& labels,
+        const std::optional<MoverError>& movers) {
+  const std::string tip = hint(options, e);
+  if (options.json) {
+    report::Json json = report::to_json(e);
+    json.update(report::to_json(labels));
+    if (movers) json.update(to_json(*movers));
+    json["hint"] = tip.empty() ? report::Json(nullptr) : report::Json(tip);
+    return app::print(json);
+  }
+  std::cout << fmt::format("accuracy   {:.4f} m mean, {:.4f} m RMS from {} occupied voxels to the true ones\n",
+                           e.mean_m, e.rmse_m, e.occupied);
+  if (const auto p = e.precision()) std::cout << fmt::format("precision  {:.4f}\n", *p);
+  if (const auto r = e.recall()) std::cout << fmt::format("recall     {:.4f} of what was seen\n", *r);
+  std::cout << fmt::format("true map   {} occupied voxels: {} found, {} called free, {} never seen\n", e.true_occupied,
+                           e.found, e.contradicted, e.unseen);
+  std::cout << in_words(labels);
+  if (movers) print(*movers);
+  if (!tip.empty()) std::cout << "hint       " << tip << '\n';
+  return app::kDone;
+}
+
 int evaluate_map(const Options& options) {
   const fs::path file = file_in(options.estimate, "map.cairn"), true_file = file_in(options.truth, "world.ot");
   const auto map = mapping::load_map(file), truth = mapping::load_map(true_file);
@@ -201,24 +223,7 @@ int evaluate_map(const Options& options) {
   if (!labels) return app::fail(at(file.string(), labels.error()));
   const auto movers = mover_error(options, **map, **truth, *T);
   if (!movers) return app::fail(movers.error());
-  const std::string tip = hint(options, *error);
-  if (options.json) {
-    report::Json json = report::to_json(*error);
-    json.update(report::to_json(*labels));
-    if (*movers) json.update(to_json(**movers));
-    json["hint"] = tip.empty() ? report::Json(nullptr) : report::Json(tip);
-    return app::print(json);
-  }
-  std::cout << fmt::format("accuracy   {:.4f} m mean, {:.4f} m RMS from {} occupied voxels to the true ones\n",
-                           error->mean_m, error->rmse_m, error->occupied);
-  if (const auto p = error->precision()) std::cout << fmt::format("precision  {:.4f}\n", *p);
-  if (const auto r = error->recall()) std::cout << fmt::format("recall     {:.4f} of what was seen\n", *r);
-  std::cout << fmt::format("true map   {} occupied voxels: {} found, {} called free, {} never seen\n",
-                           error->true_occupied, error->found, error->contradicted, error->unseen);
-  std::cout << in_words(*labels);
-  if (*movers) print(**movers);
-  if (!tip.empty()) std::cout << "hint       " << tip << '\n';
-  return app::kDone;
+  return say(options, *error, *labels, *movers);
 }
 
 void add(app::Commands& commands, CLI::App* sub, const std::shared_ptr<Options>& options, int (*job)(const Options&)) {
