@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/commands.hpp"
 
+#include "tools/cli/calibrate/calibrate_command.hpp"
 #include "tools/cli/doctor/doctor_command.hpp"
 #include "tools/cli/drive/drive_command.hpp"
 #include "tools/cli/inspect/inspect_command.hpp"
@@ -30,6 +31,7 @@ void add_tool_commands(app::Commands& commands) {
 #endif
   add_import_command(commands);
   add_inspect_command(commands);
+  add_calibrate_command(commands);
   add_label_command(commands);
   add_map_command(commands);
   add_match_command(commands);
