@@ -5,6 +5,17 @@
 #include <utility>
 
 namespace cairn {
+namespace {
+
+/// Of overload: the first of so many, in order.
+void keep_every(int stride, std::vector<Eigen::Vector3f>& points) {
+  if (stride <= 1) return;
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points.size(); i += static_cast<std::size_t>(stride)) points[kept++] = points[i];
+  points.resize(kept);
+}
+
+}  // namespace
 
 Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapping_workers, Monitor& monitor)
     : T_base_lidar_(config.T_base_lidar),
@@ -41,6 +52,11 @@ void Robot::set_up_cameras(const RobotConfig& config) {
   depth_ = config.depth;
   const auto& setup = config.labelling;
   if (setup) labeller_.emplace(setup->camera, setup->T_base_camera, setup->config);
+  if (!config.people) return;
+  people_.emplace(config.people->config);
+  for (const PeopleSetup::MountedEye& eye : config.people->eyes)
+    people_->set_eye(eye.eye, eye.camera, eye.T_base_camera);
+  recent_ = labelling::LocatedScans({.age = people::Track::kMemory});
 }
 
 Result<TrackPoint> Robot::locate(const Scan& scan, Budget& budget, LocatedScan& located, const DriveState* wheels) {
@@ -75,6 +91,7 @@ Result<TrackPoint> Robot::locate(const Scan& scan, Budget& budget, LocatedScan& 
 void Robot::begin_map(std::uint32_t epoch) {
   auto before = mapper_.begin_anew();
   map_began_.reset();
+  if (people_) people_->clear();
   const std::uint32_t ended = std::exchange(mapped_epoch_, epoch);
   if (before->size() == 0) return;
   earlier_.push_back({.epoch = ended, .tree = std::move(before)});
@@ -91,16 +108,62 @@ Result<void> Robot::extend_map(const LocatedScan& scan, const MapShare& share) {
   const Eigen::Matrix3f R = T_odom_base.rotation().cast<float>();
   const Eigen::Vector3f t = T_odom_base.translation().cast<float>();
   points_odom_.clear();
-  const auto step = static_cast<std::size_t>(share.every_point);
-  for (std::size_t i = 0; i < scan.points_base.size(); i += step)
-    points_odom_.emplace_back(R * scan.points_base[i] + t);
-
+  for (const Eigen::Vector3f& p : scan.points_base) points_odom_.emplace_back(R * p + t);
   const Eigen::Vector3f origin_odom = (T_odom_base * T_base_lidar_.translation()).cast<float>();
+  if (people_) leave_people_out(scan, origin_odom);
+  keep_every(share.every_point, points_odom_);
   const auto inserted = mapper_.insert(points_odom_, origin_odom);
   if (!inserted) return inserted.error();
   if (!map_began_) map_began_ = scan.stamp;
-  if (labeller_ || depth_) (void)recent_.add(scan.stamp, T_odom_base, scan.twist, scan.epoch, scan.points_base);
+  if (people_) take_back_new_people();  // of earlier scans: this one left them out already
+  if (labeller_ || depth_ || people_)
+    (void)recent_.add(scan.stamp, T_odom_base, scan.twist, scan.epoch, scan.points_base);
   return {};
+}
+
+/// What is left in points_odom_ is what stands.
+void Robot::leave_people_out(const LocatedScan& scan, const Eigen::Vector3f& origin_odom) {
+  const StageTimer timing(monitor_.stage("people"));
+  const auto height = static_cast<float>(T_base_lidar_.translation().z());
+  people_->observe({scan.stamp, points_odom_, origin_odom, height},
+                   [this](const Eigen::Vector3f& point) { return mapper_.settled(point); });
+  const auto mask = people_->mask();
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < points_odom_.size(); ++i)
+    if (mask[i] == 0) points_odom_[kept++] = points_odom_[i];
+  points_odom_.resize(kept);
+}
+
+/// Somebody is known to be a person only after some steps; until then, the scans put a ghost into the map.
+void Robot::take_back_new_people() {
+  for (const people::Track* track : people_->take_new()) {
+    for (const people::Step& step : track->steps()) {
+      const labelling::PlacedScan* scan = recent_.nearest(step.stamp);
+      if (scan == nullptr || scan->stamp != step.stamp) continue;
+      const Eigen::Matrix3f R = scan->T_odom_base.rotation().cast<float>();
+      const Eigen::Vector3f t = scan->T_odom_base.translation().cast<float>();
+      points_odom_.clear();
+      for (const Eigen::Vector3f& p : scan->points_base)
+        if (const Eigen::Vector3f point = R * p + t; people_->in_body(point, step.position, track->person().ground))
+          points_odom_.push_back(point);
+      mapper_.take_back(points_odom_);
+    }
+  }
+}
+
+std::span<const people::Person> Robot::people() const {
+  return people_ ? people_->people() : std::span<const people::Person>();
+}
+
+Result<bool> Robot::see_people(people::Eye eye, const Detections& boxes) {
+  if (!people_ || !people_->has(eye))
+    return Error{Errc::kUnsupported, "boxes came of a camera that is not set up", {}, {}, {}};
+  const auto T_odom_base = T_odom_base_at(boxes.stamp);
+  if (!T_odom_base) return T_odom_base.error();
+  if (!*T_odom_base) return false;
+  people_->hear(eye, boxes, recent_.nearest(boxes.stamp)->stamp, **T_odom_base);
+  take_back_new_people();
+  return true;
 }
 
 Result<std::optional<SE3>> Robot::T_odom_base_at(Time t) const {

@@ -20,6 +20,7 @@
 #include "onboard/perception/cameras/camera_model.hpp"
 #include "onboard/perception/labelling/located_scans.hpp"
 #include "onboard/perception/labelling/point_labeller.hpp"
+#include "onboard/perception/people/people.hpp"
 
 namespace cairn {
 
@@ -30,6 +31,17 @@ struct LabellingSetup {
   labelling::LabellingConfig config;
 };
 
+/// The cameras that see people, and how people are followed.
+struct PeopleSetup {
+  struct MountedEye {
+    people::Eye eye = people::Eye::kVisible;
+    cameras::CameraModel camera;
+    SE3 T_base_camera;  ///< how it is mounted, in body axes
+  };
+  people::PeopleConfig config;
+  std::vector<MountedEye> eyes;
+};
+
 /// One robot: the pose of its LiDAR in base_link, and the settings of odometry and mapping.
 struct RobotConfig {
   SE3 T_base_lidar;  ///< how the LiDAR is mounted
@@ -37,6 +49,7 @@ struct RobotConfig {
   mapping::MappingConfig mapping;
   std::optional<LabellingSetup> labelling;    ///< none: the map gets no labels
   std::optional<mapping::SensorTrust> depth;  ///< none: the map gets no clouds of depth cameras
+  std::optional<PeopleSetup> people;          ///< none: nobody is followed, and people stay in the map
 };
 
 /// Where the robot was when a scan ended, and how certain that is.
@@ -107,8 +120,8 @@ class Robot {
   /// state at the scan's end, null where it is not known. On an error the scan is dropped, and the
   /// track is as before.
   Result<TrackPoint> locate(const Scan& scan, Budget& budget, LocatedScan& located, const DriveState* wheels = nullptr);
-  /// Adds a scan to the map, where its pose is trusted. On an error (kLimit: the map's memory) the
-  /// map is as before.
+  /// Adds a scan to the map, where its pose is trusted, but for the points of people. On an error (kLimit: the map's
+  /// memory) the map is as before.
   Result<void> extend_map(const LocatedScan& scan, const MapShare& share = {});
 
   /// Adds what a depth camera saw, with the noise of RobotConfig::depth, from where the robot was then. False while the
@@ -123,6 +136,13 @@ class Robot {
 
   /// Whether the map has a scan, and `t` is before its first one. Of extend_map()'s thread.
   [[nodiscard]] bool before_map(Time t) const { return map_began_ && t < *map_began_; }
+  /// Takes what a detector saw in a picture of `eye`. False while the scan after the picture is still to come. Of
+  /// extend_map()'s thread. Errors: kNotFound (no scans around the picture, or the map of them has ended), kUnsupported
+  /// (the robot has no such eye).
+  Result<bool> see_people(people::Eye eye, const Detections& boxes);
+  /// The people around the robot at the last scan that extended the map. Of extend_map()'s thread.
+  [[nodiscard]] std::span<const people::Person> people() const;
+  [[nodiscard]] bool follows_people() const { return people_.has_value(); }
 
   /// The next scan decides whether the robot is where the previous run ended. Grant it every
   /// iteration.
@@ -163,9 +183,12 @@ class Robot {
   std::vector<Eigen::Vector3f> points_odom_;  // reused
   /// Where the robot was; nothing while the scan after `t` is still to come.
   [[nodiscard]] Result<std::optional<SE3>> T_odom_base_at(Time t) const;
+  void leave_people_out(const LocatedScan& scan, const Eigen::Vector3f& origin_odom);
+  void take_back_new_people();
+  std::optional<people::People> people_;
   std::optional<labelling::PointLabeller> labeller_;
   std::optional<mapping::SensorTrust> depth_;
-  labelling::LocatedScans recent_;              // of mapping; empty without a labeller
+  labelling::LocatedScans recent_;              // of mapping; empty where nothing needs it
   std::vector<LabelledPoint> labelled_points_;  // reused
 };
 

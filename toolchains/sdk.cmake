@@ -46,8 +46,8 @@ cairn_component(drivers NEEDS client
   PACKAGES libpcap libgpiod libxxhash)
 cairn_component(odometry NEEDS hal LIBRARIES cairn_odometry HEADERS onboard/odometry)
 cairn_component(mapping NEEDS hal LIBRARIES cairn_mapping HEADERS onboard/mapping PACKAGES libzstd libxxhash IN_HEADERS octomap)
-cairn_component(cameras NEEDS hal LIBRARIES cairn_labelling cairn_cameras
-  HEADERS onboard/perception/cameras onboard/perception/labelling)
+cairn_component(cameras NEEDS hal LIBRARIES cairn_labelling cairn_people cairn_cameras
+  HEADERS onboard/perception/cameras onboard/perception/labelling onboard/perception/people)
 cairn_component(networks NEEDS hal LIBRARIES cairn_networks HEADERS onboard/perception/networks)
 cairn_component(robot NEEDS odometry mapping cameras LIBRARIES cairn_robot HEADERS onboard/robot.hpp)
 cairn_component(fusion NEEDS mapping LIBRARIES cairn_team cairn_matching cairn_merging cairn_peers

@@ -6,6 +6,7 @@
 
 #include "hal/monitor.hpp"
 #include "onboard/app/door/devices.hpp"
+#include "onboard/app/perception/open_people.hpp"
 #include "onboard/app/perception/open_perception.hpp"
 #include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
@@ -49,7 +50,9 @@ Result<std::string> print_tasks(const RunOptions& options) {
   Monitor monitor;
   auto sight = open_perception(options, profile, chosen->file, *sources, monitor);
   if (!sight) return sight.error();
-  RobotTasks tasks(*sources, profile, options, {}, std::move(*sight), monitor);
+  auto watch = open_people(options, profile, chosen->file, *sources, monitor);
+  if (!watch) return watch.error();
+  RobotTasks tasks(*sources, profile, options, {}, {std::move(*sight), std::move(*watch)}, monitor);
   if (options.live()) add_live_only_tasks(options, profile.schedule, tasks);
   return tasks.graph.to_text();
 }

@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "onboard/app/commands/serve_commands.hpp"
+#include "onboard/app/perception/open_people.hpp"
 #include "onboard/app/perception/open_perception.hpp"
 #include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/app/restart/restart.hpp"
@@ -38,8 +39,10 @@ Result<void> make_socket_folder(const std::filesystem::path& folder) {
 }
 
 Devices devices_for(const RunOptions& options, const RobotProfile& profile) {
-  return {
-      .camera = wants_camera(options, profile), .depth = profile.depth.map.rate_hz > 0, .all = !options.record.empty()};
+  return {.camera = wants_camera(options, profile) || wants_eye(people::Eye::kVisible, options, profile),
+          .thermal = wants_eye(people::Eye::kThermal, options, profile),
+          .depth = profile.depth.map.rate_hz > 0,
+          .all = !options.record.empty()};
 }
 
 Result<Door> open_door(const RunOptions& options, RobotProfile& profile, const Clock& clock, Monitor& monitor) {
@@ -58,8 +61,11 @@ Result<Door> open_door(const RunOptions& options, RobotProfile& profile, const C
 }
 
 Result<void> check_schedule(const RunOptions& options, const RobotProfile& profile) {
-  const auto tasks = profile.schedule.tasks(profile.team.id != 0, wants_camera(options, profile),
-                                            profile.depth.exists() && profile.depth.map.rate_hz > 0);
+  const auto tasks = profile.schedule.tasks({.team = profile.team.id != 0,
+                                             .perception = wants_camera(options, profile),
+                                             .depth = profile.depth.exists() && profile.depth.map.rate_hz > 0,
+                                             .detection = wants_eye(people::Eye::kVisible, options, profile),
+                                             .thermal_detection = wants_eye(people::Eye::kThermal, options, profile)});
   return scheduler::validate(tasks, static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
 }
 
@@ -132,7 +138,10 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
                                       : recorded_previous_run(options.recording, result->monitor);
   auto sight = open_perception(options, *profile, chosen->file, door->recording.sources, result->monitor);
   if (!sight) return sight.error();
-  RobotTasks tasks(door->recording.sources, *profile, options, previous, std::move(*sight), result->monitor);
+  auto watch = open_people(options, *profile, chosen->file, door->recording.sources, result->monitor);
+  if (!watch) return watch.error();
+  RobotTasks tasks(door->recording.sources, *profile, options, previous, {std::move(*sight), std::move(*watch)},
+                   result->monitor);
   const RunContext context{*door, *profile, options, previous, result->monitor, results->path()};
   LiveRun live_run(tasks, context, clock);
   const auto ran = live ? live_run.run(state ? &state->generations : nullptr)  // packets → scans → poses and map

@@ -24,6 +24,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kMap = "map.cairn";
+constexpr const char* kPeople = "people.csv";
 constexpr const char* kEpochMap = "map-epoch-";
 
 /// See Recording::time_shift_ns.
@@ -102,6 +103,22 @@ void add_labels(const RobotTasks& tasks, const Monitor& monitor, report::RunRepo
       report.labels->latency_p99_ms = to_milliseconds(stage.wall.percentile(0.99));
 }
 
+void add_people(const RobotTasks& tasks, report::RunReport& report) {
+  if (!tasks.robot.follows_people()) return;
+  report::PeopleStats& people = report.people.emplace();
+  people.tracks = tasks.mapping.people_log().tracks();
+  people.apart = tasks.mapping.box_joiner().apart();
+  for (const DetectionTask& task : tasks.detections) {
+    const DetectionTask::Figures& looked = task.figures();
+    const bool thermal = task.eye() == people::Eye::kThermal;
+    (thermal ? people.thermal : people.visible) = report::DetectorStats{.images = looked.images,
+                                                                        .detections = looked.people,
+                                                                        .passed = looked.passed,
+                                                                        .shed = looked.shed,
+                                                                        .refused = looked.refused + looked.unknown};
+  }
+}
+
 void add_depth(const RobotTasks& tasks, report::RunReport& report) {
   if (!tasks.depth) return;
   const DepthTask::Figures& looked = tasks.depth->figures();
@@ -156,6 +173,7 @@ report::RunReport make_report(const RunFacts& facts) {
   add_shed(facts.tasks.mapping, report);
   add_labels(facts.tasks, facts.monitor, report);
   add_depth(facts.tasks, report);
+  add_people(facts.tasks, report);
   report.monitor = &facts.monitor;
   for (const TrackPoint& p : track) report.trajectory.push_back({p.stamp, p.T_odom_base});
   report.map = report::summarise(facts.tasks.robot.map());
@@ -185,6 +203,13 @@ Result<void> write_earlier_maps(const RunFacts& facts, const fs::path& folder, r
   return {};
 }
 
+/// Where people were, in a run that followed them.
+Result<void> write_people(const RunFacts& facts, const fs::path& folder, std::vector<fs::path>& hashed) {
+  if (!facts.tasks.robot.follows_people()) return {};
+  hashed.push_back(folder / kPeople);
+  return write_file_atomic(hashed.back(), facts.tasks.mapping.people_log().to_csv(shift_of(facts)));
+}
+
 /// What a team run leaves besides, as a part of what is to be repeated.
 Result<void> add_team_files(const RunFacts& facts, const fs::path& folder, report::RunReport& report,
                             std::vector<fs::path>& hashed) {
@@ -207,6 +232,7 @@ Result<report::RunReport> write_results(const RunFacts& facts, const fs::path& f
   if (const auto r = write_trajectory(hashed[0], facts.tasks.robot.track(), shift_of(facts)); !r) return r.error();
   if (const auto r = mapping::save_cairn(facts.tasks.robot.map(), hashed[1]); !r) return r.error();
   if (const auto r = mapping::save_ot(facts.tasks.robot.map(), folder / "map.ot"); !r) return r.error();
+  if (const auto r = write_people(facts, folder, hashed); !r) return r.error();
   if (const auto r = write_earlier_maps(facts, folder, report, hashed); !r) return r.error();
   if (const auto r = add_team_files(facts, folder, report, hashed); !r) return r.error();
   const auto hash = sha256_of_files(hashed);
@@ -230,8 +256,9 @@ void remove_stale(const fs::path& out, const std::set<fs::path>& fresh) {
   std::error_code ignored;
   if (fs::exists(out / recording::kIndexFile, ignored)) return;  // a recording's schedule.log is its own
   for (const fs::path& name : names_in(out)) {
-    const bool not_in_every_run = name == kFailedRun || name == "schedule.log" || name == "team.cairn" ||
-                                  name == "team.ot" || name == "team.tum" || name.string().starts_with(kEpochMap);
+    const bool not_in_every_run = name == kFailedRun || name == kPeople || name == "schedule.log" ||
+                                  name == "team.cairn" || name == "team.ot" || name == "team.tum" ||
+                                  name.string().starts_with(kEpochMap);
     if (not_in_every_run && !fresh.contains(name)) fs::remove_all(out / name, ignored);
   }
 }

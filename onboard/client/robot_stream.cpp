@@ -94,6 +94,7 @@ Result<StreamMessage> RobotStream::decode() {
   if (record->kind == RecordKind::kState) return as_message(clients::decode_state(record->body));
   if (record->kind == RecordKind::kTiles) return as_message(clients::decode_tiles(record->body));
   if (record->kind == RecordKind::kEvent) return as_message(clients::decode_event(record->body));
+  if (record->kind == RecordKind::kPeople) return as_message(clients::decode_people(record->body));
   if (record->kind != RecordKind::kScan) return StreamMessage();
   auto part = clients::decode_scan(record->body);
   if (!part) return part.error();

@@ -9,6 +9,7 @@
 
 #include "drivers/clients/messages/event.hpp"
 #include "drivers/clients/messages/hello.hpp"
+#include "drivers/clients/messages/people.hpp"
 #include "drivers/clients/messages/pose.hpp"
 #include "drivers/clients/messages/state.hpp"
 #include "drivers/clients/messages/subscribe.hpp"
@@ -23,6 +24,7 @@ namespace cairn::client {
 
 using clients::EventMessage;
 using clients::HelloMessage;
+using clients::PeopleMessage;
 using clients::PoseMessage;
 using clients::StateMessage;
 using clients::SubscribeMessage;
@@ -35,7 +37,7 @@ struct CoreGone {};
 
 /// What next() found; std::monostate: nothing came in time.
 using StreamMessage = std::variant<std::monostate, HelloMessage, PoseMessage, StateMessage, TilesMessage, ScanMessage,
-                                   EventMessage, CoreGone>;
+                                   EventMessage, PeopleMessage, CoreGone>;
 
 /// A subscription to robot.sock. It survives the end of a core, and finds the next one. One thread uses it.
 class RobotStream {

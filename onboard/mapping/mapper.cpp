@@ -91,6 +91,22 @@ LabelReport Mapper::label(std::span<const LabelledPoint> points) {
   return report;
 }
 
+std::size_t Mapper::take_back(std::span<const Eigen::Vector3f> points_map) {
+  changed_now_.clear();
+  const std::size_t voxels = retraction_.take_back(points_map, *tree_, changed_now_);
+  note_changed();
+  return voxels;
+}
+
+bool Mapper::settled(const Eigen::Vector3f& p) const {
+  octomap::OcTreeKey key;
+  const auto farthest = static_cast<float>(config_.resolution_m * (1U << (SemanticOcTree::kDepth - 1)));
+  if (!(p.array().abs() < farthest).all() || !tree_->coordToKeyChecked(p.x(), p.y(), p.z(), key)) return false;
+  const SemanticNode* node = tree_->search(key);
+  const SensorModel model = tree_->sensor_model();
+  return node != nullptr && node->getLogOdds() > model.occupied + 2 * model.hit;
+}
+
 /// A set does not depend on how its parts were found: here the number of parts may depend on the
 /// number of threads.
 bool Mapper::march() {

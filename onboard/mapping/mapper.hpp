@@ -12,6 +12,7 @@
 #include "hal/workers.hpp"
 #include "onboard/mapping/insert/footprint.hpp"
 #include "onboard/mapping/insert/footprint_applier.hpp"
+#include "onboard/mapping/insert/retraction.hpp"
 #include "onboard/mapping/insert/scan_rays.hpp"
 #include "onboard/mapping/labels/label_updater.hpp"
 #include "onboard/mapping/mapping_config.hpp"
@@ -54,6 +55,13 @@ class Mapper {
   /// does not change. A voxel that becomes free loses its label.
   LabelReport label(std::span<const LabelledPoint> points);
 
+  /// Takes back what these points of one earlier scan have put into the map; see Retraction. Returns the voxels that
+  /// changed.
+  std::size_t take_back(std::span<const Eigen::Vector3f> points_map);
+
+  /// Whether a point's voxel has been seen occupied so often that one contradiction would not free it.
+  [[nodiscard]] bool settled(const Eigen::Vector3f& point_map) const;
+
   /// Begins with an empty map, and returns the one before.
   std::unique_ptr<SemanticOcTree> begin_anew();
 
@@ -78,6 +86,7 @@ class Mapper {
   std::vector<Footprint> footprints_;  // one per thread; all end up in the first
   FootprintApplier applier_;
   LabelUpdater labels_;
+  Retraction retraction_;
   std::vector<TileKey> changed_, changed_now_, merged_;
 };
 

@@ -11,7 +11,7 @@
 #include "hal/workers.hpp"
 #include "onboard/app/live/watchdog.hpp"
 #include "onboard/app/restart/generations.hpp"
-#include "onboard/app/tasks/allocations.hpp"
+#include "onboard/app/runs/allocations.hpp"
 #include "onboard/app/tasks/housekeeping_task.hpp"
 #include "onboard/app/tasks/watch_task.hpp"
 #include "onboard/scheduler/execution/executive.hpp"

@@ -14,6 +14,7 @@
 #include "tools/cli/recording/import_command.hpp"
 #include "tools/cli/recording/record_command.hpp"
 #include "tools/cli/recording/send_command.hpp"
+#include "tools/cli/stream/people_command.hpp"
 #include "tools/cli/stream/pose_command.hpp"
 #include "tools/cli/team/team_command.hpp"
 #include "tools/cli/top/top_command.hpp"
@@ -42,6 +43,7 @@ void add_tool_commands(app::Commands& commands) {
   add_team_command(commands);
   add_top_command(commands);
   add_pose_command(commands);
+  add_people_command(commands);
   add_drive_commands(commands);
 }
 

@@ -21,6 +21,7 @@ enum class RecordKind : std::uint8_t {
   kTiles = 4,
   kScan = 5,
   kEvent = 6,
+  kPeople = 7,
   // robot.sock, client → core
   kSubscribe = 32,
   // command.sock, client → core

@@ -15,8 +15,9 @@ enum class Stream : std::uint32_t {
   kTeamTiles = 8,
   kScan = 16,
   kEvents = 32,
+  kPeople = 64,
 };
-inline constexpr std::uint32_t kAllStreams = 63;
+inline constexpr std::uint32_t kAllStreams = 127;
 
 /// What a client of robot.sock wants from now on. A second one replaces the first.
 struct SubscribeMessage {

@@ -60,6 +60,7 @@ class UnreadableSource final : public Source {
 
 bool is_used(const SourceEntry& entry, const Devices& which) {
   if (entry.kind == recording::kCamera && which.camera) return true;
+  if (entry.kind == recording::kThermal && which.thermal) return true;
   if (entry.kind == recording::kDepth && which.depth) return true;
   return which.all || !recording::is_picture_kind(entry.kind);
 }

@@ -42,9 +42,10 @@ struct Door {
 
 /// Which devices a live run opens besides those that geometry and safety use.
 struct Devices {
-  bool camera = false;  ///< its pictures are looked at
-  bool depth = false;   ///< its clouds go into the map
-  bool all = false;     ///< they are recorded
+  bool camera = false;   ///< its pictures are looked at
+  bool thermal = false;  ///< the same
+  bool depth = false;    ///< its clouds go into the map
+  bool all = false;      ///< they are recorded
 };
 
 /// Opens the devices of the profile; they listen from now on. Decoders report events to `monitor`. `monitor` and

@@ -8,6 +8,7 @@
 
 #include "onboard/app/door/fitted.hpp"
 #include "onboard/perception/networks/open_networks.hpp"
+#include "onboard/perception/networks/recorded/box_file.hpp"
 #include "onboard/perception/networks/recorded/label_folder.hpp"
 
 namespace cairn::app {
@@ -15,12 +16,15 @@ namespace {
 
 namespace fs = std::filesystem;
 
+/// Null: the recording holds boxes alone.
 Result<std::unique_ptr<Segmenter>> open_recorded(const fs::path& recording) {
   const fs::path folder = recording / networks::kLabelFolder;
   std::error_code ignored;
+  if (!fs::is_directory(folder, ignored) && fs::exists(recording / networks::kBoxFile, ignored))
+    return std::unique_ptr<Segmenter>();
   if (!fs::is_directory(folder, ignored))
     return Error{Errc::kNotFound,
-                 "the recording holds no labels",
+                 "the recording holds neither labels nor boxes",
                  folder.string(),
                  {},
                  "`cairn label` makes them; --networks run asks the profile's network"};
@@ -77,12 +81,12 @@ Result<Perception> open_perception(const RunOptions& options, const RobotProfile
   if (*segmenter == nullptr || !*setup) return off;
   auto camera = camera::Camera::create(profile.camera.driver);
   if (!camera) return at("camera", camera.error());
-  on.parts = {.camera = std::make_unique<camera::Camera>(std::move(*camera)),
-              .side_by_side = profile.camera.driver.side_by_side,
-              .width = (*setup)->camera.width(),
-              .height = (*setup)->camera.height(),
+  const PictureForm form{.width = (*setup)->camera.width(),
+                         .height = (*setup)->camera.height(),
+                         .side_by_side = profile.camera.driver.side_by_side,
+                         .judged = !recorded};
+  on.parts = {.reader = std::make_unique<ColourReader>(std::move(*camera), form),
               .segmenter = std::move(*segmenter),
-              .judged = !recorded,
               .period = from_seconds(1 / network.rate_hz)};
   on.labelling = std::move(*setup);
   return on;

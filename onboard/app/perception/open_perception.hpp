@@ -6,11 +6,11 @@
 #include <optional>
 #include <span>
 
-#include "drivers/camera/camera.hpp"
 #include "drivers/recording/formats/recording.hpp"
 #include "hal/monitor.hpp"
 #include "hal/ports.hpp"
 #include "hal/result.hpp"
+#include "onboard/app/perception/picture_reader.hpp"
 #include "onboard/app/profile/robot_profile.hpp"
 #include "onboard/app/profile/run_options.hpp"
 #include "onboard/robot.hpp"
@@ -19,12 +19,9 @@ namespace cairn::app {
 
 /// What the perception task looks at pictures with.
 struct PerceptionParts {
-  std::unique_ptr<camera::Camera> camera;  ///< decodes packets
-  bool side_by_side = false;               ///< the left half is what is looked at
-  int width = 0, height = 0;               ///< pixels of the picture that is looked at, as the calibration says
+  std::unique_ptr<PictureReader> reader;  ///< never answers null
   std::unique_ptr<Segmenter> segmenter;
-  bool judged = true;  ///< pictures on which nothing can be seen are left out; recorded labels need no judgement
-  Duration period{};   ///< at least so long from one labelled picture to the next
+  Duration period{};  ///< at least so long from one labelled picture to the next
 };
 
 /// All that a run needs to label its map: what looks at pictures, and where the camera is.

@@ -4,6 +4,7 @@
 #include "hal/config/config.hpp"
 #include "onboard/perception/labelling/labelling_config.hpp"
 #include "onboard/perception/networks/config/network_config.hpp"
+#include "onboard/perception/people/people_config.hpp"
 
 namespace cairn::app {
 
@@ -11,6 +12,7 @@ namespace cairn::app {
 struct PerceptionProfile {
   networks::PerceptionConfig networks;
   labelling::LabellingConfig labelling;
+  people::PeopleConfig people;
 };
 
 void declare(config::Section& section, PerceptionProfile& profile);

@@ -11,8 +11,12 @@
 namespace cairn::app {
 
 RobotConfig RobotProfile::robot() const {
-  return {SE3::from_xyz_rpy(Eigen::Map<const Vector6>(lidar.base_xyz_rpy.data())), odometry, mapping, std::nullopt,
-          depth.map.rate_hz > 0 ? std::optional(depth.map.trust) : std::nullopt};
+  RobotConfig config;
+  config.T_base_lidar = SE3::from_xyz_rpy(Eigen::Map<const Vector6>(lidar.base_xyz_rpy.data()));
+  config.odometry = odometry;
+  config.mapping = mapping;
+  if (depth.map.rate_hz > 0) config.depth = depth.map.trust;
+  return config;
 }
 
 void declare(config::Section& s, RobotProfile& p) {

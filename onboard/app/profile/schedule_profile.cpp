@@ -10,6 +10,8 @@ void declare(config::Section& s, ScheduleProfile& p) {
   s.group("odometry", p.odometry, "locates one scan at a time; looks for one at rate_hz, and finds one at busy_hz");
   s.group("mapping", p.mapping, "puts one located scan at a time into the map; rates as odometry");
   s.group("perception", p.perception, "looks at one picture at a time; its labels are in the map after the deadline");
+  s.group("detection", p.detection, "looks for people in one colour picture at a time");
+  s.group("thermal_detection", p.thermal_detection, "looks for people in one thermal picture at a time");
   s.group("depth", p.depth, "turns one depth picture at a time into points for the map");
   s.group("team", p.team, "in a team: datagrams of peers, and a slice of the team's map");
   s.group("matching", p.matching, "in a team: compares maps, one pair at a time, for seconds if need be");
@@ -18,6 +20,16 @@ void declare(config::Section& s, ScheduleProfile& p) {
           "robot.sock, where --sockets says so: poses, state, tiles and scans for other programs");
   s.group("housekeeping", p.housekeeping, "recording: everything that may wait for a disk");
   s.group("saving", p.saving, "map, pose and scans for a restart, where --state says so");
+}
+
+std::vector<scheduler::TaskSpec> ScheduleProfile::tasks(const Parts& parts) const {
+  std::vector<scheduler::TaskSpec> all{safety, drive, receive, odometry, mapping, watch, housekeeping, saving};
+  if (parts.team) all.push_back(team);
+  if (parts.perception) all.push_back(perception);
+  if (parts.depth) all.push_back(depth);
+  if (parts.detection) all.push_back(detection);
+  if (parts.thermal_detection) all.push_back(thermal_detection);
+  return all;
 }
 
 void declare_stages(const ScheduleProfile& profile, Monitor& monitor) {

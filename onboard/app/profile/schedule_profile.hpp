@@ -20,7 +20,7 @@ struct ScheduleProfile {
                                .rate_hz = 100,
                                .phase_ms = 1,
                                .deadline_ms = 100,
-                               .soft_ms = 40,
+                               .soft_ms = 35,
                                .hard_ms = 80,
                                .busy_hz = 10,
                                .priority = 50};
@@ -32,7 +32,16 @@ struct ScheduleProfile {
                               .hard_ms = 90,
                               .busy_hz = 10};
   scheduler::TaskSpec perception{
-      .name = "perception", .rate_hz = 50, .phase_ms = 4, .deadline_ms = 400, .soft_ms = 60, .busy_hz = 5, .nice = 5};
+      .name = "perception", .rate_hz = 50, .phase_ms = 4, .deadline_ms = 400, .soft_ms = 40, .busy_hz = 5, .nice = 5};
+  scheduler::TaskSpec detection{
+      .name = "detection", .rate_hz = 50, .phase_ms = 6, .deadline_ms = 300, .soft_ms = 20, .busy_hz = 5, .nice = 5};
+  scheduler::TaskSpec thermal_detection{.name = "thermal_detection",
+                                        .rate_hz = 50,
+                                        .phase_ms = 7,
+                                        .deadline_ms = 300,
+                                        .soft_ms = 8,
+                                        .busy_hz = 5,
+                                        .nice = 5};
   scheduler::TaskSpec depth{
       .name = "depth", .rate_hz = 50, .phase_ms = 5, .deadline_ms = 100, .soft_ms = 10, .busy_hz = 5, .nice = 5};
   scheduler::TaskSpec team{.name = "team", .rate_hz = 25, .phase_ms = 3, .deadline_ms = 200, .soft_ms = 4};
@@ -43,15 +52,12 @@ struct ScheduleProfile {
       .name = "housekeeping", .rate_hz = 20, .phase_ms = 5, .deadline_ms = 1000, .soft_ms = 1};
   scheduler::TaskSpec saving{.name = "saving", .rate_hz = 10, .phase_ms = 7, .deadline_ms = 1000, .soft_ms = 5};
 
-  /// The tasks that declare a budget. `in_a_team`: with the task of the team; `sees` and
-  /// `has_depth`: with those that look at pictures.
-  [[nodiscard]] std::vector<scheduler::TaskSpec> tasks(bool in_a_team, bool sees, bool has_depth) const {
-    std::vector<scheduler::TaskSpec> all{safety, drive, receive, odometry, mapping, watch, housekeeping, saving};
-    if (in_a_team) all.push_back(team);
-    if (sees) all.push_back(perception);
-    if (has_depth) all.push_back(depth);
-    return all;
-  }
+  /// Tasks that not every run has.
+  struct Parts {
+    bool team = false, perception = false, depth = false, detection = false, thermal_detection = false;
+  };
+  /// The tasks that declare a budget.
+  [[nodiscard]] std::vector<scheduler::TaskSpec> tasks(const Parts& parts) const;
 };
 
 void declare(config::Section& section, ScheduleProfile& profile);

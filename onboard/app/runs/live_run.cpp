@@ -4,9 +4,9 @@
 #include <algorithm>
 
 #include "onboard/app/profile/recorded_profile.hpp"
+#include "onboard/app/runs/allocations.hpp"
 #include "onboard/app/runs/connect_inputs.hpp"
 #include "onboard/app/runs/real_time.hpp"
-#include "onboard/app/tasks/allocations.hpp"
 #include "onboard/scheduler/execution/executive.hpp"
 
 namespace cairn::app {
@@ -53,6 +53,7 @@ Result<RunEnd> LiveRun::run(Generations* generations) {
   if (saving_) saving_->close(clock_.now(), tasks_.robot);
   report_unlogged_ticks();
   if (labels_) labels_->write_waiting(clock_.now());
+  if (boxes_) boxes_->close(clock_.now());
   if (const auto closed = housekeeping_->close(clock_.now()); !closed) return closed.error();
   return end();
 }
@@ -65,6 +66,7 @@ Result<void> LiveRun::open_recorder() {
   if (const auto kept = keep_profile(folder, context_.profile); !kept) return kept.error();
   recorder_.emplace(std::move(*writer), context_.monitor);
   if (const auto kept = keep_labels(folder); !kept) return kept.error();
+  if (const auto kept = keep_boxes(folder); !kept) return kept.error();
   if (!context_.previous.resumed) return {};
   return keep_with_recording(folder, *context_.previous.resumed, context_.monitor);
 }
@@ -75,6 +77,18 @@ Result<void> LiveRun::keep_labels(const std::filesystem::path& folder) {
   if (!opened) return opened.error();
   labels_ = std::move(*opened);
   tasks_.perception->keep_labels([this](const LabelImage& labels) { labels_->keep(labels); });
+  return {};
+}
+
+Result<void> LiveRun::keep_boxes(const std::filesystem::path& folder) {
+  if (tasks_.detections.empty()) return {};
+  auto opened = BoxRecorder::create(folder, context_.monitor);
+  if (!opened) return opened.error();
+  boxes_ = std::move(*opened);
+  for (DetectionTask& task : tasks_.detections) {
+    const std::size_t camera = boxes_->add(task.source());
+    task.keep_boxes([this, camera](const Detections& boxes) { boxes_->keep(camera, boxes); });
+  }
   return {};
 }
 
@@ -91,6 +105,7 @@ Result<void> LiveRun::open_streams() {
   tasks_.odometry.serve(*outlets_);
   tasks_.drive.publish_to(outlets_->drive);
   tasks_.mapping.serve(outlets_->own);
+  tasks_.mapping.tell_people(outlets_->people);
   if (tasks_.team) tasks_.team->team().serve(outlets_->team, outlets_->T_team_odom);
   return {};
 }
@@ -112,6 +127,7 @@ void LiveRun::add_live_only_tasks(Generations* generations) {
   housekeeping_.emplace(tasks_.graph, (recorder != nullptr ? options.record : context_.results) / "schedule.log",
                         recorder);
   if (labels_) housekeeping_->add([this](Time now) { labels_->write_waiting(now); });
+  if (boxes_) housekeeping_->add([this](Time now) { boxes_->write_waiting(now); });
   const auto& keeping = add_live_only(schedule.housekeeping, *housekeeping_);
   std::vector<safety::Pulse> writers{
       {.task = keeping.spec.name, .limit = WatchTask::kDiskLimit, .beats = &keeping.stats.ticks}};

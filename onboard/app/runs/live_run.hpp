@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "hal/clock.hpp"
+#include "onboard/app/perception/box_recorder.hpp"
 #include "onboard/app/perception/label_recorder.hpp"
 #include "onboard/app/runs/run_context.hpp"
 #include "onboard/app/runs/safety_events.hpp"
@@ -36,6 +37,7 @@ class LiveRun {
  private:
   Result<void> open_recorder();
   Result<void> keep_labels(const std::filesystem::path& folder);
+  Result<void> keep_boxes(const std::filesystem::path& folder);
   Result<void> open_streams();
   void add_live_only_tasks(Generations* generations);
   [[nodiscard]] safety::Pulse add_saving(Generations& generations);
@@ -58,6 +60,7 @@ class LiveRun {
   ScheduleFaults schedule_faults_;
   ToSave to_save_;
   std::optional<Recorder> recorder_;
+  std::unique_ptr<BoxRecorder> boxes_;     // null: nobody looks for people, or not recorded
   std::unique_ptr<LabelRecorder> labels_;  // null: nothing is labelled, or not recorded
   std::optional<HousekeepingTask> housekeeping_;
   std::optional<SavingTask> saving_;

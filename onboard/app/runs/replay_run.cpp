@@ -3,10 +3,10 @@
 
 #include <string>
 
+#include "onboard/app/runs/allocations.hpp"
 #include "onboard/app/runs/connect_inputs.hpp"
 #include "onboard/app/runs/real_time.hpp"
 #include "onboard/app/runs/safety_events.hpp"
-#include "onboard/app/tasks/allocations.hpp"
 #include "onboard/scheduler/execution/executive.hpp"
 
 namespace cairn::app {

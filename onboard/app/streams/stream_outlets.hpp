@@ -4,6 +4,7 @@
 #include <atomic>
 #include <cstdint>
 #include <optional>
+#include <vector>
 
 #include "hal/drive.hpp"
 #include "hal/latest_value.hpp"
@@ -22,6 +23,13 @@ struct PoseNews {
   odometry::MotionNoise noise;    ///< that odometry expects of the next step
 };
 
+/// The people around the robot, after a scan.
+struct PeopleNews {
+  Time stamp{};
+  std::uint32_t epoch = 0;
+  std::vector<people::Person> people;
+};
+
 /// How the robot is.
 struct StateNews {
   safety::FailsafeDecision decision;
@@ -35,6 +43,7 @@ struct StateNews {
 struct StreamOutlets {
   SpscQueue<PoseNews> poses{64};                  ///< from odometry, one for each scan
   std::atomic<bool> scans_wanted{false};          ///< a client wants scans
+  SpscQueue<PeopleNews> people{16};               ///< from mapping, one for each scan while people are followed
   SpscQueue<LocatedScan> scans{4};                ///< from odometry, while they are wanted
   TileOutlet own;                                 ///< from mapping
   TileOutlet team;                                ///< from the team's task

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "drivers/clients/messages/state.hpp"
+#include "onboard/app/streams/people_message.hpp"
 #include "onboard/app/streams/state_message.hpp"
 
 namespace cairn::app {
@@ -32,6 +33,7 @@ StreamsTask::StreamsTask(ClientHub hub, std::uint64_t session, std::uint64_t rob
 /// Poses first: they are what is wanted at once. Returns how many records of tiles were sent.
 std::size_t StreamsTask::serve(Time now) {
   send_poses();
+  send_people();
   hub_.receive(now);
   greet_subscribers();
   send_predictions(now);
@@ -59,6 +61,11 @@ void StreamsTask::send_poses() {
     state_.map_epoch = news->point.epoch;
     hub_.send_all(Stream::kPose, message_of(news->point));
   }
+}
+
+void StreamsTask::send_people() {
+  for (; const PeopleNews* news = outlets_.people.front(); outlets_.people.pop())
+    hub_.send_all(Stream::kPeople, message_of(*news));
 }
 
 void StreamsTask::send_predictions(Time now) {

@@ -34,6 +34,7 @@ class StreamsTask final : public scheduler::Task {
   std::size_t serve(Time now);
   void greet_subscribers();
   void send_poses();
+  void send_people();
   void send_predictions(Time now);
   void send_state(Time now);
   void send_events(Time now);

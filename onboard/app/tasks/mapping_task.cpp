@@ -27,7 +27,8 @@ MappingTask::MappingTask(const safety::OverloadConfig& overload, Duration deadli
       monitor_(monitor),
       latency_(monitor.stage("packet_to_map")),
       label_joiner_(robot, monitor),
-      cloud_joiner_(robot, monitor) {}
+      cloud_joiner_(robot, monitor),
+      box_joiner_(robot, monitor) {}
 
 void MappingTask::tick(Tick& tick) {
   if (copier_ && motions.size() == 0) copier_->idle(tick.release(), robot_.map());
@@ -57,13 +58,28 @@ void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
     monitor_.event(motion.scan.stamp, "mapping", to_string(extended.error()));
   else if (copier_)
     copier_->mapped(motion.scan);
+  if (extended && !motion.scan.lost) note_people(motion.scan);
   note_changes(motion.scan, tick);
   memory_short_.store(!extended && extended.error().code == Errc::kLimit, std::memory_order_relaxed);
   if (tick.takes_time()) latency_.record(tick.figure_now() - motion.arrival);
 }
 
+void MappingTask::note_people(const LocatedScan& scan) {
+  people_log_.add(robot_.people());
+  if (people_outlet_ == nullptr || !robot_.follows_people()) return;
+  PeopleNews* out = people_outlet_->back();
+  if (out == nullptr) return;
+  out->stamp = scan.stamp;
+  out->epoch = scan.epoch;
+  out->people.assign(robot_.people().begin(), robot_.people().end());
+  people_outlet_->push();
+}
+
 /// Clouds first: what they add can be labelled.
 void MappingTask::take_pictures(Tick& tick) {
+  for (auto* port : {&boxes, &thermal_boxes})
+    while (ArrivedBoxes* arrived = port->take(tick)) box_joiner_.add(arrived->eye, arrived->boxes);
+  box_joiner_.join(tick.release());
   while (ArrivedCloud* arrived = clouds.take(tick)) cloud_joiner_.add(arrived->cloud);
   cloud_joiner_.join();
   while (ArrivedLabels* arrived = labels.take(tick)) label_joiner_.add(arrived->labels);

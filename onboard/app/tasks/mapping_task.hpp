@@ -8,8 +8,10 @@
 
 #include "hal/monitor.hpp"
 #include "hal/relaxed_counter.hpp"
+#include "onboard/app/perception/box_joiner.hpp"
 #include "onboard/app/perception/cloud_joiner.hpp"
 #include "onboard/app/perception/label_joiner.hpp"
+#include "onboard/app/perception/people_log.hpp"
 #include "onboard/app/streams/stream_outlets.hpp"
 #include "onboard/app/tasks/map_copier.hpp"
 #include "onboard/app/tasks/messages.hpp"
@@ -29,6 +31,8 @@ class MappingTask final : public scheduler::Task {
   scheduler::OutputPort<TileBatch> tiles{*this, "tiles"};
   scheduler::InputPort<ArrivedLabels> labels{*this, "labels"};
   scheduler::InputPort<ArrivedCloud> clouds{*this, "clouds"};
+  scheduler::InputPort<ArrivedBoxes> boxes{*this, "boxes"};                  ///< of the colour camera
+  scheduler::InputPort<ArrivedBoxes> thermal_boxes{*this, "thermal_boxes"};  ///< of the thermal camera
 
   /// All must outlive the task. `deadline`: from the last byte of a scan until the scan is in the map.
   MappingTask(const safety::OverloadConfig& overload, Duration deadline, Robot& robot, Monitor& monitor);
@@ -38,6 +42,9 @@ class MappingTask final : public scheduler::Task {
   /// Live: changed tiles go to `outlet`, too, and first those of a resumed map. That changes nothing for the port. To
   /// be called before the run; `outlet` must outlive the task.
   void serve(TileOutlet& outlet);
+  /// Live: after each scan, the people around the robot go to `outlet`. What finds no room is left out. To be called
+  /// before the run; `outlet` must outlive the task.
+  void tell_people(SpscQueue<PeopleNews>& outlet) { people_outlet_ = &outlet; }
   /// After the run: `outlet` gets all tiles as they are now, as far as it has room. True: it has them all.
   bool serve_rest();
 
@@ -57,10 +64,13 @@ class MappingTask final : public scheduler::Task {
   /// Scans that were mapped at each level.
   [[nodiscard]] const std::array<RelaxedCounter, safety::kShedLevels>& scans_at() const { return scans_at_; }
   [[nodiscard]] const LabelJoiner::Figures& label_figures() const { return label_joiner_.figures(); }
+  [[nodiscard]] const BoxJoiner& box_joiner() const { return box_joiner_; }
+  [[nodiscard]] const PeopleLog& people_log() const { return people_log_; }
   [[nodiscard]] const CloudJoiner::Figures& cloud_figures() const { return cloud_joiner_.figures(); }
 
  private:
   void extend(const ArrivedMotion& motion, scheduler::Tick& tick);
+  void note_people(const LocatedScan& scan);
   void take_pictures(scheduler::Tick& tick);
   safety::Shed decide(const ArrivedMotion& motion, scheduler::Tick& tick);
   void note_changes(const LocatedScan& scan, scheduler::Tick& tick);
@@ -79,6 +89,8 @@ class MappingTask final : public scheduler::Task {
   StageStats& latency_;
   LabelJoiner label_joiner_;
   CloudJoiner cloud_joiner_;
+  BoxJoiner box_joiner_;
+  PeopleLog people_log_;
   std::optional<MapCopier> copier_;
   std::vector<mapping::TileKey> resumed_tiles_;  // not handed on yet; of epoch 0
   struct Changes {
@@ -88,6 +100,7 @@ class MappingTask final : public scheduler::Task {
   std::optional<Changes> changes_;  // not handed on yet
   Time next_batch_{};
   TileOutlet* outlet_ = nullptr;
+  SpscQueue<PeopleNews>* people_outlet_ = nullptr;
   Time mapped_{};             // stamp of the last scan
   bool owed_changes_ = true;  // up to that scan
   bool serving_rest_ = false;

@@ -37,6 +37,12 @@ struct ArrivedLabels {
   LabelImage labels;
 };
 
+/// What a detector saw in a picture. From detection to mapping.
+struct ArrivedBoxes {
+  people::Eye eye = people::Eye::kVisible;
+  Detections boxes;
+};
+
 /// What a depth camera saw. From depth to mapping.
 struct ArrivedCloud {
   DepthCloud cloud;

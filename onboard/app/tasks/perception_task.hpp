@@ -10,7 +10,6 @@
 #include "onboard/app/perception/picture_pace.hpp"
 #include "onboard/app/tasks/messages.hpp"
 #include "onboard/safety/overload.hpp"
-#include "onboard/safety/stuck.hpp"
 #include "onboard/scheduler/ports.hpp"
 
 namespace cairn::app {
@@ -47,20 +46,16 @@ class PerceptionTask final : public scheduler::Task {
  private:
   void look(scheduler::Tick& tick);
   Result<const LabelImage*> segment();
-  Result<const Image*> picture();
-  Result<void> judge(const Image& picture);
   void refuse(const Error& error);
 
   PerceptionParts parts_;
   PicturePace pace_;
   const Packet* newest_ = nullptr;  // of the tick
-  safety::StuckWatch stuck_;
   std::function<safety::Shed()> shed_;
   std::function<void(const LabelImage&)> tap_;
   Monitor& monitor_;
   StageStats& segmentation_;
   Figures figures_;
-  Image left_;
 };
 
 }  // namespace cairn::app

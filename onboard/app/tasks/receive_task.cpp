@@ -18,7 +18,7 @@ bool ReceiveTask::add(Input& input, SourceId id, scheduler::Feed::Tap tap) {
   sensors_.push_back({{*input.source, id, slot, complain, std::move(tap)},
                       input.scans.get(),
                       watched_as(input.entry.kind),
-                      port_of(input.entry.kind)});
+                      ports_of(input.entry.kind)});
   return true;
 }
 
@@ -45,7 +45,8 @@ void ReceiveTask::receive(const Packet& packet, Sensor& sensor, Tick& tick) {
   figures_.end = std::max(figures_.end, packet.arrival);
   if (sensor.decoder == nullptr) {
     if (sensor.watched) note(*sensor.watched, packet.arrival);
-    if (sensor.pictures != nullptr) hand_on(packet, *sensor.pictures, tick);
+    for (auto* port : sensor.pictures)
+      if (port != nullptr) hand_on(packet, *port, tick);
     return;
   }
   if (sensor.stuck.step(packet.channel, packet.payload())) {
@@ -107,8 +108,11 @@ void ReceiveTask::hand_on(const Packet& picture, scheduler::OutputPort<ArrivedPi
   to.push(tick);
 }
 
-scheduler::OutputPort<ArrivedPicture>* ReceiveTask::port_of(recording::SensorKind kind) {
-  return kind == recording::kCamera ? &pictures : kind == recording::kDepth ? &depths : nullptr;
+std::array<scheduler::OutputPort<ArrivedPicture>*, 2> ReceiveTask::ports_of(recording::SensorKind kind) {
+  if (kind == recording::kCamera) return {&pictures, &watched};
+  if (kind == recording::kThermal) return {&thermals, nullptr};
+  if (kind == recording::kDepth) return {&depths, nullptr};
+  return {nullptr, nullptr};
 }
 
 void ReceiveTask::note(safety::Watched what, Time when) {

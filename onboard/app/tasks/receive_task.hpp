@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <deque>
 #include <optional>
 #include <vector>
@@ -28,6 +29,8 @@ class ReceiveTask final : public scheduler::Task {
   scheduler::OutputPort<SensorsSeen> seen{*this, "seen"};
   scheduler::OutputPort<ArrivedPicture> pictures{*this, "pictures"};  ///< of the colour camera
   scheduler::OutputPort<ArrivedPicture> depths{*this, "depths"};      ///< of the depth camera
+  scheduler::OutputPort<ArrivedPicture> watched{*this, "watched"};  ///< of the colour camera, for who looks for people
+  scheduler::OutputPort<ArrivedPicture> thermals{*this, "thermals"};  ///< of the thermal camera, for the same
 
   /// What came in. Of the task's thread, or after the run. Any thread may read the counters.
   struct Figures {
@@ -51,9 +54,9 @@ class ReceiveTask final : public scheduler::Task {
  private:
   struct Sensor {
     scheduler::Feed feed;
-    ScanDecoder* decoder;                             // null: its packets are only counted and recorded
-    std::optional<safety::Watched> watched;           // without a decoder: every packet is good data of this kind
-    scheduler::OutputPort<ArrivedPicture>* pictures;  // where its packets go; null: nowhere
+    ScanDecoder* decoder;                    // null: its packets are only counted and recorded
+    std::optional<safety::Watched> watched;  // without a decoder: every packet is good data of this kind
+    std::array<scheduler::OutputPort<ArrivedPicture>*, 2> pictures;  // where its packets go; null: nowhere
     safety::StuckWatch stuck{};
     safety::RejectionWatch rejection{};
     std::uint64_t accepted = 0, refused = 0;  // packets of a decoder
@@ -63,7 +66,7 @@ class ReceiveTask final : public scheduler::Task {
   void judge(Time now);
   void hand_on(const Scan* scan, scheduler::Tick& tick, bool at_the_end);
   static void hand_on(const Packet& picture, scheduler::OutputPort<ArrivedPicture>& to, scheduler::Tick& tick);
-  [[nodiscard]] scheduler::OutputPort<ArrivedPicture>* port_of(recording::SensorKind kind);
+  [[nodiscard]] std::array<scheduler::OutputPort<ArrivedPicture>*, 2> ports_of(recording::SensorKind kind);
   void note(safety::Watched what, Time when);
   void publish(scheduler::Tick& tick);
 

@@ -30,10 +30,11 @@ std::function<void(unsigned)> helpers_like(const scheduler::TaskSpec& task) {
   };
 }
 
-Robot make_robot(const RobotProfile& profile, const Perception& sight, RobotTasks& tasks, const PreviousRun& previous,
+Robot make_robot(const RobotProfile& profile, const Sight& sight, RobotTasks& tasks, const PreviousRun& previous,
                  Monitor& monitor) {
   RobotConfig config = profile.robot();
-  config.labelling = sight.labelling;
+  config.labelling = sight.labels.labelling;
+  config.people = sight.people.setup;
   if (previous.resumed)
     return {config, tasks.odometry_workers, tasks.mapping_workers, monitor, resume(*previous.resumed)};
   return {config, tasks.odometry_workers, tasks.mapping_workers, monitor};
@@ -42,7 +43,7 @@ Robot make_robot(const RobotProfile& profile, const Perception& sight, RobotTask
 }  // namespace
 
 RobotTasks::RobotTasks(std::span<const recording::SourceEntry> sources, const RobotProfile& profile,
-                       const RunOptions& options, const PreviousRun& previous, Perception sight, Monitor& monitor)
+                       const RunOptions& options, const PreviousRun& previous, Sight sight, Monitor& monitor)
     : fitted(fitted_with(sources, profile)),
       odometry_workers(static_cast<unsigned>(profile.threads), helpers_like(profile.schedule.odometry)),
       mapping_workers(static_cast<unsigned>(profile.threads), helpers_like(profile.schedule.mapping)),
@@ -54,7 +55,9 @@ RobotTasks::RobotTasks(std::span<const recording::SourceEntry> sources, const Ro
   add_tasks(profile.schedule);
   connect_safety(profile.schedule);
   connect_map(options.live());
-  if (sight.on()) add_perception(std::move(sight), profile.schedule, options.live(), monitor);
+  if (sight.labels.on()) add_perception(std::move(sight.labels), profile.schedule, options.live(), monitor);
+  for (DetectionParts& parts : sight.people.detectors)
+    add_detection(std::move(parts), profile.schedule, options.live(), monitor);
   if (has_kind(sources, recording::kDepth) && profile.depth.map.rate_hz > 0)
     add_depth(profile, options.live(), monitor);
   if (has_kind(sources, recording::kPeers)) {
@@ -115,6 +118,19 @@ void RobotTasks::add_perception(Perception sight, const ScheduleProfile& schedul
   const std::size_t reserve = live ? 0 : 3 * kWaitingPictures;
   graph.connect(receive.pictures, perception->pictures, {.capacity = kWaitingPictures, .reserve = reserve});
   graph.connect(perception->labels, mapping.labels, {.capacity = kWaitingPictures, .lag = spec.deadline()});
+}
+
+void RobotTasks::add_detection(DetectionParts parts, const ScheduleProfile& schedule, bool live, Monitor& monitor) {
+  const bool thermal = parts.eye == people::Eye::kThermal;
+  const scheduler::TaskSpec& spec = thermal ? schedule.thermal_detection : schedule.detection;
+  DetectionTask& task = detections.emplace_back(
+      std::move(parts), spec.name, spec.soft(), [this] { return mapping.shed(); }, monitor);
+  graph.add(spec, task);
+  const std::size_t reserve = live ? 0 : 3 * kWaitingPictures;
+  graph.connect(thermal ? receive.thermals : receive.watched, task.pictures,
+                {.capacity = kWaitingPictures, .reserve = reserve});
+  graph.connect(task.boxes, thermal ? mapping.thermal_boxes : mapping.boxes,
+                {.capacity = kWaitingPictures, .lag = spec.deadline()});
 }
 
 }  // namespace cairn::app

@@ -1,14 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <deque>
 #include <optional>
 #include <span>
 
 #include "hal/workers.hpp"
+#include "onboard/app/perception/open_people.hpp"
 #include "onboard/app/perception/open_perception.hpp"
 #include "onboard/app/profile/run_options.hpp"
 #include "onboard/app/restart/restart.hpp"
 #include "onboard/app/tasks/depth_task.hpp"
+#include "onboard/app/tasks/detection_task.hpp"
 #include "onboard/app/tasks/drive_task.hpp"
 #include "onboard/app/tasks/mapping_task.hpp"
 #include "onboard/app/tasks/odometry_task.hpp"
@@ -21,6 +24,12 @@
 
 namespace cairn::app {
 
+/// All that looks at pictures.
+struct Sight {
+  Perception labels;
+  PeopleWatch people;
+};
+
 /// The tasks of one robot and the graph that connects them. What a live run adds (recording, saving, publishing) is
 /// not in it; see LiveRun.
 class RobotTasks {
@@ -28,7 +37,7 @@ class RobotTasks {
   /// `sources`: what the robot reads from; with peers among them, the robot takes part in its team. `sight`: what looks
   /// at pictures, or off. All others must outlive the tasks.
   RobotTasks(std::span<const recording::SourceEntry> sources, const RobotProfile& profile, const RunOptions& options,
-             const PreviousRun& previous, Perception sight, Monitor& monitor);
+             const PreviousRun& previous, Sight sight, Monitor& monitor);
   RobotTasks(const RobotTasks&) = delete;
   RobotTasks& operator=(const RobotTasks&) = delete;
   ~RobotTasks() = default;
@@ -44,6 +53,7 @@ class RobotTasks {
   scheduler::IdleTask reference;  ///< as often as the control task
   scheduler::TaskGraph graph;
   std::optional<PerceptionTask> perception;  ///< none: nothing is labelled
+  std::deque<DetectionTask> detections;      ///< one for each camera that looks for people
   std::optional<DepthTask> depth;            ///< none: no depth camera, or the map gets no clouds
   std::optional<TeamTasks> team;             ///< none: this robot takes part in no team
 
@@ -52,6 +62,7 @@ class RobotTasks {
   void connect_safety(const ScheduleProfile& schedule);
   void connect_map(bool live);
   void add_depth(const RobotProfile& profile, bool live, Monitor& monitor);
+  void add_detection(DetectionParts parts, const ScheduleProfile& schedule, bool live, Monitor& monitor);
   void add_perception(Perception sight, const ScheduleProfile& schedule, bool live, Monitor& monitor);
 };
 

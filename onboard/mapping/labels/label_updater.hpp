@@ -10,7 +10,7 @@
 #include "hal/labels.hpp"
 #include "onboard/mapping/tree/label_evidence.hpp"
 #include "onboard/mapping/tree/map_tile.hpp"
-#include "onboard/mapping/tree/semantic_octree.hpp"
+#include "onboard/mapping/tree/occupied_walk.hpp"
 
 namespace cairn::mapping {
 
@@ -39,21 +39,12 @@ class LabelUpdater {
   LabelReport update(std::span<const LabelledPoint> points, SemanticOcTree& tree, std::vector<TileKey>& changed);
 
  private:
-  /// A point in its voxel: the path from the root, as TileKey has it but down to the voxel.
-  struct Placed {
-    std::uint64_t path;
-    std::uint32_t point;
-  };
-  using Range = std::span<const Placed>;
-
   void place(std::span<const LabelledPoint> points, const SemanticOcTree& tree);
-  bool visit(SemanticNode* node, unsigned depth, Range range, NodeWriter& writer);
-  bool label(SemanticNode* voxel, Range range);
+  bool label(SemanticNode& voxel, PlacedPoints range);
 
   std::uint64_t trust_256ths_;
   std::span<const LabelledPoint> points_;
-  float occupied_ = 0;
-  std::vector<Placed> placed_;  // reused
+  std::vector<PlacedPoint> placed_;  // reused
   std::vector<TileKey>* changed_ = nullptr;
   LabelReport report_;
 };

@@ -66,6 +66,22 @@ struct DepthStats {
   std::uint64_t apart = 0;               ///< that had no scans around them
 };
 
+/// What became of the pictures in which a detector looks for people.
+struct DetectorStats {
+  std::uint64_t images = 0;      ///< looked at
+  std::uint64_t detections = 0;  ///< boxes of people in them
+  std::uint64_t passed = 0;      ///< pictures that were not looked at, because of the rate
+  std::uint64_t shed = 0;        ///< because of overload
+  std::uint64_t refused = 0;     ///< on which nothing could be seen, or of which nothing is recorded
+};
+
+/// The people of a run that followed them.
+struct PeopleStats {
+  std::uint64_t tracks = 0;                       ///< different people, as far as the robot can tell
+  std::optional<DetectorStats> visible, thermal;  ///< none: there is no such detector
+  std::uint64_t apart = 0;                        ///< pictures that had no scans around them
+};
+
 /// One robot of the team, as this one saw it.
 struct PeerStats {
   std::uint64_t tx_bytes = 0, rx_bytes = 0, tiles = 0;
@@ -113,6 +129,7 @@ struct RunReport {
   std::vector<std::pair<std::string, std::uint64_t>> shed;  ///< scans at each level of shedding, `nothing` first
   std::optional<LabelStats> labels;                         ///< of a run that looked at pictures
   std::optional<DepthStats> depth;                          ///< of a run whose map got clouds
+  std::optional<PeopleStats> people;                        ///< of a run that followed people
   OdometryStats odometry;
   double peak_rss_mb = 0;
   std::optional<std::uint64_t> control_thread_allocations;  ///< after the warm-up; none without ticks after it

@@ -24,4 +24,24 @@ nlohmann::json depth_json(const RunReport& report) {
   return {{"images", d.images}, {"points", d.points}, {"passed", d.passed}, {"refused", d.refused}, {"apart", d.apart}};
 }
 
+namespace {
+
+nlohmann::json detector_json(const std::optional<DetectorStats>& d) {
+  if (!d) return nullptr;
+  return {{"images", d->images}, {"passed", d->passed}, {"shed", d->shed}, {"refused", d->refused}};
+}
+
+}  // namespace
+
+nlohmann::json people_json(const RunReport& report) {
+  if (!report.people) return nullptr;
+  const PeopleStats& p = *report.people;
+  return {{"tracks", p.tracks},
+          {"detections_visible", p.visible ? nlohmann::json(p.visible->detections) : nlohmann::json(nullptr)},
+          {"detections_thermal", p.thermal ? nlohmann::json(p.thermal->detections) : nlohmann::json(nullptr)},
+          {"visible", detector_json(p.visible)},
+          {"thermal", detector_json(p.thermal)},
+          {"apart", p.apart}};
+}
+
 }  // namespace cairn::report

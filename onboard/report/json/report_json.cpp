@@ -220,6 +220,7 @@ Json to_json(const RunReport& report) {
           {"ground_truth", ground_truth_json(report)},
           {"map", map_json(report)},
           {"labels", labels_json(report)},
+          {"people", people_json(report)},
           {"depth", depth_json(report)},
           {"memory", {{"peak_rss_mb", report.peak_rss_mb}}},
           {"allocations", {{"control_thread", or_null(report.control_thread_allocations)}}},

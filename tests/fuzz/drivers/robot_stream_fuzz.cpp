@@ -7,6 +7,7 @@
 
 #include "drivers/clients/messages/event.hpp"
 #include "drivers/clients/messages/hello.hpp"
+#include "drivers/clients/messages/people.hpp"
 #include "drivers/clients/messages/pose.hpp"
 #include "drivers/clients/messages/scan.hpp"
 #include "drivers/clients/messages/state.hpp"
@@ -57,6 +58,7 @@ void look(RecordKind kind, Body body) {
   if (kind == RecordKind::kTiles) look(body, decode_tiles);
   if (kind == RecordKind::kScan) look(body, decode_scan);
   if (kind == RecordKind::kEvent) look(body, decode_event);
+  if (kind == RecordKind::kPeople) look(body, decode_people);
 }
 
 }  // namespace

@@ -35,7 +35,8 @@ inline support::World room() {
 }
 
 /// Sweeps of a robot that drives through the room, and with GPIO lines of which none ever changes.
-inline void record_room(const fs::path& folder, bool with_gpio = false) {
+inline void record_room(const fs::path& folder, bool with_gpio = false, const support::World& world = room(),
+                        int scans = kScans) {
   recording::Recording index;
   index.robot = "husky_1";
   index.sources.push_back({"lidar", recording::kScans, "data.csv", "lidar", "VLP-16", kMount});
@@ -43,8 +44,7 @@ inline void record_room(const fs::path& folder, bool with_gpio = false) {
   auto writer = recording::RecordingWriter::create(folder, index);
   ASSERT_TRUE(writer) << to_string(writer.error());
   support::Vlp16 lidar(SE3::from_xyz_rpy(kMount), 0.02, 1);
-  const support::World world = room();
-  for (int i = 0; i < kScans; ++i) {
+  for (int i = 0; i < scans; ++i) {
     const Scan scan = lidar.scan(world, path, 0.1 * i);
     Packet packet;
     packet.channel = static_cast<std::uint16_t>(recording::ScanLayout::kXyziOffset);

@@ -5,6 +5,7 @@
 #include "onboard/client/view/costmap.hpp"
 #include "tools/ros/messages/costmap.hpp"
 #include "tools/ros/messages/odometry.hpp"
+#include "tools/ros/messages/people.hpp"
 #include "tools/ros/messages/points.hpp"
 
 namespace cairn::ros {
@@ -23,6 +24,7 @@ Result<std::unique_ptr<RobotTopics>> RobotTopics::open(RosParticipant& participa
   const auto points = Writer<PointCloud2>::open(participant, at + "points", TopicUse::kStream);
   const auto diagnostics = Writer<DiagnosticArray>::open(participant, "/diagnostics", TopicUse::kEvent);
   const auto costmap = Writer<OccupancyGrid>::open(participant, at + "costmap", TopicUse::kLatched);
+  const auto people = Writer<MarkerArray>::open(participant, at + "people", TopicUse::kEvent);
   const auto map = MapFeed::open(participant, at + "map", clients::TileMap::kOwn, options.map, options.map_period);
   if (!odom) return odom.error();
   if (!tf) return tf.error();
@@ -30,8 +32,9 @@ Result<std::unique_ptr<RobotTopics>> RobotTopics::open(RosParticipant& participa
   if (!points) return points.error();
   if (!diagnostics) return diagnostics.error();
   if (!costmap) return costmap.error();
+  if (!people) return people.error();
   if (!map) return map.error();
-  const Writers writers{*odom, *tf, *tf_static, *points, *diagnostics, *costmap};
+  const Writers writers{*odom, *tf, *tf_static, *points, *diagnostics, *costmap, *people};
   std::unique_ptr<RobotTopics> topics(new RobotTopics(participant, std::move(options), writers, *map));
   topics->utc_.greeted(LiveClock::realtime_offset(), LiveClock::realtime_offset());
   return topics;
@@ -94,6 +97,12 @@ Result<void> RobotTopics::write(const client::EventMessage& event) {
   return {};
 }
 
+Result<void> RobotTopics::write(const client::PeopleMessage& people) {
+  const Header header = header_of(people.stamp, utc_.value(), frames_.odom, arena_);
+  (void)writers_.people.write(markers_of(people, header, arena_));
+  return {};
+}
+
 Result<void> RobotTopics::write(client::CoreGone /*gone*/) {
   health_.core_gone();
   diagnosed_.reset();  // say it now
@@ -137,8 +146,9 @@ void RobotTopics::write_diagnostics(Time now, const std::vector<Diagnosis>& othe
 }
 
 Diagnosis RobotTopics::traffic() const {
-  const auto& [odom, tf, tf_static, points, diagnostics, costmap] = writers_;
-  const std::uint64_t lost = odom.lost() + tf.lost() + points.lost() + costmap.lost() + own_.writer().lost();
+  const auto& [odom, tf, tf_static, points, diagnostics, costmap, people] = writers_;
+  const std::uint64_t lost =
+      odom.lost() + tf.lost() + points.lost() + costmap.lost() + people.lost() + own_.writer().lost();
   Diagnosis traffic{.level = lost == 0 ? DiagnosticLevel::kOk : DiagnosticLevel::kWarn,
                     .name = "cairn-ros",
                     .message = lost == 0 ? "all was sent" : "readers do not keep up"};
@@ -155,6 +165,7 @@ client::SubscribeMessage RobotTopics::wants() const {
   for (const Stream stream : {Stream::kPose, Stream::kState, Stream::kOwnTiles, Stream::kEvents}) wants.add(stream);
   if (team_) wants.add(Stream::kTeamTiles);
   if (writers_.points.read_by_anybody()) wants.add(Stream::kScan);
+  if (writers_.people.read_by_anybody()) wants.add(Stream::kPeople);
   wants.pose_hz = options_.pose_hz;
   wants.own = own_.resume();
   if (team_) wants.team = team_->resume();

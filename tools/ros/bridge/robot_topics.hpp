@@ -47,6 +47,7 @@ class RobotTopics {
     Writer<PointCloud2> points;
     Writer<DiagnosticArray> diagnostics;
     Writer<OccupancyGrid> costmap;
+    Writer<MarkerArray> people;
   };
   RobotTopics(RosParticipant& participant, TopicOptions options, Writers writers, MapFeed own)
       : participant_(&participant),
@@ -61,6 +62,7 @@ class RobotTopics {
   Result<void> write(const client::TilesMessage& tiles);
   Result<void> write(const client::ScanMessage& scan);
   Result<void> write(const client::EventMessage& event);
+  Result<void> write(const client::PeopleMessage& people);
   Result<void> write(client::CoreGone gone);
   Result<void> write(std::monostate nothing);
   Result<void> write_maps(Time now);

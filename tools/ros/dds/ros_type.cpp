@@ -21,6 +21,14 @@ const RosType& ros_type<DiagnosticArray>() {
 }
 
 template <>
+const RosType& ros_type<MarkerArray>() {
+  static const RosType type{"visualization_msgs/msg/MarkerArray",
+                            "RIHS01_0000000000000000000000000000000000000000000000000000000000000000",
+                            &visualization_msgs_msg_dds__MarkerArray__desc};
+  return type;
+}
+
+template <>
 const RosType& ros_type<OccupancyGrid>() {
   static const RosType type{"nav_msgs/msg/OccupancyGrid",
                             "RIHS01_8d348150c12913a31ee0ec170fbf25089e4745d17035792a1ba94d6f0bc0cfc7",

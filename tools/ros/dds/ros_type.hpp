@@ -23,6 +23,8 @@ const RosType& ros_type<BoolMessage>();
 template <>
 const RosType& ros_type<DiagnosticArray>();
 template <>
+const RosType& ros_type<MarkerArray>();
+template <>
 const RosType& ros_type<OccupancyGrid>();
 template <>
 const RosType& ros_type<Octomap>();

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <opencv2/imgcodecs.hpp>
 #include <string>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/mapping/tree/voxel_label.hpp"
 #include "tests/drivers/camera/frames.hpp"
+#include "tests/onboard/app/perception/grey_png.hpp"
 #include "tests/onboard/app/room_run.hpp"
 
 namespace cairn::app {
@@ -40,13 +40,6 @@ std::vector<std::byte> true_labels(const support::World& world, const SE3& T_wor
   return labels;
 }
 
-void write_png(const test::fs::path& file, const std::vector<std::byte>& grey) {
-  const cv::Mat pixels(kHeight, kWidth, CV_8UC1, const_cast<std::byte*>(grey.data()));
-  std::vector<uchar> out;
-  ASSERT_TRUE(cv::imencode(".png", pixels, out));
-  ASSERT_TRUE(write_file_atomic(file, std::as_bytes(std::span(out))));
-}
-
 /// Pictures at 10 Hz between the scans, grey, with what they show in labels/.
 void record_pictures(const test::fs::path& folder) {
   test::fs::create_directories(folder / "camera" / "data");
@@ -57,8 +50,8 @@ void record_pictures(const test::fs::path& folder) {
     const Time t{from_seconds(0.1 * i + 0.13)};
     const std::string name = std::to_string(t.time_since_epoch().count()) + ".png";
     const auto labels = true_labels(world, test::path(to_seconds(t)) * SE3::from_xyz_rpy(kCameraMount));
-    write_png(folder / "camera" / "data" / name, labels);
-    write_png(folder / "labels" / name, labels);
+    test::write_png(folder / "camera" / "data" / name, kWidth, kHeight, labels);
+    test::write_png(folder / "labels" / name, kWidth, kHeight, labels);
     index += std::to_string(t.time_since_epoch().count()) + "," + name + "\n";
   }
   ASSERT_TRUE(write_file_atomic(folder / "camera" / "data.csv", index));

@@ -34,7 +34,7 @@ struct ConnectInputsTest : ::testing::Test {
     door.recording.sources.push_back(input.entry);
   }
   void connect() {
-    tasks.emplace(door.recording.sources, profile, options, previous, Perception(), monitor);
+    tasks.emplace(door.recording.sources, profile, options, previous, Sight(), monitor);
     const auto connected = connect_inputs(*tasks, {door, profile, options, previous, monitor}, nullptr);
     ASSERT_TRUE(connected) << to_string(connected.error());
   }
@@ -57,7 +57,7 @@ TEST_F(ConnectInputsTest, WheelsThatCannotBeReadAreSaid) {
   Monitor quiet;
   profile.drive.driver.velocity_units_per_rad_s = 1000;
   profile.drive.driver.position_counts_per_rad = 12'000;
-  RobotTasks with_scales(door.recording.sources, profile, options, previous, Perception(), quiet);
+  RobotTasks with_scales(door.recording.sources, profile, options, previous, Sight(), quiet);
   ASSERT_TRUE(connect_inputs(with_scales, {door, profile, options, previous, quiet}, nullptr));
   EXPECT_TRUE(quiet.events().empty());
 }

@@ -23,7 +23,7 @@ struct ReplayRunTest : ::testing::Test {
     door.recording.sources.push_back(input.entry);
   }
   Result<RunEnd> replay() {
-    tasks.emplace(door.recording.sources, profile, options, previous, Perception(), monitor);
+    tasks.emplace(door.recording.sources, profile, options, previous, Sight(), monitor);
     return replay_recording(*tasks, {door, profile, options, previous, monitor});
   }
   /// Idle, but for the first tick of the receive task, which took a packet.

@@ -113,6 +113,7 @@ struct Reader {
   }
 
  private:
+  static bool take(const clients::PeopleMessage& /*people*/) { return true; }
   bool take(std::monostate& /*nothing*/) { return false; }  // a core that hangs
   bool take(client::CoreGone& /*end*/) { return false; }
   bool take(clients::HelloMessage& hello) {

@@ -30,6 +30,27 @@ TEST_F(StreamsTaskTest, AClientGetsWhatItAskedFor) {
   EXPECT_EQ(poses.lost() + states.lost(), 0U);
 }
 
+TEST_F(StreamsTaskTest, PeopleAreToldToThoseWhoAsk) {
+  RobotStream people = connect(wanted({Stream::kPeople})), states = connect(wanted({Stream::kState}));
+  run();
+  PeopleNews* news = outlets_.people.back();
+  ASSERT_NE(news, nullptr);
+  news->stamp = Time{milliseconds(300)};
+  news->people.resize(1);
+  news->people[0].id = 4;
+  news->people[0].position = {1, 2};
+  news->people[0].ground = 0.5F;
+  outlets_.people.push();
+  run();
+  const auto got = read<clients::PeopleMessage>(people);
+  ASSERT_EQ(got.size(), 1U);
+  EXPECT_EQ(got[0].stamp, Time{milliseconds(300)});
+  ASSERT_EQ(got[0].people.size(), 1U);
+  EXPECT_EQ(got[0].people[0].id, 4U);
+  EXPECT_EQ(got[0].people[0].position_odom, Eigen::Vector3d(1, 2, 0.5));
+  EXPECT_TRUE(read<clients::PeopleMessage>(states).empty());
+}
+
 TEST_F(StreamsTaskTest, TheStateComesAtOnceWithEveryChangeAndOnceASecond) {
   RobotStream states = connect(wanted({Stream::kState}));
   run();

@@ -11,41 +11,19 @@
 
 #include "onboard/app/tasks/receive_task.hpp"
 #include "onboard/scheduler/execution/executive.hpp"
-#include "tests/drivers/camera/frames.hpp"
+#include "tests/onboard/app/tasks/grey_pictures.hpp"
 
 namespace cairn::app {
 namespace {
 
 using ::testing::HasSubstr;
 
-constexpr int kEyeWidth = 8, kEyeHeight = 4;
-constexpr Duration kFrame = std::chrono::microseconds(66'667);
-
-/// Grey pictures at 15 Hz; the left half of picture n has the value n.
-Packet picture(int n, int width = 2 * kEyeWidth) {
-  camera::test::Bytes pixels(static_cast<std::size_t>(width * kEyeHeight));
-  for (std::size_t i = 0; i < pixels.size(); ++i)
-    pixels[i] = static_cast<std::byte>(static_cast<int>(i) % width < width / 2 ? n : 255);
-  const auto header = camera::test::header_of(camera::FrameFormat::kGrey, static_cast<std::uint32_t>(width), kEyeHeight,
-                                              static_cast<std::uint32_t>(width));
-  Packet packet = camera::test::packet_of(header, pixels, static_cast<std::uint64_t>(n));
-  packet.arrival = Time{std::chrono::seconds(1)} + n * kFrame;
-  return packet;
-}
-
-class Pictures final : public Source {
- public:
-  explicit Pictures(std::vector<Packet> packets) : packets_(std::move(packets)) {}
-  Result<Poll> next(Packet& packet, Duration /*timeout*/) override {
-    if (next_ == packets_.size()) return Poll::kEnd;
-    packet = packets_[next_++];
-    return Poll::kPacket;
-  }
-
- private:
-  std::vector<Packet> packets_;
-  std::size_t next_ = 0;
-};
+using grey::kEyeHeight;
+using grey::kEyeWidth;
+using grey::kFrame;
+using grey::picture;
+using grey::Pictures;
+using grey::pictures;
 
 /// Says of every pixel that it is of the class that its value names.
 class Parrot final : public Segmenter {
@@ -85,13 +63,10 @@ class PerceptionTaskTest : public ::testing::Test {
     camera::Config config;
     auto parrot = std::make_unique<Parrot>();
     parrot->silent_from = silent_from_;
+    const PictureForm form{.width = kEyeWidth, .height = kEyeHeight, .side_by_side = true, .judged = judged_};
     PerceptionTask perception(
-        {.camera = std::make_unique<camera::Camera>(camera::Camera::create(config).value()),
-         .side_by_side = true,
-         .width = kEyeWidth,
-         .height = kEyeHeight,
+        {.reader = std::make_unique<ColourReader>(camera::Camera::create(config).value(), form),
          .segmenter = std::move(parrot),
-         .judged = judged_,
          .period = period},
         {}, [] { return safety::Shed::kNothing; }, monitor_);
     perception.keep_labels([this](const LabelImage& labels) { kept_.push_back(labels.stamp); });
@@ -113,12 +88,6 @@ class PerceptionTaskTest : public ::testing::Test {
   [[nodiscard]] bool reported(const std::string& what) const {
     return std::ranges::any_of(monitor_.events(),
                                [&](const Event& e) { return e.what.find(what) != std::string::npos; });
-  }
-
-  static std::vector<Packet> pictures(int count) {
-    std::vector<Packet> all;
-    for (int n = 0; n < count; ++n) all.push_back(picture(n));
-    return all;
   }
 
   int silent_from_ = -1;

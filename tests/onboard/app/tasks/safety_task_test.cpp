@@ -6,7 +6,7 @@
 
 #include <deque>
 
-#include "onboard/app/tasks/allocations.hpp"
+#include "onboard/app/runs/allocations.hpp"
 #include "tests/onboard/app/tasks/safety_neighbours.hpp"
 #include "tests/support/estop_line.hpp"
 

@@ -138,6 +138,7 @@ class TypeHash : public ::testing::Test {
 TEST_F(TypeHash, OfEachTypeIsThatOfItsIdl) {
   expect_like_ros(ros_type<BoolMessage>());
   expect_like_ros(ros_type<DiagnosticArray>());
+  expect_like_ros(ros_type<MarkerArray>());
   expect_like_ros(ros_type<OccupancyGrid>());
   expect_like_ros(ros_type<Octomap>());
   expect_like_ros(ros_type<Odometry>());
@@ -154,6 +155,8 @@ TEST_F(TypeHash, OfPartsIsThatOfRos) {
             "RIHS01_f49fb3ae2cf070f793645ff749683ac6b06203e41c891e17701b1cb597ce6a01");
   EXPECT_EQ(hash_of(types_, "geometry_msgs/msg/TransformStamped"),
             "RIHS01_0a241f87d04668d94099cbb5ba11691d5ad32c2f29682e4eb5653424bd275206");
+  EXPECT_EQ(hash_of(types_, "visualization_msgs/msg/Marker"),
+            "RIHS01_45b13ccf791f225962bf74e746f9644518855d783a6f42ba0cc14fde2b4f3ce0");
 }
 
 }  // namespace

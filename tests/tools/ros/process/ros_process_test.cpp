@@ -51,6 +51,8 @@ TEST_F(RosProcessTest, WritersAreThoseOfRos) {
       {"rt/diagnostics",
        endpoint_of("diagnostic_msgs::msg::dds_::DiagnosticArray_", ros_type<DiagnosticArray>(), kVolatile)},
       {"rt/husky_1/costmap", endpoint_of("nav_msgs::msg::dds_::OccupancyGrid_", ros_type<OccupancyGrid>(), kLatched)},
+      {"rt/husky_1/people",
+       endpoint_of("visualization_msgs::msg::dds_::MarkerArray_", ros_type<MarkerArray>(), kVolatile)},
       {"rt/husky_1/map", endpoint_of("octomap_msgs::msg::dds_::Octomap_", ros_type<Octomap>(), kLatched)},
       {"rt/husky_1/team_map", endpoint_of("octomap_msgs::msg::dds_::Octomap_", ros_type<Octomap>(), kLatched)}};
   start_both();

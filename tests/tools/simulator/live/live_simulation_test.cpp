@@ -86,7 +86,7 @@ TEST(LiveSimulation, WithoutRealTimeRightsSafetyAndDriveTakeTheirTime) {
   const app::RobotProfile fast = live_profile({}, devices, true), slow = live_profile({}, devices, false);
   EXPECT_EQ(fast.schedule.safety.rate_hz, app::ScheduleProfile().safety.rate_hz);
   EXPECT_LT(slow.schedule.safety.rate_hz, fast.schedule.safety.rate_hz);
-  EXPECT_TRUE(scheduler::validate(slow.schedule.tasks(false, true, true), 2));
+  EXPECT_TRUE(scheduler::validate(slow.schedule.tasks({.perception = true, .depth = true}), 2));
 }
 
 TEST(LiveSimulation, PositionPacketsHaveAPortBesideThatOfTheData) {

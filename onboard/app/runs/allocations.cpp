@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/app/tasks/allocations.hpp"
+#include "onboard/app/runs/allocations.hpp"
 
 #include <cstdlib>
 #include <new>

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/perception/people/box_lifter.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+
+#include "hal/semantic_class.hpp"
+
+namespace cairn::people {
+namespace {
+
+constexpr double kHeight = 1.72, kShoulders = 0.25;  // m: a usual person, and half its width
+constexpr double kNearest = 0.5;                     // m along the view
+// A box may be so much too high or too low for where its cluster stands: children, and people half hidden.
+constexpr double kLowest = 0.45, kHighest = 1.6;
+constexpr double kWorst = 0.7;  // mismatch
+
+}  // namespace
+
+BoxLifter::BoxLifter(const cameras::CameraModel& camera, const SE3& T_base_camera, double farthest_m)
+    : camera_(camera),
+      T_optical_base_((T_base_camera * cameras::T_camera_optical()).inverse()),
+      farthest_(farthest_m) {}
+
+BoxLifter::Seen BoxLifter::look_at(const Cluster& cluster, const SE3& T_optical_odom) const {
+  const Eigen::Vector3d feet(cluster.centre.x(), cluster.centre.y(), cluster.ground);
+  const Eigen::Vector3d foot = T_optical_odom * feet;
+  const Eigen::Vector3d head = T_optical_odom * (feet + Eigen::Vector3d(0, 0, kHeight));
+  const Eigen::Vector3d middle = 0.5 * (foot + head);
+  Seen seen;
+  if (middle.z() < kNearest) return seen;
+  seen.in_front = true;
+  seen.depth = middle.z();
+  seen.x = middle.x() / middle.z();
+  seen.top = head.y() / middle.z();
+  seen.bottom = foot.y() / middle.z();
+  seen.half_width = kShoulders / middle.z();
+  seen.in_view = camera_.project({middle.x() - kShoulders, 0, middle.z()}).has_value() &&
+                 camera_.project({middle.x() + kShoulders, 0, middle.z()}).has_value();
+  return seen;
+}
+
+/// Boxes are in pixels of the picture that was looked at; another size than the calibration's is scaled.
+std::optional<BoxLifter::Box> BoxLifter::box_of(const Detection& found, const Detections& picture) const {
+  constexpr double kRim = 1.5;  // px
+  const double u = static_cast<double>(camera_.width()) / picture.width;
+  const double v = static_cast<double>(camera_.height()) / picture.height;
+  const double x = found.x + 0.5 * found.width, y = found.y + 0.5 * found.height;
+  const auto ray = [&](double px, double py) { return camera_.unproject({u * px - 0.5, v * py - 0.5}); };
+  const auto left = ray(found.x, y), right = ray(found.x + found.width, y);
+  const auto top = ray(x, found.y), bottom = ray(x, found.y + found.height);
+  for (const auto& side : {left, right, top, bottom})
+    if (!side || side->z() < 0.1) return std::nullopt;
+  return Box{.left = left->x() / left->z(),
+             .right = right->x() / right->z(),
+             .top = top->y() / top->z(),
+             .bottom = bottom->y() / bottom->z(),
+             .open_top = found.y<kRim, .open_bottom = found.y + found.height> picture.height - kRim};
+}
+
+/// 0: as it should be; infinite: this box is of something else. The sum of how far the cluster is from the middle of
+/// the box, in half widths, and of the logarithm of the heights' ratio.
+double BoxLifter::mismatch(const Box& box, const Seen& seen) const {
+  constexpr double kNever = std::numeric_limits<double>::infinity();
+  if (!seen.in_front) return kNever;
+  const double half = std::max(0.5 * (box.right - box.left), seen.half_width);
+  const double aside = std::abs(seen.x - 0.5 * (box.left + box.right)) / half;
+  const double top = box.open_top ? std::max(seen.top, box.top) : seen.top;
+  const double bottom = box.open_bottom ? std::min(seen.bottom, box.bottom) : seen.bottom;
+  if (aside > 1 || bottom <= top) return kNever;
+  const double ratio = (box.bottom - box.top) / (bottom - top);
+  if (ratio < kLowest || ratio > kHighest) return kNever;
+  // Hidden feet are usual, a hidden head is not: heads must be at the same height.
+  const double heads = box.open_top ? 0 : std::abs(box.top - seen.top) / (bottom - top);
+  return aside + heads;
+}
+
+/// The surest boxes choose first. Each cluster has at most one.
+void BoxLifter::assign(const Detections& boxes) {
+  order_.resize(boxes.found.size());
+  std::iota(order_.begin(), order_.end(), 0U);
+  std::ranges::stable_sort(order_, [&](auto a, auto b) { return boxes.found[a].score > boxes.found[b].score; });
+  for (const std::uint32_t i : order_) {
+    if (boxes.found[i].class_id != kPersonClass) continue;
+    const auto box = box_of(boxes.found[i], boxes);
+    if (!box) continue;
+    double least = kWorst;
+    std::size_t best = seen_.size();
+    for (std::size_t k = 0; k < seen_.size(); ++k) {
+      const double mismatched = mismatch(*box, seen_[k]);
+      if (verdicts_[k] == Verdict::kPerson || mismatched >= least) continue;
+      least = mismatched;
+      best = k;
+    }
+    if (best < seen_.size()) verdicts_[best] = Verdict::kPerson;
+  }
+}
+
+bool BoxLifter::covered(std::size_t i) const {
+  return std::ranges::any_of(seen_, [&](const Seen& other) {
+    return other.in_front && other.depth < seen_[i].depth - 0.3 &&
+           std::abs(other.x - seen_[i].x) < other.half_width + seen_[i].half_width;
+  });
+}
+
+std::span<const Verdict> BoxLifter::judge(const Detections& boxes, std::span<const Cluster> clusters,
+                                          const SE3& T_odom_base) {
+  const SE3 T_optical_odom = T_optical_base_ * T_odom_base.inverse();
+  seen_.clear();
+  for (const Cluster& cluster : clusters) seen_.push_back(look_at(cluster, T_optical_odom));
+  verdicts_.assign(clusters.size(), Verdict::kNothing);
+  if (boxes.width < 1 || boxes.height < 1) return verdicts_;
+  assign(boxes);
+  for (std::size_t i = 0; i < seen_.size(); ++i)
+    if (verdicts_[i] == Verdict::kNothing && seen_[i].in_view && seen_[i].depth < farthest_ && !covered(i))
+      verdicts_[i] = Verdict::kSilence;
+  return verdicts_;
+}
+
+}  // namespace cairn::people

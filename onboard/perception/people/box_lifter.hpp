@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "hal/labels.hpp"
+#include "hal/se3.hpp"
+#include "onboard/perception/cameras/camera_model.hpp"
+#include "onboard/perception/people/cluster_finder.hpp"
+
+namespace cairn::people {
+
+/// What a detector said of a cluster.
+enum class Verdict : std::uint8_t {
+  kNothing,  ///< out of view, too far, or something nearer is before it
+  kPerson,   ///< a box of a person belongs to it
+  kSilence,  ///< in view, and no box belongs to it
+};
+
+/// Boxes of a picture → the clusters that they belong to. A box takes the cluster in whose direction it is, that is as
+/// high in the picture as a person would be there, and that no other stands before. Depth comes from the scan alone.
+class BoxLifter {
+ public:
+  /// `T_base_camera`: the mount, in body axes. Beyond `farthest_m` silence means nothing.
+  BoxLifter(const cameras::CameraModel& camera, const SE3& T_base_camera, double farthest_m);
+
+  /// `T_odom_base`: when the picture was taken. One verdict for each cluster; valid until the next call.
+  std::span<const Verdict> judge(const Detections& boxes, std::span<const Cluster> clusters, const SE3& T_odom_base);
+
+ private:
+  /// In the optical frame at depth 1: x to the right, y down.
+  struct Box {
+    double left, right, top, bottom;
+    bool open_top, open_bottom;  // cut by the picture's rim
+  };
+  struct Seen {
+    bool in_front = false, in_view = false;
+    double x = 0, top = 0, bottom = 0;  // at depth 1
+    double depth = 0, half_width = 0;
+  };
+  [[nodiscard]] Seen look_at(const Cluster& cluster, const SE3& T_optical_odom) const;
+  [[nodiscard]] std::optional<Box> box_of(const Detection& found, const Detections& picture) const;
+  [[nodiscard]] double mismatch(const Box& box, const Seen& seen) const;
+  void assign(const Detections& boxes);
+  [[nodiscard]] bool covered(std::size_t i) const;
+
+  cameras::CameraModel camera_;
+  SE3 T_optical_base_;
+  double farthest_;
+  std::vector<Seen> seen_;
+  std::vector<Verdict> verdicts_;
+  std::vector<std::uint32_t> order_;
+};
+
+}  // namespace cairn::people

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/perception/people/people_config.hpp"
+
+namespace cairn::people {
+
+void declare(config::Section& s, DetectorTrust& t) {
+  s.number("recall", t.recall, {0.01, 0.99}, "", "share of the people in view that the detector finds in a picture");
+  s.number("false_share", t.false_share, {0.001, 0.5}, "",
+           "share of other person-sized things in view that it takes for people");
+  s.number("farthest_m", t.farthest_m, {1, 100}, "m", "beyond it, silence of the detector means nothing");
+}
+
+void declare(config::Section& s, PeopleConfig& c) {
+  s.choice(
+      "follow", c.follow, {"auto", "always", "never"},
+      "people are followed and stay out of the map: auto where a detector looks at pictures, always by scans alone, "
+      "too");
+  s.flag("movers", c.movers, "what is as large as a person and walks is followed, also where no camera sees it");
+  s.number("farthest_m", c.farthest_m, {2, 40}, "m", "nobody is looked for beyond it");
+  s.number("confirm", c.confirm, {0.5, 10}, "nat", "evidence from which somebody is a person");
+  s.number("patience_s", c.patience_s, {0.1, 10}, "s", "a track ends when nothing was seen of it for so long");
+  s.number("mask_radius_m", c.mask_radius_m, {0.1, 2}, "m", "points so near to a person's middle stay out of the map");
+  s.group("visible", c.visible, "how far the detector of colour pictures is trusted");
+  s.group("thermal", c.thermal, "how far the detector of thermal pictures is trusted");
+}
+
+}  // namespace cairn::people

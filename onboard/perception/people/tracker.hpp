@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "onboard/perception/people/box_lifter.hpp"
+#include "onboard/perception/people/cluster_finder.hpp"
+#include "onboard/perception/people/people_config.hpp"
+#include "onboard/perception/people/track.hpp"
+
+namespace cairn::people {
+
+/// Clusters of scans and verdicts of detectors → tracks. Every cluster is followed; a track is a person once the
+/// evidence is large enough. A detector's verdict adds ln(recall / false_share) or ln((1 − recall) / (1 −
+/// false_share)): a sequential test (Wald, 1945), in which any number of cameras add up. Walking adds as much as
+/// confirms.
+class Tracker {
+ public:
+  static constexpr std::size_t kMostTracks = 256;  ///< people or not
+  static constexpr double kClusterSigma = 0.12;    ///< m, on each axis, of a cluster's middle
+
+  /// What is measured of somebody at this place who has no cluster, such as a person beside a wall or in a group; none:
+  /// nothing. Points that are nearer to one of `others` are theirs.
+  using LookFor = std::function<std::optional<Eigen::Vector2d>(const Eigen::Vector2d& position,
+                                                               std::span<const Eigen::Vector2d> others)>;
+  /// Whether the scan's rays go through this place, where somebody was.
+  using SeenThrough = std::function<bool(const Eigen::Vector2d& position, float ground)>;
+
+  explicit Tracker(const PeopleConfig& config) : config_(config) {}
+
+  /// The clusters of a later scan.
+  void step(Time stamp, std::span<const Cluster> clusters, const LookFor& look_for, const SeenThrough& seen_through);
+  /// Of the last scan: its clusters, and after them people who were found without one.
+  [[nodiscard]] std::span<const Cluster> bodies() const { return bodies_; }
+  /// What a detector said of the bodies of the scan at `stamp`, of the last two seconds.
+  void hear(Time stamp, std::span<const Verdict> verdicts, const DetectorTrust& trust);
+  void clear();
+
+  /// The people, in the order of their ids. Valid until the next call.
+  [[nodiscard]] std::span<const Person> people() const { return people_; }
+  /// The tracks that have become people since the last call, with all that is known of their ways.
+  [[nodiscard]] std::vector<const Track*> take_new();
+
+ private:
+  void associate(std::span<const Cluster> clusters);
+  [[nodiscard]] bool contested(const Cluster& cluster) const;
+  void look_beside(const LookFor& look_for);
+  void end_tracks(Time stamp);
+  void begin_tracks(Time stamp, std::span<const Cluster> clusters);
+  void judge(Track& track);
+  void list_people();
+
+  PeopleConfig config_;
+  std::uint32_t next_id_ = 1;
+  std::vector<Track> tracks_;
+  std::vector<Person> people_;
+  std::vector<bool> taken_;  // clusters of the scan
+  std::vector<Cluster> bodies_;
+  struct Pair {
+    double distance2;
+    std::uint32_t track, cluster;
+  };
+  std::vector<Pair> pairs_;  // reused
+};
+
+}  // namespace cairn::people

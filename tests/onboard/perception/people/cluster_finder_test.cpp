@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/perception/people/cluster_finder.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <random>
+
+#include "tests/onboard/perception/people/walkers.hpp"
+
+namespace cairn::people {
+namespace {
+
+using Eigen::Vector3f;
+using test::Cylinder;
+using test::scan_of;
+
+std::vector<Cluster> clusters_of(const std::vector<Vector3f>& points, double farthest_m = 20) {
+  ClusterFinder finder(farthest_m);
+  return finder.find(points, test::sensor(), static_cast<float>(test::kSensorHeight));
+}
+
+TEST(ClusterFinder, FindsEverybodyWhereTheyStand) {
+  const std::vector<Cylinder> people{{{3, 1}}, {{5, -4}}, {{-6, 2}}, {{0, 9}}};
+  const auto found = clusters_of(scan_of(people));
+  ASSERT_EQ(found.size(), people.size());
+  for (const Cylinder& person : people) {
+    const auto near = std::ranges::min_element(
+        found, {}, [&](const Cluster& c) { return (c.centre.cast<double>() - person.place).norm(); });
+    EXPECT_LT((near->centre.cast<double>() - person.place).norm(), 0.15);
+    EXPECT_NEAR(near->ground, 0, 0.06);
+  }
+}
+
+TEST(ClusterFinder, WallsFurnitureAndWhatHangsAreNobody) {
+  EXPECT_TRUE(clusters_of(scan_of({})).empty()) << "a wall";
+  EXPECT_TRUE(clusters_of(scan_of({{{4, 0}, 0.3, 0.6}})).empty()) << "a bin";
+  EXPECT_TRUE(clusters_of(scan_of({{{4, 0}, 0.9, 1.7}})).empty()) << "a column as wide as a car";
+  auto sign = scan_of({});
+  for (int i = 0; i < 20; ++i) sign.emplace_back(4, 0.02F * static_cast<float>(i), 1.6F);
+  EXPECT_TRUE(clusters_of(sign).empty()) << "a sign in the air";
+}
+
+TEST(ClusterFinder, NobodyIsLookedForBeyondTheLimit) {
+  const auto scan = scan_of({{{5, 0}}, {{-14, 0}}});
+  EXPECT_EQ(clusters_of(scan, 20).size(), 2U);
+  EXPECT_EQ(clusters_of(scan, 10).size(), 1U);
+}
+
+TEST(ClusterFinder, PointsThatAreNoneChangeNothing) {
+  auto scan = scan_of({{{3, 1}}});
+  const auto before = clusters_of(scan);
+  constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
+  for (const float bad : {kNan, kInf, -kInf, 1e30F}) scan.insert(scan.begin(), {{bad, 0, 1}, {3, bad, 1}, {3, 1, bad}});
+  const auto after = clusters_of(scan);
+  ASSERT_EQ(after.size(), before.size());
+  EXPECT_EQ(after[0].centre, before[0].centre);
+}
+
+TEST(ClusterFinder, TheOrderOfThePointsDoesNotMatter) {
+  auto scan = scan_of({{{3, 1}}, {{5, -4}}});
+  const auto before = clusters_of(scan);
+  std::shuffle(scan.begin(), scan.end(), std::mt19937(7));
+  const auto after = clusters_of(scan);
+  ASSERT_EQ(after.size(), before.size());
+  for (std::size_t i = 0; i < after.size(); ++i) {
+    EXPECT_NEAR((after[i].centre - before[i].centre).norm(), 0, 1e-5);
+    EXPECT_EQ(after[i].points, before[i].points);
+  }
+}
+
+TEST(ClusterFinder, AnEmptyScanHasNobody) {
+  EXPECT_TRUE(clusters_of({}).empty());
+  EXPECT_TRUE(clusters_of({{1, 1, 1}}).empty());
+}
+
+/// The ground rises by a tenth, as a ramp does.
+TEST(ClusterFinder, FindsPeopleOnARamp) {
+  auto scan = scan_of({{{5, 1}}, {{-6, -2}}});
+  for (Vector3f& p : scan) p.z() += 0.1F * p.x();
+  EXPECT_EQ(clusters_of(scan).size(), 2U);
+}
+
+}  // namespace
+}  // namespace cairn::people

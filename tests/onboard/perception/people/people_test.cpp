@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/perception/people/people.hpp"
+
+#include <gtest/gtest.h>
+
+#include "tests/onboard/perception/people/walkers.hpp"
+
+namespace cairn::people {
+namespace {
+
+using test::Cylinder;
+using test::kScan;
+using test::scan_of;
+
+class PeopleTest : public ::testing::Test {
+ protected:
+  /// One scan; returns how many of its points are people's.
+  std::size_t observe(const std::vector<Cylinder>& bodies) {
+    now_ += kScan;
+    points_ = scan_of(bodies);
+    people_.observe({now_, points_, test::sensor(), static_cast<float>(test::kSensorHeight)},
+                    [](const Eigen::Vector3f& p) { return p.x() > 11.8F; });
+    EXPECT_EQ(people_.mask().size(), points_.size());
+    return static_cast<std::size_t>(std::ranges::count(people_.mask(), 1));
+  }
+  /// Points of the last scan that lie on this body.
+  [[nodiscard]] std::size_t points_on(const Cylinder& body) const {
+    return static_cast<std::size_t>(std::ranges::count_if(points_, [&](const Eigen::Vector3f& p) {
+      return p.z() > 0.08F && std::abs((p.head<2>().cast<double>() - body.place).norm() - body.radius) < 1e-3;
+    }));
+  }
+
+  PeopleConfig config_;
+  People people_{config_};
+  Time now_{std::chrono::seconds(5)};
+  std::vector<Eigen::Vector3f> points_;
+};
+
+TEST_F(PeopleTest, WhoWalksIsMaskedWholeAndNothingElse) {
+  Cylinder walker;
+  std::size_t masked = 0;
+  for (int i = 0; i < 25; ++i) {
+    walker.place = {6, -1.5 + 0.12 * i};
+    masked = observe({walker, {{4, 4}, 0.15, 2.0}});
+  }
+  ASSERT_EQ(people_.people().size(), 1U);
+  EXPECT_LT((people_.people()[0].position - walker.place).norm(), 0.2);
+  EXPECT_EQ(masked, points_on(walker)) << "the pole stays, and so does the ground";
+}
+
+TEST_F(PeopleTest, WhatStandsIsNobody) {
+  for (int i = 0; i < 25; ++i) EXPECT_EQ(observe({{{6, 0}}, {{4, 4}, 0.15, 2.0}}), 0U);
+}
+
+TEST_F(PeopleTest, ACameraTellsWhoStands) {
+  const auto camera = cameras::CameraModel::create(
+      {.width = 672, .height = 376, .fx = 350, .fy = 350, .cx = 335.5, .cy = 187.5, .distortion = {}});
+  people_.set_eye(Eye::kThermal, camera.value(), SE3::from_xyz_rpy((Vector6() << 0, 0, 0.5, 0, 0, 0).finished()));
+  Detections boxes{.source = {}, .stamp = {}, .width = 672, .height = 376, .found = {}};
+  boxes.found.push_back(
+      {.x = 321, .y = 117, .width = 29, .height = 100, .class_id = 11, .score = 0.9F});  // 6 m ahead, 1.72 m high
+  for (int i = 0; i < 3; ++i) {
+    observe({{{6, 0}}});
+    EXPECT_TRUE(people_.hear(Eye::kThermal, boxes, now_, {}));
+  }
+  EXPECT_EQ(observe({{{6, 0}}}), points_on({{6, 0}}));
+  EXPECT_FALSE(people_.hear(Eye::kVisible, boxes, now_, {})) << "there is no such camera";
+  EXPECT_FALSE(people_.hear(Eye::kThermal, boxes, now_ + kScan, {})) << "there is no such scan";
+}
+
+TEST_F(PeopleTest, BesideAWallSomebodyIsStillMasked) {
+  Cylinder walker;
+  std::size_t masked = 0;
+  for (int i = 0; i < 30; ++i) {
+    walker.place = {std::min(11.6, 9.0 + 0.12 * i), 0};
+    masked = observe({walker});
+  }
+  ASSERT_EQ(people_.people().size(), 1U);
+  EXPECT_GE(masked, points_on(walker) * 9 / 10);
+}
+
+TEST_F(PeopleTest, ForgetsEverybodyWithTheMap) {
+  for (int i = 0; i < 25; ++i) observe({{{6, -1.5 + 0.12 * i}}});
+  ASSERT_FALSE(people_.people().empty());
+  people_.clear();
+  EXPECT_TRUE(people_.people().empty());
+  EXPECT_EQ(observe({{{6, 1.5}}}), 0U);
+}
+
+TEST_F(PeopleTest, FeetAndHeadsAreOfTheBodyAndTheGroundIsNot) {
+  EXPECT_TRUE(people_.in_body({1.1F, 2, 0.12F}, {1, 2}, 0));
+  EXPECT_TRUE(people_.in_body({1.1F, 2, 1.9F}, {1, 2}, 0));
+  EXPECT_FALSE(people_.in_body({1.1F, 2, 0.02F}, {1, 2}, 0));
+  EXPECT_FALSE(people_.in_body({1.1F, 2, 2.5F}, {1, 2}, 0));
+  EXPECT_FALSE(people_.in_body({1.6F, 2, 1}, {1, 2}, 0));
+}
+
+}  // namespace
+}  // namespace cairn::people

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "onboard/client/robot_stream.hpp"
+#include "tools/ros/messages/header.hpp"
+
+namespace cairn::ros {
+
+/// People as rviz shows them: for each a cylinder, an arrow along one second of walking, and the number. The first
+/// marker removes all of before. People whom no camera has seen are grey; who is hidden is faint.
+[[nodiscard]] MarkerArray markers_of(const client::PeopleMessage& people, const Header& header, Arena& arena);
+
+}  // namespace cairn::ros
