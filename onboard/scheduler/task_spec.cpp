@@ -17,10 +17,14 @@ std::string format(const char* pattern, Values... values) {
   return {line.data(), static_cast<std::size_t>(n)};
 }
 
+/// Whose promises are added up.
+enum class Counted : bool { kStrong, kAll };
+
 /// Of `core`; of all unbound tasks for -1.
-double promised(std::span<const TaskSpec> tasks, int core) {
+double promised(std::span<const TaskSpec> tasks, int core, Counted counted = Counted::kAll) {
   double sum = 0;
-  for (const TaskSpec& t : tasks) sum += t.core == core ? t.utilisation() : 0;
+  for (const TaskSpec& t : tasks)
+    if (t.core == core && (counted == Counted::kAll || t.nice == 0)) sum += t.utilisation();
   return sum;
 }
 
@@ -33,19 +37,21 @@ std::string faults_of(const TaskSpec& t, int cores) {
   return faults;
 }
 
-std::string overloads(std::span<const TaskSpec> tasks, int cores) {
+std::string overloads(std::span<const TaskSpec> tasks, int cores, Counted counted) {
+  const double most = counted == Counted::kAll ? kMaxWithWeak : kMaxUtilisation;
+  const char* whose = counted == Counted::kAll ? " with weak tasks" : "";
   std::string faults;
   double all = 0;
   for (int core = 0; core < cores; ++core) {
-    const double share = promised(tasks, core);
+    const double share = promised(tasks, core, counted);
     all += share;
-    if (share > kMaxUtilisation + kRounding)
-      faults += format("core %d: %.1f %% are promised; %.0f %% may be\n", core, 100 * share, 100 * kMaxUtilisation);
+    if (share > most + kRounding)
+      faults += format("core %d%s: %.1f %% are promised; %.0f %% may be\n", core, whose, 100 * share, 100 * most);
   }
-  all += promised(tasks, -1);
-  if (all > kMaxUtilisation * cores + kRounding)
+  all += promised(tasks, -1, counted);
+  if (all > most * cores + kRounding)
     faults +=
-        format("all %d cores: %.1f %% are promised; %.0f %% may be\n", cores, 100 * all, 100 * kMaxUtilisation * cores);
+        format("all %d cores%s: %.1f %% are promised; %.0f %% may be\n", cores, whose, 100 * all, 100 * most * cores);
   return faults;
 }
 
@@ -79,7 +85,8 @@ std::string to_table(std::span<const TaskSpec> tasks, int cores) {
 Result<void> validate(std::span<const TaskSpec> tasks, int cores) {
   std::string faults;
   for (const TaskSpec& t : tasks) faults += faults_of(t, cores);
-  faults += overloads(tasks, cores);
+  faults += overloads(tasks, cores, Counted::kStrong);
+  if (faults.empty()) faults = overloads(tasks, cores, Counted::kAll);
   if (faults.empty()) return {};
   return Error{Errc::kInvalidConfig,
                "the schedule does not fit this machine",

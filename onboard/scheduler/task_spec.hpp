@@ -37,12 +37,14 @@ void declare(config::Section& section, TaskSpec& spec);
 /// The largest share of a core that all tasks on it may plan. Rate-monotonic scheduling is safe below 69 % (Liu &
 /// Layland 1973).
 inline constexpr double kMaxUtilisation = 0.70;
+/// The same with weak tasks, which have `nice` above 0: they use what others leave, and delay nobody.
+inline constexpr double kMaxWithWeak = 0.95;
 
 /// The tasks with rates, budgets and shares, and the sum for each core: a table in plain text.
 [[nodiscard]] std::string to_table(std::span<const TaskSpec> tasks, int cores);
 
 /// Error kInvalidConfig, with all faults and to_table():
-/// - the tasks plan more than kMaxUtilisation of a core
+/// - the tasks plan more than kMaxUtilisation of a core, or with weak tasks more than kMaxWithWeak
 /// - a task is bound to a core that the machine does not have
 /// - a soft budget is above the hard one, or a hard one above the deadline
 [[nodiscard]] Result<void> validate(std::span<const TaskSpec> tasks, int cores);

@@ -20,7 +20,7 @@ struct ScheduleProfile {
                                .rate_hz = 100,
                                .phase_ms = 1,
                                .deadline_ms = 100,
-                               .soft_ms = 35,
+                               .soft_ms = 40,
                                .hard_ms = 80,
                                .busy_hz = 10,
                                .priority = 50};
@@ -32,14 +32,14 @@ struct ScheduleProfile {
                               .hard_ms = 90,
                               .busy_hz = 10};
   scheduler::TaskSpec perception{
-      .name = "perception", .rate_hz = 50, .phase_ms = 4, .deadline_ms = 400, .soft_ms = 40, .busy_hz = 5, .nice = 5};
+      .name = "perception", .rate_hz = 50, .phase_ms = 4, .deadline_ms = 400, .soft_ms = 60, .busy_hz = 5, .nice = 5};
   scheduler::TaskSpec detection{
-      .name = "detection", .rate_hz = 50, .phase_ms = 6, .deadline_ms = 300, .soft_ms = 20, .busy_hz = 5, .nice = 5};
+      .name = "detection", .rate_hz = 50, .phase_ms = 6, .deadline_ms = 300, .soft_ms = 50, .busy_hz = 5, .nice = 5};
   scheduler::TaskSpec thermal_detection{.name = "thermal_detection",
                                         .rate_hz = 50,
                                         .phase_ms = 7,
                                         .deadline_ms = 300,
-                                        .soft_ms = 8,
+                                        .soft_ms = 10,
                                         .busy_hz = 5,
                                         .nice = 5};
   scheduler::TaskSpec depth{

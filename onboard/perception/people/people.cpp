@@ -10,8 +10,9 @@
 namespace cairn::people {
 namespace {
 
-constexpr float kBeside = 0.4F;   // m from where somebody is expected beside a wall
-constexpr int kFewestBeside = 5;  // points
+constexpr float kBeside = 0.4F;       // m from where somebody is expected beside a wall
+constexpr double kKnownBefore = 0.5;  // nats a scan: a detector's boxes still outweigh it
+constexpr int kFewestBeside = 5;      // points
 
 }  // namespace
 
@@ -39,6 +40,7 @@ void People::observe(const PeopleScan& scan, const Settled& settled) {
         return seen_through(at, ground, scan.points_odom, scan.sensor_odom);
       });
   remember(scan.stamp, tracker_.bodies());
+  doubt_furniture(scan, settled);
   fill_mask(scan);
 }
 
@@ -87,6 +89,23 @@ bool People::in_body(const Eigen::Vector3f& point, const Eigen::Vector2d& positi
   const float height = point.z() - ground;
   if (height < kAnkle || height > kHead) return false;
   return (point.head<2>() - position.cast<float>()).norm() < static_cast<float>(config_.mask_radius_m);
+}
+
+/// People are never in the map, so what the map has long known is no person.
+void People::doubt_furniture(const PeopleScan& scan, const Settled& settled) {
+  furniture_.clear();
+  for (const Person& person : people()) {
+    const Eigen::Vector2f middle = person.position.cast<float>();
+    int known = 0, all = 0;
+    for (std::size_t i = 0; i < scan.points_odom.size(); ++i) {
+      const float height = finder_.heights()[i];
+      if (height < kShin || height > kHead || (scan.points_odom[i].head<2>() - middle).norm() > kBeside) continue;
+      ++all;
+      if (settled(scan.points_odom[i])) ++known;
+    }
+    if (2 * known > all) furniture_.push_back(person.id);
+  }
+  for (const std::uint32_t id : furniture_) tracker_.weigh(id, -kKnownBefore);
 }
 
 void People::fill_mask(const PeopleScan& scan) {

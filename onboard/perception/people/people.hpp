@@ -70,6 +70,7 @@ class People {
                                                         std::span<const Eigen::Vector2d> others, const PeopleScan& scan,
                                                         const Settled& settled) const;
   void remember(Time stamp, std::span<const Cluster> bodies);
+  void doubt_furniture(const PeopleScan& scan, const Settled& settled);
   void fill_mask(const PeopleScan& scan);
 
   PeopleConfig config_;
@@ -78,6 +79,7 @@ class People {
   std::array<std::optional<BoxLifter>, 2> lifters_;
   std::deque<Remembered> scans_;
   std::vector<std::uint8_t> mask_;
+  std::vector<std::uint32_t> furniture_;  // reused
 };
 
 }  // namespace cairn::people

@@ -7,11 +7,12 @@
 
 namespace cairn::people {
 
-/// How far a detector's answer can be trusted: its shares on validation pictures.
+/// How far a detector's answer can be trusted: its shares on validation pictures. The defaults are those of the shipped
+/// networks, see their cards.
 struct DetectorTrust {
-  double recall = 0.8;        ///< of people in view and near enough, those that it finds
-  double false_share = 0.03;  ///< of other person-sized things in view, those that it takes for people
-  double farthest_m = 15;     ///< beyond it, silence of the detector means nothing
+  double recall = 0.45;       ///< of people in view and near enough, those that it finds
+  double false_share = 0.02;  ///< of other person-sized things in view, those that it takes for people
+  double farthest_m = 10;     ///< beyond it, silence of the detector means nothing
 };
 
 /// How people are found and followed: section `perception.people` of a profile.
@@ -22,7 +23,7 @@ struct PeopleConfig {
   double confirm = 4;           ///< evidence in nats from which somebody is a person; about 50 to 1
   double patience_s = 1;        ///< a track without a measurement for so long ends
   double mask_radius_m = 0.45;  ///< points so near to a person's middle stay out of the map
-  DetectorTrust visible, thermal{.recall = 0.8, .false_share = 0.03, .farthest_m = 15};
+  DetectorTrust visible, thermal{.recall = 0.65, .false_share = 0.02, .farthest_m = 10};
 };
 
 /// Keys, units and bounds.

@@ -136,6 +136,14 @@ void Tracker::hear(Time stamp, std::span<const Verdict> verdicts, const Detector
   list_people();
 }
 
+void Tracker::weigh(std::uint32_t id, double nats) {
+  const auto track = std::ranges::find(tracks_, id, [](const Track& t) { return t.person().id; });
+  if (track == tracks_.end()) return;
+  track->weigh(nats);
+  judge(*track);
+  list_people();
+}
+
 void Tracker::clear() {
   tracks_.clear();
   people_.clear();

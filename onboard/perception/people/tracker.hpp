@@ -38,6 +38,8 @@ class Tracker {
   [[nodiscard]] std::span<const Cluster> bodies() const { return bodies_; }
   /// What a detector said of the bodies of the scan at `stamp`, of the last two seconds.
   void hear(Time stamp, std::span<const Verdict> verdicts, const DetectorTrust& trust);
+  /// Evidence from elsewhere, in nats, for or against somebody; see people().
+  void weigh(std::uint32_t id, double nats);
   void clear();
 
   /// The people, in the order of their ids. Valid until the next call.

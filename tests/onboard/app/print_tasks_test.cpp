@@ -24,7 +24,7 @@ TEST(PrintTasks, ALiveRunHasTasksForTheDiskAndChannelsBetweenTheOthers) {
             "safety             500        80     -      0.2        1            2  input\n"
             "drive              500        75     -      0.2        1            2  input\n"
             "receive            100        60     -        1       10           20  input\n"
-            "odometry           100        50     -       35       80          100  stage\n"
+            "odometry           100        50     -       40       80          100  stage\n"
             "mapping            100         -     -       30       90          100  stage\n"
             "housekeeping        20         -     -        1        -         1000  live only\n"
             "saving              10         -     -        5        -         1000  live only\n"

@@ -35,6 +35,20 @@ TEST(TaskSpec, UnboundTasksShareAllCores) {
   EXPECT_FALSE(validate(std::vector{task("a", 10, 70, 0), task("b", 10, 71)}, 2));
 }
 
+/// A network may use what geometry leaves, and still not all of it.
+TEST(TaskSpec, WeakTasksMayUseWhatOthersLeave) {
+  TaskSpec weak = task("weak", 5, 100);
+  weak.nice = 5;
+  EXPECT_TRUE(validate(std::vector{task("a", 10, 70), task("b", 10, 70), weak}, 2)) << "1.9 of 2 cores";
+  weak.soft_ms = 102;
+  const auto refused = validate(std::vector{task("a", 10, 70), task("b", 10, 70), weak}, 2);
+  ASSERT_FALSE(refused);
+  EXPECT_THAT(refused.error().detail, HasSubstr("all 2 cores with weak tasks: 191.0 %"));
+  weak.nice = 0;
+  weak.soft_ms = 1;
+  EXPECT_FALSE(validate(std::vector{task("a", 10, 70), task("b", 10, 70), weak}, 2));
+}
+
 TEST(TaskSpec, OnlyReleasesWithWorkAreCounted) {
   TaskSpec t = task("odometry", 100, 40);
   EXPECT_FALSE(validate(std::vector{t}, 2));

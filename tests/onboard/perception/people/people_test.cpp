@@ -19,7 +19,7 @@ class PeopleTest : public ::testing::Test {
     now_ += kScan;
     points_ = scan_of(bodies);
     people_.observe({now_, points_, test::sensor(), static_cast<float>(test::kSensorHeight)},
-                    [](const Eigen::Vector3f& p) { return p.x() > 11.8F; });
+                    [this](const Eigen::Vector3f& p) { return p.x() > settled_x_; });
     EXPECT_EQ(people_.mask().size(), points_.size());
     return static_cast<std::size_t>(std::ranges::count(people_.mask(), 1));
   }
@@ -30,6 +30,7 @@ class PeopleTest : public ::testing::Test {
     }));
   }
 
+  float settled_x_ = 11.8F;  // m; what is farther ahead has long stood there
   PeopleConfig config_;
   People people_{config_};
   Time now_{std::chrono::seconds(5)};
@@ -77,6 +78,23 @@ TEST_F(PeopleTest, BesideAWallSomebodyIsStillMasked) {
   }
   ASSERT_EQ(people_.people().size(), 1U);
   EXPECT_GE(masked, points_on(walker) * 9 / 10);
+}
+
+/// Two boxes that were somebody else's make a chair a person. The map knows the chair.
+TEST_F(PeopleTest, WhatTheMapHasLongKnownIsNobodyForLong) {
+  const auto camera = cameras::CameraModel::create(
+      {.width = 672, .height = 376, .fx = 350, .fy = 350, .cx = 335.5, .cy = 187.5, .distortion = {}});
+  people_.set_eye(Eye::kVisible, camera.value(), SE3::from_xyz_rpy((Vector6() << 0, 0, 0.5, 0, 0, 0).finished()));
+  Detections boxes{.source = {}, .stamp = {}, .width = 672, .height = 376, .found = {}};
+  boxes.found.push_back({.x = 321, .y = 117, .width = 29, .height = 100, .class_id = 11, .score = 0.9F});
+  settled_x_ = 5;
+  for (int i = 0; i < 4; ++i) {
+    observe({{{6, 0}}});
+    people_.hear(Eye::kVisible, boxes, now_, {});
+  }
+  ASSERT_EQ(people_.people().size(), 1U);
+  for (int i = 0; i < 30; ++i) observe({{{6, 0}}});
+  EXPECT_TRUE(people_.people().empty());
 }
 
 TEST_F(PeopleTest, ForgetsEverybodyWithTheMap) {

@@ -49,7 +49,7 @@ TEST_F(TrackerTest, SilenceUndoesAPerson) {
     scan({{3, 0}});
     hear({Verdict::kPerson});
   }
-  for (int i = 0; i < 6; ++i) {
+  for (int i = 0; i < 15; ++i) {
     scan({{3, 0}});
     hear({Verdict::kSilence});
   }
