@@ -23,7 +23,7 @@ const RosType& ros_type<DiagnosticArray>() {
 template <>
 const RosType& ros_type<MarkerArray>() {
   static const RosType type{"visualization_msgs/msg/MarkerArray",
-                            "RIHS01_0000000000000000000000000000000000000000000000000000000000000000",
+                            "RIHS01_86cb8800b6fb05b5eff1abd7a56f62a5641d3ae9a1c29e78e67e704f1d067dcf",
                             &visualization_msgs_msg_dds__MarkerArray__desc};
   return type;
 }

@@ -182,8 +182,8 @@ class RosNodeTest : public RosProcessTest {
     bool complete = false;
     EXPECT_TRUE(until([&] {
       take_one<Message>(reader, [&](const Message& said) {
-        complete = said.node_entities_info_seq._buffer[0].writer_gid_seq._length == 8;
-        if (complete) expect_node(said, gid_size, 8, 4);
+        complete = said.node_entities_info_seq._buffer[0].writer_gid_seq._length == 9;
+        if (complete) expect_node(said, gid_size, 9, 4);
       });
       return complete;
     }));
