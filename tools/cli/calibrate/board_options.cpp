@@ -19,6 +19,10 @@ void add_board_options(CLI::App& command, BoardOptions& o) {
   command.add_flag("--json", o.json, "one JSON object on stdout");
 }
 
+void add_inverted_option(CLI::App& command, BoardOptions& o) {
+  command.add_flag("--inverted", o.inverted, "squares that are dark on the board are bright in the thermal pictures");
+}
+
 void add_lens_options(CLI::App& command, BoardOptions& o) {
   command.add_option("--model", o.model, "lens: radtan (k1 k2 p1 p2), or equidistant (fisheye, k1 to k4)")
       ->check(CLI::IsMember({"radtan", "equidistant"}))
@@ -31,7 +35,13 @@ void add_lens_options(CLI::App& command, BoardOptions& o) {
 Result<BoardSearch> search_of(const BoardOptions& o, BoardSearch::Eyes eyes) {
   const auto board = calibration::parse_board(o.board, o.square_m);
   if (!board) return board.error();
-  return BoardSearch{.recordings = o.recordings, .config = o.config, .board = *board, .eyes = eyes, .every = o.every};
+  return BoardSearch{.recordings = o.recordings,
+                     .config = o.config,
+                     .board = *board,
+                     .eyes = eyes,
+                     .every = o.every,
+                     .thermal = o.thermal,
+                     .inverted = o.inverted};
 }
 
 }  // namespace cairn::cli

@@ -21,11 +21,13 @@ struct BoardOptions {
   std::string board, format = "kalibr", model = "radtan";
   double square_m = 0;
   int every = 1;
-  bool json = false;
+  bool json = false, thermal = false, inverted = false;
 };
 
 /// Recordings, board, profile, output.
 void add_board_options(CLI::App& command, BoardOptions& options);
+/// --inverted, for pictures of a thermal camera.
+void add_inverted_option(CLI::App& command, BoardOptions& options);
 /// --format and --model, for what gives intrinsics.
 void add_lens_options(CLI::App& command, BoardOptions& options);
 /// Error: that of the board's size.

@@ -4,10 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <functional>
+#include <memory>
 #include <optional>
 
 #include "drivers/camera/camera.hpp"
 #include "drivers/recording/recording_reader.hpp"
+#include "drivers/thermal/thermal.hpp"
 #include "onboard/app/profile/recorded_profile.hpp"
 
 namespace cairn::cli {
@@ -20,10 +23,30 @@ Error wrong(const fs::path& recording, std::string_view cause, std::string detai
   return {Errc::kInvalidConfig, cause, recording.string(), {}, std::move(detail)};
 }
 
-std::optional<SourceId> camera_of(const recording::Recording& recording) {
+std::optional<SourceId> camera_of(const recording::Recording& recording, recording::SensorKind kind) {
   for (std::size_t i = 0; i < recording.sources.size(); ++i)
-    if (recording.sources[i].kind == recording::kCamera) return static_cast<SourceId>(i);
+    if (recording.sources[i].kind == kind) return static_cast<SourceId>(i);
   return {};
+}
+
+/// Null: there is nothing to look at in this packet.
+using Decode = std::function<Result<const Image*>(const Packet&)>;
+
+Result<Decode> decoder_of_pictures(const app::RobotProfile& profile, bool thermal) {
+  if (!thermal) {
+    auto camera = camera::Camera::create(profile.camera.driver);
+    if (!camera) return camera.error();
+    return Decode(
+        [eye = std::make_shared<camera::Camera>(*std::move(camera))](const Packet& p) { return eye->decode(p); });
+  }
+  auto camera = thermal::Thermal::create(profile.thermal.driver);
+  if (!camera) return camera.error();
+  return Decode(
+      [eye = std::make_shared<thermal::Thermal>(*std::move(camera))](const Packet& p) -> Result<const Image*> {
+        const auto seen = eye->decode(p);
+        if (!seen) return seen.error();
+        return *seen == nullptr || (*seen)->correcting ? nullptr : &(*seen)->stretched;
+      });
 }
 
 /// Looks at the pictures of one recording.
@@ -36,21 +59,26 @@ class Search {
     const fs::path& path = search_.recordings[index_];
     const auto chosen = app::choose_profile(search_.config, path);
     if (!chosen) return chosen.error();
-    side_by_side_ = chosen->profile.camera.driver.side_by_side;
+    side_by_side_ = !search_.thermal && chosen->profile.camera.driver.side_by_side;
     if (search_.eyes == BoardSearch::Eyes::kBoth && !side_by_side_)
       return wrong(path, "the profile's camera has one eye",
                    "set camera.side_by_side, or name a profile with --config");
     auto reader = recording::RecordingReader::open(path);
     if (!reader) return reader.error();
-    auto camera = camera::Camera::create(chosen->profile.camera.driver);
-    if (!camera) return camera.error();
-    const auto source = camera_of((*reader)->recording());
-    if (!source) return Error{Errc::kNotFound, "the recording lacks a sensor", path.string(), {}, "a camera"};
-    return read(**reader, *camera, *source);
+    const auto decode = decoder_of_pictures(chosen->profile, search_.thermal);
+    if (!decode) return decode.error();
+    const auto source = camera_of((*reader)->recording(), search_.thermal ? recording::kThermal : recording::kCamera);
+    if (!source)
+      return Error{Errc::kNotFound,
+                   "the recording lacks a sensor",
+                   path.string(),
+                   {},
+                   search_.thermal ? "a thermal camera" : "a camera"};
+    return read(**reader, *decode, *source);
   }
 
  private:
-  Result<void> read(recording::RecordingReader& reader, camera::Camera& camera, SourceId source) {
+  Result<void> read(recording::RecordingReader& reader, const Decode& decode, SourceId source) {
     int skipped = search_.every - 1;
     for (Packet packet;;) {
       const auto poll = reader.next(packet, {});
@@ -59,11 +87,12 @@ class Search {
       if (*poll == Poll::kEnd) return {};
       if (packet.source != source || ++skipped < search_.every) continue;
       skipped = 0;
-      const auto picture = camera.decode(packet);
+      const auto picture = decode(packet);
       if (!picture) {
         ++found_.unreadable;
         continue;
       }
+      if (*picture == nullptr) continue;
       if (auto looked = look(**picture); !looked) return looked;
     }
   }
@@ -80,7 +109,7 @@ class Search {
     ++found_.pictures;
     SeenBoard seen{.recording = index_, .stamp = picture.stamp, .eyes = {}};
     for (const ImageView& eye : eyes) {
-      auto corners = calibration::find_corners(eye, search_.board);
+      auto corners = calibration::find_corners(eye, search_.board, search_.inverted);
       if (!corners) return {};
       if (!seen.eyes.empty()) corners = calibration::ordered_like(seen.eyes[0], *std::move(corners));
       seen.eyes.push_back(*std::move(corners));

@@ -20,7 +20,9 @@ struct BoardSearch {
   std::filesystem::path config;  ///< robot profile; empty: each recording's own
   calibration::Board board;
   Eyes eyes = Eyes::kLeft;
-  int every = 1;  ///< look at every so many pictures
+  int every = 1;          ///< look at every so many pictures
+  bool thermal = false;   ///< the thermal camera's pictures, stretched to 8 bits; it has one eye
+  bool inverted = false;  ///< squares that are dark on the board are bright in the pictures
 };
 
 /// The board in one picture.
@@ -40,7 +42,8 @@ struct BoardsFound {
   [[nodiscard]] std::vector<calibration::Corners> corners(std::size_t eye) const;
 };
 
-/// Looks for the board in the camera's pictures. With both eyes, both have to see it. Errors: those of recordings and
+/// Looks for the board in the pictures of the camera, or of the thermal one. Pictures during a flat-field
+/// correction are left out. With both eyes, both have to see it. Errors: those of recordings and
 /// profiles; kNotFound: a recording lacks a camera, or no picture shows the board; kInvalidConfig: pictures of
 /// different sizes, or of one eye where two are needed.
 [[nodiscard]] Result<BoardsFound> search_boards(const BoardSearch& search);

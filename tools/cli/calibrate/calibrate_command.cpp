@@ -15,6 +15,7 @@ void add_calibrate_command(app::Commands& commands) {
   add_calibrate_camera(commands, *sub);
   add_calibrate_stereo(commands, *sub);
   add_calibrate_lidar_camera(commands, *sub);
+  add_calibrate_thermal(commands, *sub);
 }
 
 }  // namespace cairn::cli

@@ -5,7 +5,7 @@
 
 namespace cairn::cli {
 
-/// `cairn calibrate camera|stereo|lidar-camera RECORDING…`: calibrations from recordings of a checkerboard.
+/// `cairn calibrate camera|stereo|lidar-camera|thermal RECORDING…`: calibrations from recordings of a checkerboard.
 void add_calibrate_command(app::Commands& commands);
 
 }  // namespace cairn::cli

@@ -98,6 +98,8 @@ void add_calibrate_camera(app::Commands& commands, CLI::App& calibrate) {
   const auto o = std::make_shared<BoardOptions>();
   add_board_options(*sub, *o);
   add_lens_options(*sub, *o);
+  sub->add_flag("--thermal", o->thermal, "intrinsics of the thermal camera, by a heated board");
+  add_inverted_option(*sub, *o);
   sub->callback([&commands, o] { commands.job = [o] { return calibrate_camera(*o); }; });
 }
 

@@ -28,6 +28,7 @@ constexpr std::array kAxes{"x", "y", "z", "roll", "pitch", "yaw"};
 struct MountResult {
   BoardsFound found;
   std::size_t still = 0;  ///< times in which the board stood still
+  SE3 T_base_lidar;
   MountCalibration calibration;
 };
 
@@ -41,18 +42,20 @@ struct Believed {
 Result<Believed> believed(const BoardSearch& search, const BoardsFound& found) {
   const auto chosen = app::choose_profile(search.config, search.recordings[0]);
   if (!chosen) return chosen.error();
-  const auto& camera = chosen->profile.camera;
-  auto eye = camera.intrinsics.model(found.width, found.height);
+  const app::RobotProfile& profile = chosen->profile;
+  const auto& intrinsics = search.thermal ? profile.thermal.intrinsics : profile.camera.intrinsics;
+  const auto& mount = search.thermal ? profile.thermal.base_xyz_rpy : profile.camera.base_xyz_rpy;
+  auto eye = intrinsics.model(found.width, found.height);
   if (!eye && eye.error().code == Errc::kNotFound)
     return Error{Errc::kInvalidConfig,
                  "the camera is not calibrated",
                  search.recordings[0].string(),
                  {},
-                 "run cairn calibrate camera first, and name its file in camera.intrinsics.calibration of --config"};
+                 "run cairn calibrate camera first, and name its file in intrinsics.calibration of --config"};
   if (!eye) return eye.error();
   return Believed{.profile = chosen->profile,
                   .eye = *eye,
-                  .T_base_camera = SE3::from_xyz_rpy(Eigen::Map<const Vector6>(camera.base_xyz_rpy.data()))};
+                  .T_base_camera = SE3::from_xyz_rpy(Eigen::Map<const Vector6>(mount.data()))};
 }
 
 /// The still boards that differ most.
@@ -87,24 +90,32 @@ Result<MountResult> calibrate_mounts(const BoardSearch& search) {
                                 still.size());
     return error;
   }
-  return MountResult{.found = *std::move(found), .still = still.size(), .calibration = *std::move(done)};
+  return MountResult{.found = *std::move(found),
+                     .still = still.size(),
+                     .T_base_lidar = start->profile.robot().T_base_lidar,
+                     .calibration = *std::move(done)};
 }
 
+/// The key of a profile.
+const char* mount_name(bool thermal) { return thermal ? "T_base_thermal" : "T_base_camera"; }
+
 /// The section of a profile, with deviations as comments.
-std::string to_profile(const MountCalibration& m) {
+std::string to_profile(const MountCalibration& m, bool thermal) {
   const Vector6 mount = m.T_points_camera.xyz_rpy(), &s = m.deviations;
   return fmt::format(
-      "# cairn calibrate lidar-camera: {} poses, {} points\n"
+      "# cairn calibrate {}: {} poses, {} points\n"
       "# residuals: {:.4f} m, {:.3f} px (root mean squares)\n"
       "# standard deviations: x {:.4f}, y {:.4f}, z {:.4f} m, roll {:.5f}, pitch {:.5f}, yaw {:.5f} rad\n"
-      "camera:\n  T_base_camera: [{:.6f}, {:.6f}, {:.6f}, {:.7f}, {:.7f}, {:.7f}]\n",
-      m.used.size(), m.points, m.point_rms_m, m.corner_rms_px, s[0], s[1], s[2], s[3], s[4], s[5], mount[0], mount[1],
-      mount[2], mount[3], mount[4], mount[5]);
+      "{}\n  {}: [{:.6f}, {:.6f}, {:.6f}, {:.7f}, {:.7f}, {:.7f}]\n",
+      thermal ? "thermal" : "lidar-camera", m.used.size(), m.points, m.point_rms_m, m.corner_rms_px, s[0], s[1], s[2],
+      s[3], s[4], s[5], thermal ? "thermal:" : "camera:", mount_name(thermal), mount[0], mount[1], mount[2], mount[3],
+      mount[4], mount[5]);
 }
 
 report::Json mount_json(const MountResult& r, const BoardOptions& o) {
   const MountCalibration& m = r.calibration;
   const Vector6 mount = m.T_points_camera.xyz_rpy();
+  const Vector6 by_lidar = (r.T_base_lidar.inverse() * m.T_points_camera).xyz_rpy();
   report::Json json{{"pictures", r.found.pictures},
                     {"unreadable_packets", r.found.unreadable},
                     {"with_board", r.found.boards.size()},
@@ -118,7 +129,8 @@ report::Json mount_json(const MountResult& r, const BoardOptions& o) {
                     {"accepted", m.faults.empty()},
                     {"faults", m.faults}};
   for (Eigen::Index i = 0; i < 6; ++i) {
-    json["T_base_camera"].push_back(number(mount[i]));
+    json[mount_name(o.thermal)].push_back(number(mount[i]));
+    json[o.thermal ? "T_lidar_thermal" : "T_lidar_camera"].push_back(number(by_lidar[i]));
     json["deviations"].push_back(number(m.deviations[i]));
   }
   json["coverage"] = coverage_json(m.coverage);
@@ -146,7 +158,7 @@ void print_mount(const MountResult& r) {
   print_verdict(m.faults, m.faults.empty() ? std::vector<std::string>{} : m.coverage.missing());
 }
 
-int calibrate_lidar_camera(const BoardOptions& o) {
+int calibrate_mount_of(const BoardOptions& o) {
   const auto search = search_of(o, BoardSearch::Eyes::kLeft);
   if (!search) return app::fail(search.error());
   const auto result =
@@ -154,7 +166,7 @@ int calibrate_lidar_camera(const BoardOptions& o) {
   if (!result) return app::fail(result.error());
   const bool accepted = result->calibration.faults.empty();
   if (accepted)
-    if (auto written = write_file_atomic(o.out, to_profile(result->calibration)); !written)
+    if (auto written = write_file_atomic(o.out, to_profile(result->calibration, o.thermal)); !written)
       return app::fail(written.error());
   if (o.json)
     (void)app::print(mount_json(*result, o));
@@ -169,7 +181,16 @@ void add_calibrate_lidar_camera(app::Commands& commands, CLI::App& calibrate) {
   CLI::App* sub = calibrate.add_subcommand("lidar-camera", "mount of the camera, by boards that the LiDAR sees, too");
   const auto o = std::make_shared<BoardOptions>();
   add_board_options(*sub, *o);
-  sub->callback([&commands, o] { commands.job = [o] { return calibrate_lidar_camera(*o); }; });
+  sub->callback([&commands, o] { commands.job = [o] { return calibrate_mount_of(*o); }; });
+}
+
+void add_calibrate_thermal(app::Commands& commands, CLI::App& calibrate) {
+  CLI::App* sub = calibrate.add_subcommand("thermal", "mount of the thermal camera, by heated boards and the LiDAR");
+  const auto o = std::make_shared<BoardOptions>();
+  o->thermal = true;
+  add_board_options(*sub, *o);
+  add_inverted_option(*sub, *o);
+  sub->callback([&commands, o] { commands.job = [o] { return calibrate_mount_of(*o); }; });
 }
 
 }  // namespace cairn::cli

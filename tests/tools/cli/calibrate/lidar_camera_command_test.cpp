@@ -39,12 +39,30 @@ Packet scan_packet(std::uint64_t n, Time stamp, const calibration::Points& point
   return p;
 }
 
+/// A thermal picture of the same board: what is dark is warm. A count is 0.01 K.
+Packet thermal_packet(std::uint64_t n, Time stamp, const Image& grey) {
+  Packet p;
+  p.source = static_cast<SourceId>(0);
+  p.sequence = n;
+  p.arrival = stamp;
+  const auto width = static_cast<std::uint32_t>(grey.width), height = static_cast<std::uint32_t>(grey.height);
+  camera::append_header(p.bytes,
+                        {static_cast<std::uint32_t>(camera::FrameFormat::kY16), width, height, 2 * width, false});
+  for (const std::byte value : grey.bytes) {
+    const unsigned counts = 30000 + 8 * (255 - std::to_integer<unsigned>(value));
+    p.bytes.push_back(static_cast<std::byte>(counts & 0xFFU));
+    p.bytes.push_back(static_cast<std::byte>(counts >> 8U));
+  }
+  return p;
+}
+
 /// The board stands still for half a second in each of `count` poses.
-void write_boards(const std::filesystem::path& folder, std::size_t count, double tilt) {
+void write_boards(const std::filesystem::path& folder, std::size_t count, double tilt, bool thermal = false) {
   recording::Recording r;
   r.robot = "robot_1";
   r.sources = {{"camera", recording::kCamera, "camera/data.csv", "camera", ""},
                {"lidar", recording::kScans, "scans/data.csv", "lidar", ""}};
+  if (thermal) r.sources[0] = {"thermal", recording::kThermal, "thermal/data.csv", "thermal", "plain"};
   auto writer = recording::RecordingWriter::create(folder, r).value();
   const auto camera = *cameras::CameraModel::create(board_test::small_camera());
   const board_test::BoardPainter painter(camera, 2);
@@ -58,7 +76,10 @@ void write_boards(const std::filesystem::path& folder, std::size_t count, double
     const Image image = painter.paint(board_test::kLargeBoard, T, 2, random);
     const Time start{milliseconds(1000 + 2000 * static_cast<int>(pose))};
     for (int i = 0; i < 5; ++i) {
-      ASSERT_TRUE(writer.write(test::grey_packet(0, pictures++, start + milliseconds(100 * i), image)));
+      const Time stamp = start + milliseconds(100 * i);
+      ASSERT_TRUE(writer.write(thermal ? thermal_packet(pictures, stamp, image)
+                                       : test::grey_packet(0, pictures, stamp, image)));
+      ++pictures;
       const auto points = board_test::scan_points(board_test::kLargeBoard, T_base_optical * T, 1, 0.01, random);
       ASSERT_TRUE(writer.write(scan_packet(scans++, start + milliseconds(100 * i + 20), points)));
     }
@@ -90,6 +111,26 @@ TEST_F(CalibrateLidarCamera, WritesTheMountAsAProfileThatCairnReads) {
   ASSERT_TRUE(profile) << to_string(profile.error());
   const SE3 found = SE3::from_xyz_rpy(Eigen::Map<const Vector6>(profile->camera.base_xyz_rpy.data()));
   const SE3 error = found.inverse() * board_test::true_mount();
+  EXPECT_LT(error.translation().norm(), 0.015);
+  EXPECT_LT(rotation_angle(error) / calibration::kDegree, 0.3);
+}
+
+TEST_F(CalibrateLidarCamera, AHeatedBoardGivesTheMountOfTheThermalCamera) {
+  write_boards(folder_ / "boards", 18, 0.6, true);
+  ASSERT_TRUE(write_file_atomic(folder_ / "thermal.yaml",
+                                "thermal:\n  capture: {width: 336, height: 240}\n  model: plain\n"
+                                "  T_base_thermal: [0.23, 0.03, -0.1, 0.01, 0.06, -0.05]\n" +
+                                    std::string(kIntrinsics)));
+  const Outcome o =
+      run(add_calibrate_command,
+          {"calibrate", "thermal", (folder_ / "boards").string(), "--board", "9x6", "--square-m", "0.08", "--out",
+           (folder_ / "mount.yaml").string(), "--json", "--inverted", "--config", (folder_ / "thermal.yaml").string()});
+  ASSERT_EQ(o.exit_code, app::kDone) << o.err << o.out;
+  EXPECT_EQ(o.json()["T_lidar_thermal"].size(), 6U);
+  const auto profile = app::load_profile(folder_ / "mount.yaml");
+  ASSERT_TRUE(profile) << to_string(profile.error());
+  const SE3 error = SE3::from_xyz_rpy(Eigen::Map<const Vector6>(profile->thermal.base_xyz_rpy.data())).inverse() *
+                    board_test::true_mount();
   EXPECT_LT(error.translation().norm(), 0.015);
   EXPECT_LT(rotation_angle(error) / calibration::kDegree, 0.3);
 }
