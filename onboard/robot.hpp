@@ -33,6 +33,7 @@ struct LabellingSetup {
 
 /// The cameras that see people, and how people are followed.
 struct PeopleSetup {
+  /// One camera.
   struct MountedEye {
     people::Eye eye = people::Eye::kVisible;
     cameras::CameraModel camera;

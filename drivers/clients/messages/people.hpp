@@ -15,6 +15,7 @@ struct PeopleMessage {
   static constexpr RecordKind kKind = RecordKind::kPeople;
   static constexpr std::size_t kMost = 256;  ///< people
 
+  /// One of them.
   struct Person {
     std::uint32_t id = 0;         ///< of the robot that follows; never used again in one run
     std::uint32_t sightings = 0;  ///< pictures in which a detector saw this person; 0: only the LiDAR did

@@ -42,7 +42,7 @@ Result<const Image*> ColourReader::read(const Packet& packet) {
   if (const auto moves = check_moving(stuck_, packet); !moves) return moves.error();
   const health::PictureState state = health::judge(health::figures_of((*picture)->view()));
   if (state == health::PictureState::kGood) return picture;
-  return Error{Errc::kMalformed, "not labelled", {}, {}, std::string(to_string(state))};
+  return Error{Errc::kMalformed, "not looked at", {}, {}, std::string(to_string(state))};
 }
 
 Result<const Image*> ThermalReader::read(const Packet& packet) {

@@ -33,6 +33,7 @@ struct PictureForm {
   bool judged = true;         ///< pictures on which nothing can be seen are refused; recorded answers need no judgement
 };
 
+/// Colour pictures. Those on which nothing can be seen are refused.
 class ColourReader final : public PictureReader {
  public:
   ColourReader(camera::Camera camera, const PictureForm& form) : camera_(std::move(camera)), form_(form) {}
