@@ -142,7 +142,7 @@ void add_lidar_options(CLI::App& sub, simulator::LidarConfig& lidar) {
   sub.add_flag("--pps", lidar.pps, "lock the LiDAR's clock to UTC; otherwise it runs freely");
 }
 
-void add_camera_options(CLI::App& sub, simulator::StereoConfig& camera) {
+void add_camera_options(CLI::App& sub, simulator::StereoConfig& camera, simulator::ThermalConfig& thermal) {
   sub.add_option("--camera-rate", camera.rate_hz,
                  "pictures of the camera a second, 1/s; the trigger's pulses with them")
       ->check(CLI::Range(0.01, 120.0))
@@ -162,9 +162,6 @@ void add_camera_options(CLI::App& sub, simulator::StereoConfig& camera) {
                  "rolling shutter: time from one row of a picture to the next, s; 0: all rows at once")
       ->check(CLI::Range(0.0, 1e-3))
       ->capture_default_str();
-}
-
-void add_thermal_options(CLI::App& sub, simulator::ThermalConfig& thermal) {
   sub.add_option("--thermal-rate", thermal.rate_hz, "pictures of the thermal camera a second, 1/s")
       ->check(CLI::Range(0.01, 120.0))
       ->capture_default_str();
@@ -203,8 +200,7 @@ void add_simulate_command(app::Commands& commands) {
       ->check(CLI::Range(1U, 256U))
       ->capture_default_str();
   add_lidar_options(*sub, s.lidar);
-  add_camera_options(*sub, s.stereo);
-  add_thermal_options(*sub, s.thermal);
+  add_camera_options(*sub, s.stereo, s.thermal);
   sub->add_flag("--json", options->json, "one JSON object on stdout");
   add_live_options(*sub, options->live);
   sub->callback([&commands, options, sub] {
