@@ -43,6 +43,10 @@ void BoxRecorder::write_until(Time stamp, Time now) {
     if (failed_) monitor_.event(now, "recording", "boxes are no longer kept: " + to_string(written.error()));
   }
   lines_.erase(lines_.begin(), lines_.begin() + static_cast<std::ptrdiff_t>(done));
+  if (done == 0 || failed_) return;
+  const auto flushed = writer_.flush();  // what a core that dies has said is in the recording
+  failed_ = !flushed;
+  if (failed_) monitor_.event(now, "recording", "boxes are no longer kept: " + to_string(flushed.error()));
 }
 
 void BoxRecorder::write_waiting(Time now) {

@@ -54,15 +54,17 @@ std::optional<BoxLifter::Box> BoxLifter::box_of(const Detection& found, const De
   const auto top = ray(x, found.y), bottom = ray(x, found.y + found.height);
   for (const auto& side : {left, right, top, bottom})
     if (!side || side->z() < 0.1) return std::nullopt;
+  const bool cut_above = found.y<kRim, cut_below = found.y + found.height> picture.height - kRim;
   return Box{.left = left->x() / left->z(),
              .right = right->x() / right->z(),
              .top = top->y() / top->z(),
              .bottom = bottom->y() / bottom->z(),
-             .open_top = found.y<kRim, .open_bottom = found.y + found.height> picture.height - kRim};
+             .open_top = cut_above,
+             .open_bottom = cut_below};
 }
 
 /// 0: as it should be; infinite: this box is of something else. The sum of how far the cluster is from the middle of
-/// the box, in half widths, and of the logarithm of the heights' ratio.
+/// the box, in half widths, and of how far its head is from the box's top, in heights.
 double BoxLifter::mismatch(const Box& box, const Seen& seen) const {
   constexpr double kNever = std::numeric_limits<double>::infinity();
   if (!seen.in_front) return kNever;

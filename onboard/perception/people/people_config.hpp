@@ -7,8 +7,8 @@
 
 namespace cairn::people {
 
-/// How far a detector's answer can be trusted: its shares on validation pictures. The defaults are those of the shipped
-/// networks, see their cards.
+/// How far a detector's answer can be trusted: its shares on validation pictures. The recalls are those of the shipped
+/// networks, see their cards; the shares of false boxes are assumed.
 struct DetectorTrust {
   double recall = 0.45;       ///< of people in view and near enough, those that it finds
   double false_share = 0.02;  ///< of other person-sized things in view, those that it takes for people
