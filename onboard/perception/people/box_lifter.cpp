@@ -54,7 +54,8 @@ std::optional<BoxLifter::Box> BoxLifter::box_of(const Detection& found, const De
   const auto top = ray(x, found.y), bottom = ray(x, found.y + found.height);
   for (const auto& side : {left, right, top, bottom})
     if (!side || side->z() < 0.1) return std::nullopt;
-  const bool cut_above = found.y<kRim, cut_below = found.y + found.height> picture.height - kRim;
+  const bool cut_above = found.y < kRim;
+  const bool cut_below = found.y + found.height > picture.height - kRim;
   return Box{.left = left->x() / left->z(),
              .right = right->x() / right->z(),
              .top = top->y() / top->z(),
