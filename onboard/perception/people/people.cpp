@@ -10,9 +10,10 @@
 namespace cairn::people {
 namespace {
 
-constexpr float kBeside = 0.4F;       // m from where somebody is expected beside a wall
-constexpr double kKnownBefore = 0.5;  // nats a scan: a detector's boxes still outweigh it
-constexpr int kFewestBeside = 5;      // points
+constexpr float kBeside = 0.4F;                  // m from where somebody is expected beside a wall
+constexpr double kOnBoard = 2.5, kSteady = 0.3;  // m from the LiDAR, and of that place
+constexpr double kKnownBefore = 0.5;             // nats a scan: a detector's boxes still outweigh it
+constexpr int kFewestBeside = 5;                 // points
 
 }  // namespace
 
@@ -36,10 +37,11 @@ void People::observe(const PeopleScan& scan, const Settled& settled) {
       [&](const Eigen::Vector2d& at, std::span<const Eigen::Vector2d> others) {
         return look_for(at, others, scan, settled);
       },
-      [&](const Eigen::Vector2d& at, float ground) {
-        return seen_through(at, ground, scan.points_odom, scan.sensor_odom);
+      [&](const Track& track) {
+        return !carried(track, scan) &&
+               seen_through(track.steps().front().position, track.person().ground, scan.points_odom, scan.sensor_odom);
       });
-  remember(scan.stamp, tracker_.bodies());
+  remember(scan, tracker_.bodies());
   doubt_furniture(scan, settled);
   fill_mask(scan);
 }
@@ -65,14 +67,24 @@ std::optional<Eigen::Vector2d> People::look_for(const Eigen::Vector2d& position,
   return Eigen::Vector2d(sum / count);
 }
 
-void People::remember(Time stamp, std::span<const Cluster> bodies) {
+/// What keeps its place beside the LiDAR while the robot drives is the robot, or rides on it.
+bool People::carried(const Track& track, const PeopleScan& scan) const {
+  const Step &first = track.steps().front(), &last = track.steps().back();
+  const auto began = std::ranges::find(scans_, first.stamp, &Remembered::stamp);
+  if (began == scans_.end()) return false;
+  const Eigen::Vector2d offset = last.position - scan.sensor_odom.head<2>().cast<double>();
+  return offset.norm() < kOnBoard && (offset - (first.position - began->sensor)).norm() < kSteady;
+}
+
+void People::remember(const PeopleScan& scan, std::span<const Cluster> bodies) {
   if (scans_.size() == kScans) {
     scans_.push_back(std::move(scans_.front()));  // its memory is used again
     scans_.pop_front();
   } else {
     scans_.emplace_back();
   }
-  scans_.back().stamp = stamp;
+  scans_.back().stamp = scan.stamp;
+  scans_.back().sensor = scan.sensor_odom.head<2>().cast<double>();
   scans_.back().bodies.assign(bodies.begin(), bodies.end());
 }
 

@@ -62,6 +62,7 @@ class People {
  private:
   struct Remembered {
     Time stamp{};
+    Eigen::Vector2d sensor{0, 0};  // odom
     std::vector<Cluster> bodies;
   };
   static constexpr std::size_t kScans = 24;  // remembered
@@ -69,7 +70,8 @@ class People {
   [[nodiscard]] std::optional<Eigen::Vector2d> look_for(const Eigen::Vector2d& position,
                                                         std::span<const Eigen::Vector2d> others, const PeopleScan& scan,
                                                         const Settled& settled) const;
-  void remember(Time stamp, std::span<const Cluster> bodies);
+  void remember(const PeopleScan& scan, std::span<const Cluster> bodies);
+  [[nodiscard]] bool carried(const Track& track, const PeopleScan& scan) const;
   void doubt_furniture(const PeopleScan& scan, const Settled& settled);
   void fill_mask(const PeopleScan& scan);
 

@@ -36,7 +36,7 @@ void Tracker::step(Time stamp, std::span<const Cluster> clusters, const LookFor&
   look_beside(look_for);
   for (Track& track : tracks_) {
     if (!config_.movers || track.known_walker || !track.person().seen || !track.walked()) continue;
-    if (!seen_through(track.steps().front().position, track.person().ground)) continue;
+    if (!seen_through(track)) continue;
     track.known_walker = true;
     track.weigh(kWalkEvidence);
     judge(track);

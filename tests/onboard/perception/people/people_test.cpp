@@ -15,10 +15,12 @@ using test::scan_of;
 class PeopleTest : public ::testing::Test {
  protected:
   /// One scan; returns how many of its points are people's.
-  std::size_t observe(const std::vector<Cylinder>& bodies) {
+  std::size_t observe(const std::vector<Cylinder>& bodies, const Eigen::Vector3f& driven = {0, 0, 0}) {
     now_ += kScan;
     points_ = scan_of(bodies);
-    people_.observe({now_, points_, test::sensor(), static_cast<float>(test::kSensorHeight)},
+    for (Eigen::Vector3f& p : points_) p += driven;
+    const Eigen::Vector3f sensor = test::sensor() + driven;
+    people_.observe({now_, points_, sensor, static_cast<float>(test::kSensorHeight)},
                     [this](const Eigen::Vector3f& p) { return p.x() > settled_x_; });
     EXPECT_EQ(people_.mask().size(), points_.size());
     return static_cast<std::size_t>(std::ranges::count(people_.mask(), 1));
@@ -51,6 +53,13 @@ TEST_F(PeopleTest, WhoWalksIsMaskedWholeAndNothingElse) {
 
 TEST_F(PeopleTest, WhatStandsIsNobody) {
   for (int i = 0; i < 25; ++i) EXPECT_EQ(observe({{{6, 0}}, {{4, 4}, 0.15, 2.0}}), 0U);
+}
+
+/// As a mast that the LiDAR sees.
+TEST_F(PeopleTest, WhatRidesOnTheRobotIsNobody) {
+  settled_x_ = 1000;
+  for (int i = 0; i < 25; ++i) observe({{{1.5, 0.5}, 0.15, 1.2}}, {0, 0.12F * static_cast<float>(i), 0});
+  EXPECT_TRUE(people_.people().empty());
 }
 
 TEST_F(PeopleTest, ACameraTellsWhoStands) {

@@ -21,7 +21,7 @@ class TrackerTest : public ::testing::Test {
       clusters_.push_back({.centre = place.cast<float>(), .ground = 0, .top = 1.7F, .extent = 0.5F, .points = 40});
     tracker_.step(
         now_, clusters_, [this](const Vector2d&, std::span<const Vector2d>) { return beside_; },
-        [this](const Vector2d&, float) { return through_; });
+        [this](const Track&) { return through_; });
   }
   void hear(std::vector<Verdict> verdicts) { tracker_.hear(now_, verdicts, config_.visible); }
 
