@@ -44,14 +44,14 @@ Result<void> refuse_used(const fs::path& out) {
 }
 
 /// Half a metre above the ground where each robot starts: certainly free.
-std::string true_map(const World& world, const std::vector<Path>& paths) {
+std::string true_map(const World& world, const Tracer& tracer, const std::vector<Path>& paths) {
   std::vector<Eigen::Vector3d> seeds;
   for (const Path& path : paths) {
     const Eigen::Vector2d p = path.front();
     seeds.emplace_back(p.x(), p.y(), world.ground(p.x(), p.y()) + 0.5);
   }
   std::ostringstream text;
-  Voxels(world, kTruthResolution, seeds).to_octree()->write(text);
+  Voxels(world, kTruthResolution, seeds, &tracer).to_octree()->write(text);
   return std::move(text).str();
 }
 
@@ -85,7 +85,7 @@ Result<Stage> set_up(const SimulationConfig& config) {
   const double speed = config.flies() ? config.flight.level.speed : config.motion.limits.speed;
   auto paths = RoutePlanner(*world, plan, config.seed).plan(config.robots, speed * config.seconds + 2.0);
   if (!paths) return paths.error();
-  std::string world_ot = true_map(*world, *paths);
+  std::string world_ot = true_map(*world, *tracer, *paths);
   auto trajectories = drive_all(config, *world, plan, *paths);
   Crowd people;
   if (config.people > 0) {

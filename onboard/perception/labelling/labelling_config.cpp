@@ -14,9 +14,10 @@ void declare(config::Section& s, LabellingConfig& c) {
   s.number("occlusion_share", c.occlusion_share, {0, 1}, "", "plus this share of the nearest point's depth");
   s.integer("occlusion_window_px", c.occlusion_window_px, {1, 31}, "px",
             "edge of the square around the pixel; an even number counts as the next odd one");
-  s.number("occlusion_between_deg", c.occlusion_between_deg, {0, 10}, "deg",
-           "a point between nearer points above and below it within this angle is hidden; best the angle between two "
-           "lasers of the LiDAR; 0: not looked for");
+  s.number(
+      "occlusion_between_deg", c.occlusion_between_deg, {0, 10}, "deg",
+      "a point is hidden if nearer ones are above and below it within this angle, or if one of them has its label; "
+      "best the angle between two lasers of the LiDAR; 0: not looked for");
   s.integer("border_px", c.border_px, {0, 20}, "px", "pixels this near to another class give no label");
   s.number("line_time_us", c.line_time_us, {0, 1000}, "µs",
            "rolling shutter: from the exposure of one row to that of the next; 0: all rows at once");

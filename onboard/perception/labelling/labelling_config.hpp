@@ -15,7 +15,8 @@ struct LabellingConfig {
   int occlusion_window_px = 5;    ///< edge of the square around the pixel; odd
   /// A point is hidden, too, if there are such nearer points above it and below it within this angle: the lasers of
   /// many LiDARs are so far apart that a thing before it has gaps in the picture. The ground, which is nearer below
-  /// alone, hides nothing. 0: not looked for.
+  /// alone, hides nothing. One such point is enough if it has the same label and stands upright: the label is then its
+  /// own, since a thing's edge is beyond the last laser that meets it. 0: not looked for.
   double occlusion_between_deg = 2.2;
   int border_px = 2;        ///< pixels next to another class that give no label: borders are where networks err
   double line_time_us = 0;  ///< rolling shutter: from the exposure of a row to the next one's; 0: all rows at once

@@ -36,14 +36,28 @@ double area_of(const Facet& facet) {
   return 0.5 * sum.norm();
 }
 
-}  // namespace
-
-double clipped_area(const std::array<Vector3d, 3>& corners, const Vector3d& centre, double half) {
+Facet cut(const std::array<Vector3d, 3>& corners, const Vector3d& centre, double half) {
   Facet facet;
   for (const Vector3d& corner : corners) facet.add(corner - centre);
   for (int axis = 0; axis < 3; ++axis)
     for (const double side : {1.0, -1.0}) facet = cut(facet, axis, side, half);
-  return area_of(facet);
+  return facet;
+}
+
+}  // namespace
+
+ClippedTriangle clip(const std::array<Vector3d, 3>& corners, const Vector3d& centre, double half) {
+  const Facet facet = cut(corners, centre, half);
+  ClippedTriangle clipped;
+  for (std::size_t i = 1; i + 1 < facet.size; ++i) {
+    const Vector3d &a = facet.corners[0], &b = facet.corners[i], &c = facet.corners[i + 1];
+    clipped.pieces[clipped.size++] = {0.5 * (b - a).cross(c - a).norm(), centre + (a + b + c) / 3};
+  }
+  return clipped;
+}
+
+double clipped_area(const std::array<Vector3d, 3>& corners, const Vector3d& centre, double half) {
+  return area_of(cut(corners, centre, half));
 }
 
 }  // namespace cairn::simulator

@@ -9,6 +9,7 @@
 
 #include "hal/semantic_class.hpp"
 #include "tools/simulator/world/clipped_area.hpp"
+#include "tools/simulator/world/openness.hpp"
 
 namespace cairn::simulator {
 namespace {
@@ -37,6 +38,10 @@ bool crosses(const std::array<Vector3d, 3>& corners, const Vector3d& centre, dou
     }
   }
   return true;
+}
+
+std::array<Vector3d, 3> corners_of(const Triangle& t) {
+  return {t.a.cast<double>(), t.b.cast<double>(), t.c.cast<double>()};
 }
 
 /// State and class in one number: unknown, free, occupied without class, occupied with class 0, 1, …
@@ -145,14 +150,16 @@ class TrueTree final : public octomap::ColorOcTree {
 
 }  // namespace
 
-Voxels::Voxels(const World& world, double resolution, std::span<const Vector3d> seeds) : resolution_(resolution) {
+Voxels::Voxels(const World& world, double resolution, std::span<const Vector3d> seeds, const Tracer* tracer)
+    : resolution_(resolution) {
   first_ = cell(world.bounds.min());
   size_ = cell(world.bounds.max()) - first_ + Vector3i::Ones();
   state_.assign(index(first_ + Vector3i(0, 0, size_.z())), kUnknown);
   std::vector<Share> shares;
-  for (const Triangle& t : world.mesh.triangles()) mark(t, shares);
-  classify(std::move(shares));
+  const auto triangles = static_cast<std::uint32_t>(world.mesh.triangles().size());
+  for (std::uint32_t i = 0; i < triangles; ++i) mark(world.mesh, i, shares);
   flood(seeds);
+  classify(std::move(shares), world.mesh, tracer);
 }
 
 Vector3i Voxels::cell(const Vector3d& p) const { return (p / resolution_).array().floor().cast<int>(); }
@@ -178,9 +185,16 @@ std::uint8_t Voxels::class_at(const Vector3d& p) const {
   return inside(c) ? class_[index(c)] : kIgnoredClass;
 }
 
-void Voxels::mark(const Triangle& t, std::vector<Share>& shares) {
+Vector3d Voxels::centre_of(std::uint32_t voxel) const {
+  const auto at = static_cast<int>(voxel);
+  const Vector3i c(at % size_.x(), at / size_.x() % size_.y(), at / size_.x() / size_.y());
+  return resolution_ * ((first_ + c).cast<double>().array() + 0.5);
+}
+
+void Voxels::mark(const Mesh& mesh, std::uint32_t triangle, std::vector<Share>& shares) {
+  const Triangle& t = mesh.triangles()[triangle];
   const std::uint8_t class_id = properties(t.material).class_id;
-  const std::array<Vector3d, 3> corners{t.a.cast<double>(), t.b.cast<double>(), t.c.cast<double>()};
+  const std::array<Vector3d, 3> corners = corners_of(t);
   const Vector3i low = cell(corners[0].cwiseMin(corners[1]).cwiseMin(corners[2]));
   const Vector3i high = cell(corners[0].cwiseMax(corners[1]).cwiseMax(corners[2]));
   for (int z = low.z(); z <= high.z(); ++z) {
@@ -191,25 +205,50 @@ void Voxels::mark(const Triangle& t, std::vector<Share>& shares) {
         const std::size_t voxel = index({x, y, z});
         state_[voxel] = kOccupied;
         const double area = clipped_area(corners, centre, 0.5 * resolution_);
-        shares.push_back({static_cast<std::uint32_t>(voxel), class_id, static_cast<float>(area)});
+        shares.push_back({static_cast<std::uint32_t>(voxel), class_id, static_cast<float>(area), triangle});
       }
     }
   }
 }
 
-void Voxels::classify(std::vector<Share> shares) {
+/// Areas become what can be seen of them. What is covered everywhere keeps its class.
+void Voxels::leave_to_the_seen(std::span<Share> shares, const Mesh& mesh, const Tracer& tracer) const {
+  constexpr double kCovered = 1e-3;
+  const auto known = [this](const Vector3d& p) { return at(p) != kUnknown; };
+  for (Share& share : shares) {
+    const std::array<Vector3d, 3> corners = corners_of(mesh.triangles()[share.triangle]);
+    const Vector3d normal = (corners[1] - corners[0]).cross(corners[2] - corners[0]);
+    if (!(normal.norm() > 0)) continue;
+    const ClippedTriangle clipped = clip(corners, centre_of(share.voxel), 0.5 * resolution_);
+    double seen = kCovered * share.area;
+    for (const auto& piece : std::span(clipped.pieces).first(clipped.size))
+      seen += piece.area * openness(tracer, piece.middle, normal.normalized(), known);
+    share.area = static_cast<float>(seen);
+  }
+}
+
+std::uint8_t Voxels::largest_class(std::span<const Share> shares) {
+  std::uint8_t found = kIgnoredClass;
+  float largest = -1;
+  for (auto begin = shares.begin(); begin != shares.end();) {
+    const std::uint8_t class_id = begin->class_id;
+    float area = 0;
+    for (; begin != shares.end() && begin->class_id == class_id; ++begin) area += begin->area;
+    if (area > largest) largest = area, found = class_id;
+  }
+  return found;
+}
+
+void Voxels::classify(std::vector<Share> shares, const Mesh& mesh, const Tracer* tracer) {
   class_.assign(state_.size(), kIgnoredClass);
   std::ranges::stable_sort(shares, {}, [](const Share& s) { return std::pair(s.voxel, s.class_id); });
-  for (std::size_t i = 0; i < shares.size();) {
-    const std::uint32_t voxel = shares[i].voxel;
-    float largest = -1;
-    while (i < shares.size() && shares[i].voxel == voxel) {
-      const std::uint8_t class_id = shares[i].class_id;
-      float area = 0;
-      for (; i < shares.size() && shares[i].voxel == voxel && shares[i].class_id == class_id; ++i)
-        area += shares[i].area;
-      if (area > largest) largest = area, class_[voxel] = class_id;
-    }
+  for (auto begin = shares.begin(); begin != shares.end();) {
+    const std::uint32_t voxel = begin->voxel;
+    const auto end = std::find_if(begin, shares.end(), [&](const Share& s) { return s.voxel != voxel; });
+    const bool mixed = begin->class_id != std::prev(end)->class_id;
+    if (mixed && tracer != nullptr) leave_to_the_seen({begin, end}, mesh, *tracer);
+    class_[voxel] = largest_class({begin, end});
+    begin = end;
   }
 }
 

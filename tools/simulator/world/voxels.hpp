@@ -8,6 +8,7 @@
 #include <span>
 #include <vector>
 
+#include "tools/simulator/world/tracer.hpp"
 #include "tools/simulator/world/world.hpp"
 
 namespace cairn::simulator {
@@ -16,13 +17,14 @@ namespace cairn::simulator {
 ///   occupied  voxels that a surface passes through (exact triangle–cube overlap),
 ///   free      voxels without surface that are connected with the robots' surroundings through voxel faces,
 ///   unknown   the rest: the inside of walls, furniture and the ground, and all beyond the bounds of the mesh.
-/// The class of an occupied voxel is that of the materials whose surface inside of it is largest.
+/// The class of an occupied voxel is that of the materials of which most can be seen inside of it: area times openness.
 class Voxels {
  public:
   enum State : std::uint8_t { kUnknown = 0, kFree = 1, kOccupied = 2 };
 
-  /// `resolution` is an edge in metres; `seeds` are points in free space, such as the robots' starts.
-  Voxels(const World& world, double resolution, std::span<const Eigen::Vector3d> seeds);
+  /// `resolution` is an edge in metres; `seeds` are points in free space, such as the robots' starts. `tracer`, of the
+  /// world, is used here only. Without it the area alone decides on the class, covered or not.
+  Voxels(const World& world, double resolution, std::span<const Eigen::Vector3d> seeds, const Tracer* tracer = nullptr);
 
   [[nodiscard]] State at(const Eigen::Vector3d& p) const;
   /// The trainId of an occupied voxel; kIgnoredClass where it has none, and everywhere else.
@@ -37,9 +39,13 @@ class Voxels {
     std::uint32_t voxel;
     std::uint8_t class_id;
     float area;
+    std::uint32_t triangle;  ///< of the mesh
   };
-  void mark(const Triangle& triangle, std::vector<Share>& shares);
-  void classify(std::vector<Share> shares);
+  void mark(const Mesh& mesh, std::uint32_t triangle, std::vector<Share>& shares);
+  void classify(std::vector<Share> shares, const Mesh& mesh, const Tracer* tracer);
+  void leave_to_the_seen(std::span<Share> shares, const Mesh& mesh, const Tracer& tracer) const;
+  [[nodiscard]] static std::uint8_t largest_class(std::span<const Share> shares);  // ordered by class
+  [[nodiscard]] Eigen::Vector3d centre_of(std::uint32_t voxel) const;
   void flood(std::span<const Eigen::Vector3d> seeds);
   [[nodiscard]] State* row(int y, int z);  // null outside
   [[nodiscard]] Eigen::Vector3i cell(const Eigen::Vector3d& p) const;

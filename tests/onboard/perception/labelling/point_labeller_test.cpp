@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <random>
+#include <utility>
 
 #include "tests/onboard/perception/labelling/scene.hpp"
 #include "tests/support/allocation_count.hpp"
@@ -111,6 +112,21 @@ TEST(PointLabeller, LasersThatAreFarApartHideWhatIsBetweenThem) {
   EXPECT_GT(test::wrong_labels(with_gaps.points), 5U);
   EXPECT_EQ(test::wrong_labels(result.points), 0U);
   EXPECT_EQ(count(result.points, kRoad), count(with_gaps.points, kRoad)) << "the ground hides nothing";
+}
+
+/// A laser meets a thing 1.6 m high, the next one above passes it and meets a wall. The camera sees the thing's edge
+/// between the two.
+TEST(PointLabeller, AThingWithTheSameLabelHidesWhatIsJustAboveItsLastPoint) {
+  PlacedScan scan;
+  scan.points_base = {{6, 0.3F, 1.5F}, {12, 0.3F, 2.05F}};  // 4 pixels apart
+  EXPECT_EQ(labelled(uniform(kCar), scan, SE3()).points.size(), 1U);
+  EXPECT_EQ(labelled(uniform(kCar), scan, SE3()).figures.hidden, 1U);
+  EXPECT_EQ(labelled(uniform(kRoad), scan, SE3()).points.size(), 2U) << "the ground goes on behind itself";
+  LabellingConfig near;
+  near.occlusion_between_deg = 0;
+  EXPECT_EQ(labelled(uniform(kCar), scan, SE3(), near).points.size(), 2U);
+  std::swap(scan.points_base[0], scan.points_base[1]);
+  EXPECT_EQ(labelled(uniform(kCar), scan, SE3()).points.size(), 1U) << "in any order";
 }
 
 TEST(PointLabeller, TheCameraIsWhereItWasAtTheExposure) {

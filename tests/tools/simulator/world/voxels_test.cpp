@@ -126,6 +126,25 @@ TEST(Voxels, TheLargestSurfaceGivesTheClass) {
   EXPECT_EQ(voxels.class_at({5, 5, 5}), kIgnoredClass);        // outside of all
 }
 
+// A coat of paint 2 cm before a column: both faces have the same area in each voxel that has both. Road goes on below.
+TEST(Voxels, WhatIsCoveredDoesNotGiveTheClass) {
+  World world;
+  world.mesh.quad({-1, -1, 0.01}, {2, -1, 0.01}, {2, 2, 0.01}, {-1, 2, 0.01}, Material::kAsphalt);
+  world.mesh.quad({-1, -1, 3}, {2, -1, 3}, {2, 2, 3}, {-1, 2, 3}, Material::kCeiling);
+  world.mesh.box({0.53, 0.53, 0.01, 0}, 0.40, 0.60, 2.0, Material::kConcrete);
+  world.mesh.box({0.53, 0.53, 0.01, 0}, 0.44, 0.64, 1.0, Material::kPaint);
+  world.bounds = world.mesh.bounds();
+  const auto tracer = Tracer::build(world.mesh);
+  ASSERT_TRUE(tracer);
+  const Vector3d seeds[] = {{-0.5, -0.5, 1}};
+  const Voxels all(world, 0.1, seeds), seen(world, 0.1, seeds, &*tracer);
+  const Vector3d low{0.35, 0.55, 0.55}, high{0.35, 0.55, 1.55}, foot{0.33, 0.55, 0.05};
+  EXPECT_EQ(all.class_at(low), *find_class("building"));
+  EXPECT_EQ(seen.class_at(low), *find_class("wall"));
+  EXPECT_EQ(seen.class_at(high), *find_class("building"));
+  EXPECT_EQ(seen.class_at(foot), *find_class("wall")) << "the road below it is covered, and seen by nobody from below";
+}
+
 TEST(Voxels, ASurfaceWithoutClassGivesNone) {
   World world;
   world.mesh.box({0.5, 0.5, 0.0, 0}, 0.9, 0.9, 0.85, Material::kWood);
