@@ -12,13 +12,14 @@ struct Scene {
   const char* name;
   World (*make)();
 };
-constexpr std::array<Scene, 7> kScenes{{{"corridor", scenes::corridor},
+constexpr std::array<Scene, 8> kScenes{{{"corridor", scenes::corridor},
                                         {"hallway", scenes::hallway},
                                         {"lobby", scenes::lobby},
                                         {"office", scenes::office},
                                         {"carpark", scenes::carpark},
                                         {"forest", scenes::forest},
-                                        {"street", scenes::street}}};
+                                        {"street", scenes::street},
+                                        {"tramstop", scenes::tramstop}}};
 
 /// Scenes are drawn in whole centimetres. Real walls do not stand on the faces of somebody's 0.1 m voxels, where
 /// rounding alone decides which voxel is hit; moved by this, neither do these.

@@ -22,5 +22,8 @@ namespace cairn::simulator::scenes {
 /// 80 × 56 m of a town in the open air: a street between houses with everything that is parked and stands there, and a
 /// campus green with paths, trees, fence and wall. 17 of the 19 Cityscapes classes, people included.
 [[nodiscard]] World street();
+/// 60 × 34 m of a town: a tram stands at its stop between a road and a square, and cyclists wait. Of Cityscapes'
+/// classes it has what the street lacks: train and rider. The riders are part of the world, as all that stands.
+[[nodiscard]] World tramstop();
 
 }  // namespace cairn::simulator::scenes

@@ -35,13 +35,14 @@ void rim(Mesh& m, const Placement& p, double forward, double radius, Material pa
   for (int i = 0; i < 4; ++i) bar(m, p, on(i), on(i + kSegments / 2), 0.006, paint);
 }
 
-void windows(Mesh& m, const Placement& p, double length, double half_width, double low, double high, int panes) {
+void windows(Mesh& m, const Placement& p, double length, double half_width, double low, double high, int panes,
+             Material glass = Material::kVehicleGlass) {
   const double pane = length / panes;
   for (int i = 0; i < panes; ++i) {
     const double x0 = -0.5 * length + i * pane + 0.06, x1 = x0 + pane - 0.12;
     for (const double y : {-half_width, half_width}) {
       m.quad(p * Eigen::Vector3d(x0, y, low), p * Eigen::Vector3d(x1, y, low), p * Eigen::Vector3d(x1, y, high),
-             p * Eigen::Vector3d(x0, y, high), Material::kVehicleGlass);
+             p * Eigen::Vector3d(x0, y, high), glass);
     }
   }
 }
@@ -92,6 +93,19 @@ void truck(Mesh& m, const Placement& p) {
     for (const double y : {-1.0, 1.0}) m.wheel(p.at(x, y, 0.46), 0.46, 0.28, Material::kTyre);
   }
   m.box(p.at(-3.67, 0, 0.6), 0.04, 1.6, 0.12, Material::kRetroreflector);
+}
+
+void tram(Mesh& m, const Placement& p) {
+  for (const double end : {1.0, -1.0}) {
+    const Placement half = p.at(end * 5.6, 0, 0, end > 0 ? 0.0 : kPi);
+    m.frustum(half.at(0, 0, 0.35), 10.6, 2.4, 10.4, 2.3, -0.1, 2.75, Material::kTramPaint);
+    windows(m, half.at(-0.2, 0), 9.6, 1.212, 1.35, 2.55, 6, Material::kTramGlass);
+    m.quad(half * Eigen::Vector3d(5.32, -1.0, 1.2), half * Eigen::Vector3d(5.32, 1.0, 1.2),
+           half * Eigen::Vector3d(5.18, 1.0, 2.6), half * Eigen::Vector3d(5.18, -1.0, 2.6), Material::kTramGlass);
+    for (const double x : {-2.8, 2.8}) m.box(half.at(x, 0, 0.02), 2.2, 2.0, 0.33, Material::kTramPaint);
+    m.box(half.at(0, 0, 3.1), 4.0, 1.4, 0.3, Material::kTramPaint);
+  }
+  m.box(p.at(0, 0, 0.5), 0.8, 2.0, 2.4, Material::kTramPaint);  // bellows
 }
 
 void bicycle(Mesh& m, const Placement& p) {

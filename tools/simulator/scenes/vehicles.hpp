@@ -11,7 +11,9 @@ enum class CarKind { kSedan, kHatchback, kVan };
 void car(Mesh& mesh, const Placement& p, CarKind kind, Material paint);
 void bus(Mesh& mesh, const Placement& p);    ///< 11.5 × 2.5 × 3 m
 void truck(Mesh& mesh, const Placement& p);  ///< 7.5 × 2.4 × 3.3 m, with a tarpaulin
+void tram(Mesh& mesh, const Placement& p);   ///< 22 × 2.4 × 3.4 m, in two parts
 void bicycle(Mesh& mesh, const Placement& p);
 void motorcycle(Mesh& mesh, const Placement& p);
+void cyclist(Mesh& mesh, const Placement& p);  ///< stands astride a bicycle and waits
 
 }  // namespace cairn::simulator::scenes

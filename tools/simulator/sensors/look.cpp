@@ -71,6 +71,11 @@ constexpr std::array<Look, kMaterials> kLooks{{
     {0.08F, 0.14F, 0.35F, Pattern::kMottled, 0.12, 0.30, 0},    // blue clothes
     {0.50F, 0.08F, 0.08F, Pattern::kMottled, 0.12, 0.25, 0},    // red clothes
     {0.65F, 0.63F, 0.58F, Pattern::kMottled, 0.12, 0.20, 0},    // light clothes
+    {0.62F, 0.06F, 0.05F, Pattern::kMottled, 2.0, 0.05, 0.04},  // tram paint
+    {0.05F, 0.06F, 0.07F, Pattern::kMottled, 1.0, 0.10, 0.10},  // tram glass
+    {0.58F, 0.38F, 0.28F, Pattern::kMottled, 0.1, 0.08, 0},     // a rider's skin
+    {0.66F, 0.60F, 0.08F, Pattern::kMottled, 0.12, 0.20, 0},    // a rider's clothes
+    {0.07F, 0.07F, 0.09F, Pattern::kMottled, 0.12, 0.30, 0},    // a rider's dark parts
 }};
 
 double hashed(std::int64_t x, std::int64_t y, std::int64_t z) {

@@ -7,7 +7,7 @@ namespace cairn::simulator {
 namespace {
 
 constexpr std::uint8_t kRoad = 0, kSidewalk = 1, kBuilding = 2, kWall = 3, kFenceClass = 4, kPoleClass = 5, kLight = 6,
-                       kSign = 7, kVegetation = 8, kTerrain = 9, kCar = 13, kTruck = 14, kBus = 15,
+                       kSign = 7, kVegetation = 8, kTerrain = 9, kCar = 13, kTruck = 14, kBus = 15, kTrain = 16,
                        kMotorcycleClass = 17, kBicycleClass = 18, kIgnore = kIgnoredClass;
 
 // In the order of the enum. A mirror-like lobe of 400 lets glass answer within a few degrees of the normal only.
@@ -59,6 +59,11 @@ constexpr std::array<MaterialProperties, kMaterials> kTable{{
     {kPersonClass, 0.45},      // blue clothes
     {kPersonClass, 0.50},      // red clothes
     {kPersonClass, 0.75},      // light clothes
+    {kTrain, 0.50},            // tram paint
+    {kTrain, 0.30, 400.0},     // tram glass
+    {kRiderClass, 0.55},       // a rider's skin, clothes, and dark parts: hair, shoes, trousers
+    {kRiderClass, 0.50},       //
+    {kRiderClass, 0.20},       //
 }};
 
 }  // namespace

@@ -56,6 +56,12 @@ enum class Material : std::uint8_t {
   kClothesBlue,
   kClothesRed,
   kClothesLight,
+  // at a tram stop
+  kTramPaint,
+  kTramGlass,
+  kRiderSkin,
+  kRiderClothes,
+  kRiderDark,
 };
 
 /// What a sensor sees of a surface.
@@ -65,8 +71,8 @@ struct MaterialProperties {
   double lobe = 1.0;  ///< the return falls with cos(incidence)^lobe: 1 = Lambertian, hundreds = mirror-like
 };
 
-inline constexpr std::size_t kMaterials = static_cast<std::size_t>(Material::kClothesLight) + 1;
-inline constexpr std::uint8_t kSkyClass = 10, kPersonClass = 11, kIgnoredClass = 255;
+inline constexpr std::size_t kMaterials = static_cast<std::size_t>(Material::kRiderDark) + 1;
+inline constexpr std::uint8_t kSkyClass = 10, kPersonClass = 11, kRiderClass = 12, kIgnoredClass = 255;
 
 [[nodiscard]] const MaterialProperties& properties(Material material);
 

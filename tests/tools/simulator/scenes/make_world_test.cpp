@@ -121,6 +121,18 @@ TEST(World, StreetHasMostOfCityscapesClasses) {
     EXPECT_EQ(classes.count(promised), 1u) << promised;
 }
 
+TEST(World, StreetAndTramStopHaveAllClassesOfThingsThatStand) {
+  std::set<int> classes;
+  for (const char* name : {"street", "tramstop"}) {
+    const World world = *make_world(name);
+    for (const Triangle& t : world.mesh.triangles()) classes.insert(properties(t.material).class_id);
+  }
+  for (int k = 0; k < 19; ++k) {
+    const bool elsewhere = k == kSkyClass || k == kPersonClass;  // the sky is no surface, and people walk
+    EXPECT_EQ(classes.count(k), elsewhere ? 0U : 1U) << k;
+  }
+}
+
 TEST(World, ForestHasASlope) {
   const World world = *make_world("forest");
   EXPECT_GT(world.ground(55, 55) - world.ground(5, 5), 3.0);

@@ -109,6 +109,22 @@ TEST(ThermalCamera, TheSunWarmsWallsByDay) {
   }
 }
 
+TEST(ThermalCamera, RidersAreAsWarmAsWalkers) {
+  const SceneWithPeople scene("tramstop", 0, true);
+  const Trajectory robot = scene.resting({18.0, 34.0}, 0);  // towards the cyclists on the square
+  const ThermalCamera camera({}, scene.tracer, scene.crowd, scene.climate, robot, 1);
+  const auto image = shoot_thermal(camera, kTestStart).image;
+  const auto seen = sightings(camera, scene, robot, kTestStart);
+  int warm = 0, riders = 0;
+  for (int i = 0; i < static_cast<int>(seen.size()); ++i) {
+    if (seen[static_cast<std::size_t>(i)].class_id() != kRiderClass) continue;
+    ++riders;
+    warm += image.values.view().at<float>(i % 160, i / 160) > scene.climate.air_c + 2 ? 1 : 0;
+  }
+  ASSERT_GT(riders, 300);
+  EXPECT_GT(warm, riders * 8 / 10);
+}
+
 TEST(ThermalCamera, ShutterFreezesThePictureAndTelemetryTells) {
   const SceneWithPeople scene("lobby", 4);
   const Trajectory robot = scene.resting(scene.place, 0);

@@ -28,6 +28,8 @@ TEST(Material, TableIsInTheOrderOfTheEnum) {
   EXPECT_EQ(properties(Material::kTruckPaint).class_id, 14);
   EXPECT_EQ(properties(Material::kVehicleGlass).class_id, 13);
   EXPECT_EQ(properties(Material::kClothesLight).class_id, kPersonClass);
+  EXPECT_EQ(properties(Material::kTramGlass).class_id, 16);
+  EXPECT_EQ(properties(Material::kRiderDark).class_id, kRiderClass);
 }
 
 }  // namespace
