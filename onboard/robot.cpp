@@ -155,6 +155,10 @@ std::span<const people::Person> Robot::people() const {
   return people_ ? people_->people() : std::span<const people::Person>();
 }
 
+std::optional<double> Robot::eye_offset(people::Eye eye) const {
+  return people_ ? people_->offset(eye).angle() : std::nullopt;
+}
+
 Result<bool> Robot::see_people(people::Eye eye, const Detections& boxes) {
   if (!people_ || !people_->has(eye))
     return Error{Errc::kUnsupported, "boxes came of a camera that is not set up", {}, {}, {}};
@@ -162,6 +166,11 @@ Result<bool> Robot::see_people(people::Eye eye, const Detections& boxes) {
   if (!T_odom_base) return T_odom_base.error();
   if (!*T_odom_base) return false;
   people_->hear(eye, boxes, recent_.nearest(boxes.stamp)->stamp, **T_odom_base);
+  if (people_->offset(eye).moved())
+    monitor_.event(boxes.stamp, "people",
+                   eye == people::Eye::kThermal
+                       ? "camera_moved: boxes of the thermal camera are beside the people: check its mount, intrinsics"
+                       : "camera_moved: boxes of the colour camera are beside the people: check its mount, intrinsics");
   take_back_new_people();
   return true;
 }

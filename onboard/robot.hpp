@@ -143,6 +143,8 @@ class Robot {
   Result<bool> see_people(people::Eye eye, const Detections& boxes);
   /// The people around the robot at the last scan that extended the map. Of extend_map()'s thread.
   [[nodiscard]] std::span<const people::Person> people() const;
+  /// How far the camera's boxes are beside the people, see people::EyeOffset; rad. None: too few were seen.
+  [[nodiscard]] std::optional<double> eye_offset(people::Eye eye) const;
   [[nodiscard]] bool follows_people() const { return people_.has_value(); }
 
   /// The next scan decides whether the robot is where the previous run ended. Grant it every

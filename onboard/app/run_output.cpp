@@ -11,6 +11,7 @@
 #include "hal/files/sha256.hpp"
 #include "onboard/app/door/door.hpp"
 #include "onboard/app/door/fitted.hpp"
+#include "onboard/app/people_figures.hpp"
 #include "onboard/app/run.hpp"
 #include "onboard/app/runs/connect_inputs.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
@@ -101,22 +102,6 @@ void add_labels(const RobotTasks& tasks, const Monitor& monitor, report::RunRepo
   for (const StageStats& stage : monitor.stages())
     if (stage.name == kPictureToMap && stage.wall.count() > 0)
       report.labels->latency_p99_ms = to_milliseconds(stage.wall.percentile(0.99));
-}
-
-void add_people(const RobotTasks& tasks, report::RunReport& report) {
-  if (!tasks.robot.follows_people()) return;
-  report::PeopleStats& people = report.people.emplace();
-  people.tracks = tasks.mapping.people_log().tracks();
-  people.apart = tasks.mapping.box_joiner().apart();
-  for (const DetectionTask& task : tasks.detections) {
-    const DetectionTask::Figures& looked = task.figures();
-    const bool thermal = task.eye() == people::Eye::kThermal;
-    (thermal ? people.thermal : people.visible) = report::DetectorStats{.images = looked.images,
-                                                                        .detections = looked.people,
-                                                                        .passed = looked.passed,
-                                                                        .shed = looked.shed,
-                                                                        .refused = looked.refused + looked.unknown};
-  }
 }
 
 void add_depth(const RobotTasks& tasks, report::RunReport& report) {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
@@ -33,9 +34,9 @@ class StuckWatch {
     }
     return stuck();
   }
-  [[nodiscard]] bool stuck() const {
-    return std::any_of(last_.begin(), last_.end(), [](const Last& l) { return l.times >= kInARow; });
-  }
+  [[nodiscard]] bool stuck() const { return any_came(kInARow); }
+  /// A last packet equals the one before it: it tells nothing new.
+  [[nodiscard]] bool repeats() const { return any_came(2); }
 
  private:
   struct Last {
@@ -43,7 +44,27 @@ class StuckWatch {
     int times;
     std::vector<std::byte> bytes;
   };
+  [[nodiscard]] bool any_came(int times) const {
+    return std::any_of(last_.begin(), last_.end(), [=](const Last& l) { return l.times >= times; });
+  }
   std::vector<Last> last_;
+};
+
+/// Bytes from all over a picture, few enough to be compared with every picture. Noise makes two real pictures differ in
+/// many places.
+class PictureSample {
+ public:
+  static constexpr std::size_t kMostBytes = 4096;
+
+  /// At most kMostBytes, evenly spread; of a small picture all. Valid until the next call.
+  std::span<const std::byte> of(std::span<const std::byte> picture) {
+    if (picture.size() <= kMostBytes) return picture;
+    for (std::size_t i = 0; i < kMostBytes; ++i) bytes_[i] = picture[picture.size() * i / kMostBytes];
+    return bytes_;
+  }
+
+ private:
+  std::array<std::byte, kMostBytes> bytes_{};
 };
 
 }  // namespace cairn::safety

@@ -53,7 +53,8 @@ std::string to_markdown() {
       "- A stop is latched. It ends only with a request, so these rows have no time of recovery.\n"
       "- Rows without times are shown by the test in the last column.\n\n"
       "| id | fault | what must hold | mode | detected | recovered | test |\n|---|---|---|---|---|---|---|\n";
-  for (const auto& rows : {sensor_rows(), odometry_rows(), garbage_rows(), drive_rows(), computer_rows(), peer_rows()})
+  for (const auto& rows :
+       {sensor_rows(), eye_rows(), odometry_rows(), garbage_rows(), drive_rows(), computer_rows(), peer_rows()})
     for (const Row& row : rows) append_row(out, row);
   out += "\n## Left out\n\n| id | fault | why |\n|---|---|---|\n";
   for (const Row& row : rows_left_out()) out += "| " + row.id + " | " + row.fault + " | " + row.test + " |\n";

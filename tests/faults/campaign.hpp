@@ -32,6 +32,8 @@ struct Row {
 };
 
 [[nodiscard]] std::vector<Row> sensor_rows();
+/// Of cameras that look for people.
+[[nodiscard]] std::vector<Row> eye_rows();
 [[nodiscard]] std::vector<Row> odometry_rows();
 [[nodiscard]] std::vector<Row> garbage_rows();
 [[nodiscard]] std::vector<Row> drive_rows();

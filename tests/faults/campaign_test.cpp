@@ -20,7 +20,8 @@ namespace {
 
 std::vector<Row> measured_rows() {
   std::vector<Row> rows;
-  for (auto& group : {sensor_rows(), odometry_rows(), garbage_rows(), drive_rows(), computer_rows(), peer_rows()})
+  for (auto& group :
+       {sensor_rows(), eye_rows(), odometry_rows(), garbage_rows(), drive_rows(), computer_rows(), peer_rows()})
     for (const Row& row : group)
       if (row.measure) rows.push_back(row);
   return rows;
@@ -44,8 +45,8 @@ INSTANTIATE_TEST_SUITE_P(Faults, Campaign, testing::ValuesIn(measured_rows()),
 
 TEST(FaultTable, IdsAreUniqueAndEveryRowNamesATestOrAReason) {
   std::set<std::string> ids;
-  for (const auto& rows :
-       {sensor_rows(), odometry_rows(), garbage_rows(), drive_rows(), computer_rows(), peer_rows(), rows_left_out()})
+  for (const auto& rows : {sensor_rows(), eye_rows(), odometry_rows(), garbage_rows(), drive_rows(), computer_rows(),
+                           peer_rows(), rows_left_out()})
     for (const Row& row : rows) {
       EXPECT_TRUE(ids.insert(row.id).second) << row.id;
       EXPECT_TRUE(row.measure || !row.test.empty()) << row.id;

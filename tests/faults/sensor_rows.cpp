@@ -34,8 +34,10 @@ Measured burst() {
   return m;
 }
 
-/// Beside a LiDAR: pictures at `rate_hz` that stay out for a second. The scans are those of a run without the fault.
-Measured pictures_missing(recording::SensorKind kind, double rate_hz, safety::Fault fault) {
+/// Beside a LiDAR: pictures at `rate_hz` that stay out, or are the same, for a second. The scans are those of a run
+/// without the fault.
+Measured pictures_missing(recording::SensorKind kind, double rate_hz, safety::Fault fault,
+                          Spell how = Spell::kSilence) {
   const auto camera = [rate_hz](Time start) {
     return [=, n = 0](Packet& packet) mutable {
       packet.bytes.assign(16, static_cast<std::byte>(n));
@@ -44,8 +46,10 @@ Measured pictures_missing(recording::SensorKind kind, double rate_hz, safety::Fa
   };
   LidarRig clean({}, 1s), dirty({}, 1s);
   const Time begin = dirty.start() + TaskRig::kBegin;
+  // A stuck camera repeats the picture before.
+  const Duration before = how == Spell::kStuck ? from_seconds(1 / rate_hz) + 1ms : Duration{};
   dirty.tasks().add(kind,
-                    std::make_unique<SickSource>(camera(dirty.start()), begin, begin + 1s, spell(Spell::kSilence, 1s)));
+                    std::make_unique<SickSource>(camera(dirty.start()), begin - before, begin + 1s, spell(how, 1s)));
   clean.run();
   Measured m = dirty.run(fault);
   m.held = m.held && std::equal(clean.scans().begin(), clean.scans().end(), dirty.scans().begin(), dirty.scans().end(),
@@ -139,6 +143,12 @@ std::vector<Row> sensor_rows() {
        [] { return pictures_missing(recording::kThermal, 9, safety::Fault::kThermalSilent); }},
       {"L17", "depth camera of 15 Hz silent for 1 s", "As for L15.", 240ms, 100ms, N, "",
        [] { return pictures_missing(recording::kDepth, 15, safety::Fault::kDepthSilent); }},
+      {"L24", "camera of 15 Hz frozen for 1 s: the same picture again and again",
+       "It counts as silent from its third equal picture on. Scans equal those of a run without the fault, to the bit.",
+       450ms, 100ms, N, "",
+       [] { return pictures_missing(recording::kCamera, 15, safety::Fault::kCameraSilent, Spell::kStuck); }},
+      {"L25", "thermal camera of 9 Hz frozen for 1 s", "As for L24.", 700ms, 150ms, N, "",
+       [] { return pictures_missing(recording::kThermal, 9, safety::Fault::kThermalSilent, Spell::kStuck); }},
   };
 }
 

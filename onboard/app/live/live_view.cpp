@@ -45,6 +45,11 @@ LiveJson to_json(const LiveView::Peer& p) {
           {"deployment_contradicted", p.deployment_contradicted}};
 }
 
+LiveJson to_json(const std::optional<LiveView::People>& p) {
+  if (!p) return nullptr;
+  return {{"now", p->now}, {"tracks", p->tracks}, {"nearest_m", p->nearest_m}};
+}
+
 template <class T, class Make>
 LiveJson list(const std::vector<T>& items, std::size_t skip, Make make) {
   LiveJson out = LiveJson::array();
@@ -64,7 +69,8 @@ std::string line_without(const LiveView& v, std::size_t events_left_out) {
                       {"faults", list(v.faults, 0, short_text)},
                       {"stages", list(v.stages, 0, [](const auto& s) { return to_json(s); })},
                       {"events", list(v.events, events_left_out, [](const auto& e) { return to_json(e); })},
-                      {"peers", list(v.peers, 0, [](const auto& p) { return to_json(p); })}};
+                      {"peers", list(v.peers, 0, [](const auto& p) { return to_json(p); })},
+                      {"people", to_json(v.people)}};
   return json.dump(-1, ' ', false, LiveJson::error_handler_t::replace) + "\n";
 }
 
@@ -88,6 +94,11 @@ class Members {
   void read(const char* key, Integer& value) const {
     const LiveJson* found = find(key);
     if (found != nullptr && found->is_number_unsigned()) value = static_cast<Integer>(found->get<std::uint64_t>());
+  }
+  template <class T, class Make>
+  void read_object(const char* key, std::optional<T>& value, Make make) const {
+    const LiveJson* found = find(key);
+    if (found != nullptr && found->is_object()) make(*found, value.emplace());
   }
   template <class T, class Make>
   void read_list(const char* key, std::vector<T>& items, Make make) const {
@@ -150,6 +161,13 @@ void read_peer(const LiveJson& json, LiveView::Peer& p) {
   in.read("deployment_contradicted", p.deployment_contradicted);
 }
 
+void read_people(const LiveJson& json, LiveView::People& p) {
+  const Members in(json);
+  in.read("now", p.now);
+  in.read("tracks", p.tracks);
+  in.read("nearest_m", p.nearest_m);
+}
+
 }  // namespace
 
 std::string to_line(const LiveView& view) {
@@ -184,6 +202,7 @@ Result<LiveView> parse_line(std::string_view line) {
   in.read_list("stages", v.stages, read_stage);
   in.read_list("events", v.events, read_event);
   in.read_list("peers", v.peers, read_peer);
+  in.read_object("people", v.people, read_people);
   return v;
 }
 

@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -41,6 +42,11 @@ struct LiveView {
     double clock_offset_s = 0;             ///< its clock minus this robot's; 0: not known
     bool deployment_contradicted = false;  ///< the deployments of the two do not fit to their maps
   };
+  /// The people around a robot that follows them.
+  struct People {
+    std::uint64_t now = 0, tracks = 0;  ///< at the last scan; different ones since the start
+    double nearest_m = -1;              ///< of those at the last scan; negative: there is nobody
+  };
   std::string robot;
   double t_s = 0;  ///< robot time
   std::string mode, cause, shed;
@@ -49,8 +55,9 @@ struct LiveView {
   double rss_mb = 0;
   std::vector<std::string> faults;  ///< codes of what is wrong now
   std::vector<Stage> stages;
-  std::vector<Event> events;  ///< the last one last
-  std::vector<Peer> peers;    ///< of a robot that takes part in a team
+  std::vector<Event> events;     ///< the last one last
+  std::vector<Peer> peers;       ///< of a robot that takes part in a team
+  std::optional<People> people;  ///< none: nobody is followed
 
   static constexpr std::size_t kMaxText = 160, kMaxItems = 64;
   static constexpr std::size_t kMaxLine = 64 * 1024;

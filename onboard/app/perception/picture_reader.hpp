@@ -33,11 +33,12 @@ struct PictureForm {
   bool judged = true;         ///< pictures on which nothing can be seen are refused; recorded answers need no judgement
 };
 
-/// Colour pictures. Those on which nothing can be seen are refused.
+/// Colour pictures. Those on which nothing can be seen, and repeated ones, are refused.
 class ColourReader final : public PictureReader {
  public:
   ColourReader(camera::Camera camera, const PictureForm& form) : camera_(std::move(camera)), form_(form) {}
-  /// Errors: those of the decoder; kMalformed for another size, a camera that is stuck, a picture that is too dark.
+  /// Errors: those of the decoder; kMalformed for another size, a picture that came before, one that is too dark or too
+  /// bright.
   Result<const Image*> read(const Packet& packet) override;
 
  private:
@@ -50,6 +51,7 @@ class ColourReader final : public PictureReader {
 };
 
 /// Thermal pictures, spread over 8 bits. While the camera corrects its flat field there is nothing to look at.
+/// Overexposed and repeated ones are refused.
 class ThermalReader final : public PictureReader {
  public:
   ThermalReader(thermal::Thermal camera, const PictureForm& form) : camera_(std::move(camera)), form_(form) {}

@@ -192,10 +192,18 @@ void LiveRun::publish_status(Time now) {
   publisher_->set_shed(tasks_.mapping.shed_in_force());
   publisher_->set_scans(tasks_.receive.figures().scans);
   if (tasks_.team && tasks_.team->team().view().refresh()) publisher_->set_peers(tasks_.team->team().view().value());
+  if (tasks_.robot.follows_people()) publish_people();
   if (outlets_) publish_state();
   safety::FaultSet faults = faults_of_machine() | schedule_faults_.look();
   faults.set(safety::Fault::kTaskHung, !publisher_->tick(now));
   tasks_.safety.report(faults);
+}
+
+void LiveRun::publish_people() {
+  const PeopleLog& log = tasks_.mapping.people_log();
+  const bool anybody = log.now() > 0;
+  publisher_->set_people(
+      {.now = log.now(), .tracks = log.tracks(), .nearest_m = anybody ? static_cast<double>(log.nearest_now()) : -1});
 }
 
 void LiveRun::publish_state() {

@@ -48,6 +48,7 @@ class LiveRun {
   [[nodiscard]] bool played_out(Time now) const;
   [[nodiscard]] RunEnd end() const;
   void publish_status(Time now);
+  void publish_people();
   void publish_state();
   void close_streams();
   [[nodiscard]] safety::FaultSet faults_of_machine() const;

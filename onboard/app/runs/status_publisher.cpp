@@ -97,6 +97,7 @@ LiveView StatusPublisher::view(Time now) const {
   for (std::size_t i = events.size() - std::min(events.size(), kShownEvents); i < events.size(); ++i)
     v.events.push_back({to_seconds(events[i].last), events[i].stage, events[i].what, events[i].count});
   v.peers = peers_;
+  v.people = people_;
   return v;
 }
 

@@ -37,6 +37,7 @@ class StatusPublisher {
   void set_shed(safety::Shed level) { shed_ = level; }
   void set_scans(std::uint64_t scans) { scans_ = scans; }
   void set_peers(const std::vector<LiveView::Peer>& peers) { peers_ = peers; }
+  void set_people(const LiveView::People& people) { people_ = people; }
   /// Publishes what is due. False while a task hangs: Fault::kTaskHung.
   bool tick(Time now);
 
@@ -50,6 +51,7 @@ class StatusPublisher {
   safety::Shed shed_ = safety::Shed::kNothing;
   std::uint64_t scans_ = 0;
   std::vector<LiveView::Peer> peers_;
+  std::optional<LiveView::People> people_;
   std::optional<LiveServer> server_;
   std::optional<Watchdog> watchdog_;
   std::optional<Time> published_;

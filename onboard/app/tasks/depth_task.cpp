@@ -21,6 +21,11 @@ void DepthTask::tick(Tick& tick) {
 
 void DepthTask::look(const Packet& packet, Tick& tick) {
   const StageTimer timing(stage_);
+  stuck_.step(0, packet.payload());
+  if (stuck_.repeats()) {
+    ++figures_.refused;
+    return monitor_.event(packet.arrival, "depth", "the camera is stuck: the same picture again and again");
+  }
   const auto scan = camera_.decode(packet);
   if (!scan) {
     ++figures_.refused;

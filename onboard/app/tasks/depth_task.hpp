@@ -6,6 +6,7 @@
 #include "hal/relaxed_counter.hpp"
 #include "onboard/app/perception/picture_pace.hpp"
 #include "onboard/app/tasks/messages.hpp"
+#include "onboard/safety/stuck.hpp"
 #include "onboard/scheduler/ports.hpp"
 
 namespace cairn::app {
@@ -40,6 +41,7 @@ class DepthTask final : public scheduler::Task {
   PicturePace pace_;
   Monitor& monitor_;
   StageStats& stage_;
+  safety::StuckWatch stuck_;
   Figures figures_;
 };
 

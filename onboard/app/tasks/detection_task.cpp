@@ -30,7 +30,10 @@ void DetectionTask::tick(Tick& tick) {
 void DetectionTask::look(const Packet& packet, Tick& tick) {
   const auto found = detect(packet);
   if (!found) return refuse(found.error(), packet.arrival);
-  if (*found == nullptr) return;
+  if (*found == nullptr) {
+    ++figures_.correcting;
+    return;
+  }
   ++figures_.images;
   figures_.people +=
       static_cast<std::uint64_t>(std::ranges::count((*found)->found, std::uint8_t{kPersonClass}, &Detection::class_id));

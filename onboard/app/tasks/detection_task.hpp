@@ -25,12 +25,13 @@ class DetectionTask final : public scheduler::Task {
 
   /// What became of the pictures. Any thread may read.
   struct Figures {
-    RelaxedCounter images;   ///< looked at
-    RelaxedCounter people;   ///< boxes of people in them
-    RelaxedCounter passed;   ///< newer ones were there, or it was not time yet
-    RelaxedCounter shed;     ///< left out under overload
-    RelaxedCounter refused;  ///< no picture, nothing to be seen on it, or the network failed
-    RelaxedCounter unknown;  ///< recorded boxes lack them
+    RelaxedCounter images;      ///< looked at
+    RelaxedCounter people;      ///< boxes of people in them
+    RelaxedCounter passed;      ///< newer ones were there, or it was not time yet
+    RelaxedCounter shed;        ///< left out under overload
+    RelaxedCounter refused;     ///< no picture, nothing to be seen on it, or the network failed
+    RelaxedCounter unknown;     ///< recorded boxes lack them
+    RelaxedCounter correcting;  ///< not looked at during flat-field corrections
   };
 
   /// Live, `shed` is asked how much work is left out; any thread. `stage`: name in the report. `budget`: of one

@@ -65,7 +65,7 @@ void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
 }
 
 void MappingTask::note_people(const LocatedScan& scan) {
-  people_log_.add(robot_.people());
+  people_log_.add(robot_.people(), scan.T_odom_base.mean.translation().head<2>());
   if (people_outlet_ == nullptr || !robot_.follows_people()) return;
   PeopleNews* out = people_outlet_->back();
   if (out == nullptr) return;

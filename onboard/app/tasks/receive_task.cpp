@@ -43,18 +43,24 @@ void ReceiveTask::finish(Tick& tick) {
 void ReceiveTask::receive(const Packet& packet, Sensor& sensor, Tick& tick) {
   if (!figures_.start) figures_.start = packet.arrival;
   figures_.end = std::max(figures_.end, packet.arrival);
-  if (sensor.decoder == nullptr) {
-    if (sensor.watched) note(*sensor.watched, packet.arrival);
-    for (auto* port : sensor.pictures)
-      if (port != nullptr) hand_on(packet, *port, tick);
-    return;
-  }
+  if (sensor.decoder == nullptr) return take_undecoded(packet, sensor, tick);
   if (sensor.stuck.step(packet.channel, packet.payload())) {
     ++sensor.refused;
     monitor_.event(packet.arrival, "lidar", "stuck: the same packet again and again");
     return;
   }
   decode(packet, sensor, tick);
+}
+
+/// Pictures are handed on even if they repeat: whoever looks at them judges them.
+void ReceiveTask::take_undecoded(const Packet& packet, Sensor& sensor, Tick& tick) {
+  const bool is_camera = sensor.pictures[0] != nullptr;
+  if (is_camera && sensor.stuck.step(packet.channel, sensor.sample.of(packet.payload())))
+    monitor_.event(packet.arrival, "camera", "stuck: the same picture again and again");
+  else if (sensor.watched)
+    note(*sensor.watched, packet.arrival);
+  for (auto* port : sensor.pictures)
+    if (port != nullptr) hand_on(packet, *port, tick);
 }
 
 void ReceiveTask::decode(const Packet& packet, Sensor& sensor, Tick& tick) {

@@ -18,7 +18,8 @@
 
 namespace cairn::app {
 
-/// Reads what the sensors sent, hands on every whole scan, and finds the faults of a LiDAR.
+/// Reads what the sensors sent, hands on every whole scan, and finds the faults of a LiDAR. A camera that sends the
+/// same picture again and again counts as silent.
 class ReceiveTask final : public scheduler::Task {
  public:
   static constexpr std::size_t kMaxInputs = 8;  ///< sensors; the slots in schedule.log are reserved for them
@@ -58,10 +59,12 @@ class ReceiveTask final : public scheduler::Task {
     std::optional<safety::Watched> watched;  // without a decoder: every packet is good data of this kind
     std::array<scheduler::OutputPort<ArrivedPicture>*, 2> pictures;  // where its packets go; null: nowhere
     safety::StuckWatch stuck{};
+    safety::PictureSample sample{};
     safety::RejectionWatch rejection{};
     std::uint64_t accepted = 0, refused = 0;  // packets of a decoder
   };
   void receive(const Packet& packet, Sensor& sensor, scheduler::Tick& tick);
+  void take_undecoded(const Packet& packet, Sensor& sensor, scheduler::Tick& tick);
   void decode(const Packet& packet, Sensor& sensor, scheduler::Tick& tick);
   void judge(Time now);
   void hand_on(const Scan* scan, scheduler::Tick& tick, bool at_the_end);

@@ -109,6 +109,35 @@ bool BoxLifter::covered(std::size_t i) const {
   });
 }
 
+/// Whatever its mount is, a camera shows somebody about as large as the distance says.
+std::span<const BoxBeside> BoxLifter::offsets(const Detections& boxes, std::span<const Known> people,
+                                              const SE3& T_odom_base) {
+  const SE3 T_optical_odom = T_optical_base_ * T_odom_base.inverse();
+  offsets_.clear();
+  seen_.clear();
+  for (const Known& person : people) seen_.push_back(look_at(person.body, T_optical_odom));
+  std::vector<double> angles;
+  for (const Detection& found : boxes.found) {
+    const bool whole = found.x > 1 && found.x + found.width < static_cast<float>(boxes.width - 1);
+    const auto box = found.class_id == kPersonClass && whole ? box_of(found, boxes) : std::nullopt;
+    angles.push_back(box ? std::atan(0.5 * (box->left + box->right)) : 9);
+  }
+  for (std::size_t b = 0; b < angles.size(); ++b) {
+    const auto beside = [&](double angle) { return std::abs(angle - angles[b]) < kBeside; };
+    const auto seen_beside = [&](const Seen& s) { return s.in_front && beside(std::atan(s.x)); };
+    if (angles[b] > 8 || std::ranges::count_if(angles, beside) != 1) continue;
+    if (std::ranges::count_if(seen_, seen_beside) != 1) continue;
+    const auto which = std::ranges::find_if(seen_, seen_beside);
+    const Seen& seen = *which;
+    if (seen.depth < kNotTooNear) continue;
+    const auto box = box_of(boxes.found[b], boxes);
+    const double ratio = (box->bottom - box->top) / (seen.bottom - seen.top);
+    if (ratio > kLowest && ratio < kHighest)
+      offsets_.push_back({people[static_cast<std::size_t>(which - seen_.begin())].id, angles[b] - std::atan(seen.x)});
+  }
+  return offsets_;
+}
+
 std::span<const Verdict> BoxLifter::judge(const Detections& boxes, std::span<const Cluster> clusters,
                                           const SE3& T_odom_base) {
   const SE3 T_optical_odom = T_optical_base_ * T_odom_base.inverse();

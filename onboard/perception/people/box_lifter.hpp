@@ -10,6 +10,7 @@
 #include "hal/se3.hpp"
 #include "onboard/perception/cameras/camera_model.hpp"
 #include "onboard/perception/people/cluster_finder.hpp"
+#include "onboard/perception/people/eye_offset.hpp"
 
 namespace cairn::people {
 
@@ -29,6 +30,17 @@ class BoxLifter {
 
   /// `T_odom_base`: when the picture was taken. One verdict for each cluster; valid until the next call.
   std::span<const Verdict> judge(const Detections& boxes, std::span<const Cluster> clusters, const SE3& T_odom_base);
+
+  /// The boxes that must be those of `people`: no other box or person is within kBeside of them, and they are as high
+  /// as they would be. People nearer than kNotTooNear are left out: so near, a body has many directions. Valid until
+  /// the next call.
+  struct Known {
+    std::uint32_t id = 0;
+    Cluster body;
+  };
+  std::span<const BoxBeside> offsets(const Detections& boxes, std::span<const Known> people, const SE3& T_odom_base);
+  static constexpr double kNotTooNear = 3;  ///< m
+  static constexpr double kBeside = 0.1;    ///< rad
 
  private:
   /// In the optical frame at depth 1: x to the right, y down.
@@ -53,6 +65,7 @@ class BoxLifter {
   std::vector<Seen> seen_;
   std::vector<Verdict> verdicts_;
   std::vector<std::uint32_t> order_;
+  std::vector<BoxBeside> offsets_;
 };
 
 }  // namespace cairn::people

@@ -92,9 +92,20 @@ bool People::hear(Eye eye, const Detections& boxes, Time scan, const SE3& T_odom
   auto& lifter = lifters_[static_cast<std::size_t>(eye)];
   const auto remembered = std::ranges::find(scans_, scan, &Remembered::stamp);
   if (!lifter || remembered == scans_.end()) return false;
+  compare(eye, boxes, *remembered, T_odom_base);
   const auto verdicts = lifter->judge(boxes, remembered->bodies, T_odom_base);
-  tracker_.hear(scan, verdicts, eye == Eye::kThermal ? config_.thermal : config_.visible);
+  verdicts_.assign(verdicts.begin(), verdicts.end());
+  if (offset(eye).moved()) std::ranges::replace(verdicts_, Verdict::kSilence, Verdict::kNothing);
+  tracker_.hear(scan, verdicts_, eye == Eye::kThermal ? config_.thermal : config_.visible);
   return true;
+}
+
+void People::compare(Eye eye, const Detections& boxes, const Remembered& scan, const SE3& T_odom_base) {
+  known_.clear();
+  for (const auto& [id, body] : tracker_.bodies_of_people(scan.stamp))
+    if (body < scan.bodies.size()) known_.push_back({id, scan.bodies[body]});
+  const auto e = static_cast<std::size_t>(eye);
+  offsets_[e].add(boxes.stamp, lifters_[e]->offsets(boxes, known_, T_odom_base));
 }
 
 bool People::in_body(const Eigen::Vector3f& point, const Eigen::Vector2d& position, float ground) const {

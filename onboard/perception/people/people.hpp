@@ -14,6 +14,7 @@
 #include "hal/se3.hpp"
 #include "onboard/perception/people/box_lifter.hpp"
 #include "onboard/perception/people/cluster_finder.hpp"
+#include "onboard/perception/people/eye_offset.hpp"
 #include "onboard/perception/people/people_config.hpp"
 #include "onboard/perception/people/tracker.hpp"
 
@@ -48,6 +49,8 @@ class People {
   /// What a detector saw in a picture, taken with base_link at `T_odom_base`. `scan`: the stamp of the scan nearest to
   /// the exposure. False: that scan is not remembered, or there is no such eye.
   bool hear(Eye eye, const Detections& boxes, Time scan, const SE3& T_odom_base);
+  /// Whether the camera's boxes are beside the people: then its silence about somebody counts for nothing.
+  [[nodiscard]] const EyeOffset& offset(Eye eye) const { return offsets_[static_cast<std::size_t>(eye)]; }
   /// Another odom begins: everybody is forgotten.
   void clear();
 
@@ -70,6 +73,7 @@ class People {
   [[nodiscard]] std::optional<Eigen::Vector2d> look_for(const Eigen::Vector2d& position,
                                                         std::span<const Eigen::Vector2d> others, const PeopleScan& scan,
                                                         const Settled& settled) const;
+  void compare(Eye eye, const Detections& boxes, const Remembered& scan, const SE3& T_odom_base);
   void remember(const PeopleScan& scan, std::span<const Cluster> bodies);
   [[nodiscard]] bool carried(const Track& track, const PeopleScan& scan) const;
   void doubt_furniture(const PeopleScan& scan, const Settled& settled);
@@ -79,9 +83,12 @@ class People {
   ClusterFinder finder_;
   Tracker tracker_;
   std::array<std::optional<BoxLifter>, 2> lifters_;
+  std::array<EyeOffset, 2> offsets_;
   std::deque<Remembered> scans_;
   std::vector<std::uint8_t> mask_;
   std::vector<std::uint32_t> furniture_;  // reused
+  std::vector<BoxLifter::Known> known_;   // reused
+  std::vector<Verdict> verdicts_;         // reused
 };
 
 }  // namespace cairn::people

@@ -136,6 +136,16 @@ void Tracker::hear(Time stamp, std::span<const Verdict> verdicts, const Detector
   list_people();
 }
 
+std::vector<std::pair<std::uint32_t, std::size_t>> Tracker::bodies_of_people(Time stamp) const {
+  std::vector<std::pair<std::uint32_t, std::size_t>> bodies;
+  for (const Track& track : tracks_) {
+    const auto step = std::ranges::find(track.steps(), stamp, &Step::stamp);
+    if (step != track.steps().end() && step->body >= 0 && track.confirmed)
+      bodies.emplace_back(track.person().id, static_cast<std::size_t>(step->body));
+  }
+  return bodies;
+}
+
 void Tracker::weigh(std::uint32_t id, double nats) {
   const auto track = std::ranges::find(tracks_, id, [](const Track& t) { return t.person().id; });
   if (track == tracks_.end()) return;

@@ -5,6 +5,7 @@
 #include <functional>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "onboard/perception/people/box_lifter.hpp"
@@ -38,6 +39,8 @@ class Tracker {
   [[nodiscard]] std::span<const Cluster> bodies() const { return bodies_; }
   /// What a detector said of the bodies of the scan at `stamp`, of the last two seconds.
   void hear(Time stamp, std::span<const Verdict> verdicts, const DetectorTrust& trust);
+  /// Whose body each of bodies() of the scan at `stamp` was: a person's id and its number in bodies().
+  [[nodiscard]] std::vector<std::pair<std::uint32_t, std::size_t>> bodies_of_people(Time stamp) const;
   /// Evidence from elsewhere, in nats, for or against somebody; see people().
   void weigh(std::uint32_t id, double nats);
   void clear();

@@ -68,11 +68,13 @@ struct DepthStats {
 
 /// What became of the pictures in which a detector looks for people.
 struct DetectorStats {
-  std::uint64_t images = 0;      ///< looked at
-  std::uint64_t detections = 0;  ///< boxes of people in them
-  std::uint64_t passed = 0;      ///< pictures that were not looked at, because of the rate
-  std::uint64_t shed = 0;        ///< because of overload
-  std::uint64_t refused = 0;     ///< on which nothing could be seen, or of which nothing is recorded
+  std::uint64_t images = 0;          ///< looked at
+  std::uint64_t detections = 0;      ///< boxes of people in them
+  std::uint64_t passed = 0;          ///< pictures that were not looked at, because of the rate
+  std::uint64_t shed = 0;            ///< because of overload
+  std::uint64_t refused = 0;         ///< on which nothing could be seen, or of which nothing is recorded
+  std::uint64_t correcting = 0;      ///< because the camera corrected its flat field
+  std::optional<double> offset_deg;  ///< of the boxes from the people, to the right; none: too few of the last minute
 };
 
 /// The people of a run that followed them.
@@ -80,6 +82,10 @@ struct PeopleStats {
   std::uint64_t tracks = 0;                       ///< different people, as far as the robot can tell
   std::optional<DetectorStats> visible, thermal;  ///< none: there is no such detector
   std::uint64_t apart = 0;                        ///< pictures that had no scans around them
+  std::uint64_t most_at_once = 0;
+  std::optional<double> nearest_m;                    ///< how near anybody ever was; none: there was nobody
+  std::vector<std::vector<Eigen::Vector2d>> paths{};  ///< where they went, odom, m; see kMostPaths
+  static constexpr std::size_t kMostPaths = 500;      ///< of more people, those who were followed longest
 };
 
 /// One robot of the team, as this one saw it.

@@ -28,7 +28,12 @@ namespace {
 
 nlohmann::json detector_json(const std::optional<DetectorStats>& d) {
   if (!d) return nullptr;
-  return {{"images", d->images}, {"passed", d->passed}, {"shed", d->shed}, {"refused", d->refused}};
+  return {{"images", d->images},
+          {"passed", d->passed},
+          {"shed", d->shed},
+          {"refused", d->refused},
+          {"correcting", d->correcting},
+          {"offset_deg", d->offset_deg ? nlohmann::json(*d->offset_deg) : nlohmann::json(nullptr)}};
 }
 
 }  // namespace
@@ -41,7 +46,9 @@ nlohmann::json people_json(const RunReport& report) {
           {"detections_thermal", p.thermal ? nlohmann::json(p.thermal->detections) : nlohmann::json(nullptr)},
           {"visible", detector_json(p.visible)},
           {"thermal", detector_json(p.thermal)},
-          {"apart", p.apart}};
+          {"apart", p.apart},
+          {"most_at_once", p.most_at_once},
+          {"nearest_m", p.nearest_m ? nlohmann::json(*p.nearest_m) : nlohmann::json(nullptr)}};
 }
 
 }  // namespace cairn::report

@@ -81,6 +81,9 @@ std::string tiles(const RunReport& report, const Accuracy& accuracy) {
               : *report.ticks.missed > 0 ? "bad"
                                          : good);
   s += tile(count(report.map.occupied), "occupied voxels", "of " + number(report.map.resolution_m) + " m");
+  if (report.people)
+    s += tile(count(report.people->tracks), "people",
+              report.people->nearest_m ? "nearest " + length(*report.people->nearest_m) : "nobody was seen");
   s += tile(number(report.peak_rss_mb) + " MiB", "memory at most",
             "map: " + bytes(static_cast<double>(report.map.memory_bytes)));
   return s + "</div>\n";
@@ -118,6 +121,7 @@ std::string class_key(const MapPicture& picture) {
 std::string map_section(const RunReport& report, const std::string& svg) {
   std::string s = "<section><h2>Map</h2>\n" + svg + "<div class=\"key\"><span><i></i>trajectory</span>";
   if (!report.ground_truth.empty()) s += "<span><i class=\"truth\"></i>ground truth</span>";
+  if (report.people && !report.people->paths.empty()) s += "<span><i class=\"person\"></i>people</span>";
   if (report.picture) {
     s += report.picture->labelled() ? class_key(*report.picture) : height_key(*report.picture);
     if (report.picture->cut_m)

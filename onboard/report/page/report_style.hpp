@@ -44,6 +44,7 @@ svg.map { background: var(--unknown); border-radius: 6px; font-size: 17px; max-h
 .map .halo { stroke: var(--card); stroke-opacity: .8; stroke-width: 5; stroke-linejoin: round; }
 .map .halo, .map .trajectory, .map .truth { vector-effect: non-scaling-stroke; } .map .trajectory { stroke: var(--path); stroke-width: 2.6; stroke-linejoin: round; }
 .map .truth { stroke: var(--ink); stroke-width: 1.8; stroke-dasharray: 9 7; }
+.map .person { vector-effect: non-scaling-stroke; stroke: var(--accent); stroke-width: 1.6; stroke-linejoin: round; } .key i.person { border-top: 2px solid var(--accent); }
 .map circle { stroke: var(--card); stroke-width: 2.5; } .map .start { fill: var(--good); } .map .end { fill: var(--path); }
 .map .bar path { stroke: var(--ink); stroke-width: 2; } .map .bar text { fill: var(--ink); }
 .map .bar .halo { stroke: var(--card); stroke-width: 6; }

@@ -63,12 +63,12 @@ Result<std::string> layer(const Frame& frame, const MapPicture& picture, const R
 }
 
 /// Points are left out where they lie close together; however long the path, a few thousand remain.
-std::string polyline(const Frame& frame, const Path& path, const char* css) {
-  constexpr double kNearest = 0.7, kPoints = 4000;
+std::string polyline(const Frame& frame, const Path& path, const char* css, double points = 4000) {
+  constexpr double kNearest = 0.7;
   double length = 0;
   for (std::size_t i = 1; i < path.size(); ++i)
     if ((path[i] - path[i - 1]).allFinite()) length += (path[i] - path[i - 1]).norm() * frame.scale;
-  const double spacing = std::max(kNearest, length / kPoints);
+  const double spacing = std::max(kNearest, length / points);
   std::string d;
   Eigen::Vector2d last(-1e9, -1e9);
   for (std::size_t i = 0; i < path.size(); ++i) {
@@ -127,6 +127,8 @@ Result<std::string> svg_map(const RunReport& report) {
     s += *free + *occupied;
   }
   s += grid(frame);
+  if (report.people)
+    for (const Path& path : report.people->paths) s += polyline(frame, path, "person", 200);
   if (!trajectory.empty()) s += polyline(frame, trajectory, "halo") + polyline(frame, trajectory, "trajectory");
   if (!truth.empty()) s += polyline(frame, truth, "truth");
   if (!trajectory.empty())

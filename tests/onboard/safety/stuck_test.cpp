@@ -21,6 +21,28 @@ TEST(StuckWatch, TheThirdOfTheSameIsStuckUntilAnotherOneComes) {
   EXPECT_FALSE(watch.step(1, packet(7))) << "what was sent before, but not now";
 }
 
+TEST(StuckWatch, TheSecondOfTheSameRepeats) {
+  StuckWatch watch;
+  (void)watch.step(1, packet(7));
+  EXPECT_FALSE(watch.repeats());
+  (void)watch.step(1, packet(7));
+  EXPECT_TRUE(watch.repeats());
+  (void)watch.step(1, packet(8));
+  EXPECT_FALSE(watch.repeats());
+}
+
+TEST(PictureSample, IsSmallAndSeesEveryPart) {
+  PictureSample sample;
+  Bytes picture(500'000);
+  const auto before = sample.of(picture);
+  EXPECT_EQ(before.size(), PictureSample::kMostBytes);
+  const Bytes kept(before.begin(), before.end());
+  std::fill(picture.begin() + 400'000, picture.begin() + 401'000, std::byte{1});
+  const auto after = sample.of(picture);
+  EXPECT_FALSE(std::equal(kept.begin(), kept.end(), after.begin()));
+  EXPECT_EQ(sample.of(packet(7)).size(), 100U) << "small pictures are compared whole";
+}
+
 TEST(StuckWatch, AShorterPacketIsAnother) {
   StuckWatch watch;
   for (int i = 0; i < 9; ++i) EXPECT_FALSE(watch.step(1, Bytes(static_cast<std::size_t>(i % 2)))) << i;

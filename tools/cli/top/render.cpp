@@ -87,6 +87,11 @@ std::string joined(const std::vector<std::string>& words) {
   return text.empty() ? "none" : text;
 }
 
+std::string people_line(const app::LiveView::People& p) {
+  if (p.now == 0) return fmt::format("people: none   {} since the start", p.tracks);
+  return fmt::format("people: {}   nearest {:.1f} m   {} since the start", p.now, p.nearest_m, p.tracks);
+}
+
 }  // namespace
 
 std::vector<std::string> render(const app::LiveView& v, const Screen& screen) {
@@ -96,6 +101,7 @@ std::vector<std::string> render(const app::LiveView& v, const Screen& screen) {
   std::string mode = "mode " + safe(v.mode);
   if (!v.cause.empty()) mode += " (" + safe(v.cause) + ")";
   lines.add(mode + "   shed " + safe(v.shed) + fmt::format("   epoch {}", v.epoch), paint_of(v.mode));
+  if (v.people) lines.add(people_line(*v.people));
   lines.add("faults: " + joined(v.faults), v.faults.empty() ? Paint::kPlain : Paint::kWarn);
   lines.add("");
   lines.add(fmt::format("{:<12}{:>7}{:>7}{:>7}{:>7} {:>8} {:<12}{:>6}{:>6}{:>6}{:>6}  {}", "task (ms)", "p50", "p99",

@@ -31,6 +31,19 @@ TEST(LiveView, ParseIsTheInverseOfToLine) {
   EXPECT_EQ(back->peers[1].clock_offset_s, -7.5);
 }
 
+TEST(LiveView, TellsOfPeopleWhereTheyAreFollowed) {
+  LiveView view = support::sample_view();
+  EXPECT_FALSE(parse_line(to_line(view))->people);
+  view.people = LiveView::People{.now = 2, .tracks = 7, .nearest_m = 1.5};
+  const auto back = parse_line(to_line(view));
+  ASSERT_TRUE(back && back->people);
+  EXPECT_EQ(back->people->now, 2U);
+  EXPECT_EQ(back->people->tracks, 7U);
+  EXPECT_EQ(back->people->nearest_m, 1.5);
+  EXPECT_FALSE(parse_line(R"({"people": 3})")->people);
+  EXPECT_EQ(parse_line(R"({"people": {"now": -1, "nearest_m": "near"}})")->people->now, 0U);
+}
+
 TEST(LiveView, AnyTextAndAnyNumberMakeOneShortLine) {
   LiveView view = support::sample_view();
   view.robot = "line\nbreak \"\x1b[2J\" \xff\xfe";

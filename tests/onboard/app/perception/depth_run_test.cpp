@@ -21,7 +21,8 @@ constexpr double kDepthFocal = 40;
 const Vector6 kDepthMount = (Vector6() << 0.3, 0, 0.5, 0, -1.2, 0).finished();
 
 /// Depth along the view in millimetres.
-void write_depth(const test::fs::path& file, const support::World& world, const SE3& T_world_camera) {
+void write_depth(const test::fs::path& file, const support::World& world, const SE3& T_world_camera,
+                 std::uint16_t noise) {
   cv::Mat depth(kRows, kColumns, CV_16UC1);
   for (int v = 0; v < kRows; ++v)
     for (int u = 0; u < kColumns; ++u) {
@@ -29,6 +30,7 @@ void write_depth(const test::fs::path& file, const support::World& world, const 
       const double range = world.cast(T_world_camera.translation(), T_world_camera.rotation() * ray.normalized());
       depth.at<std::uint16_t>(v, u) = static_cast<std::uint16_t>(1000 * range / ray.norm());
     }
+  depth.at<std::uint16_t>(0, 0) += noise;
   std::vector<uchar> out;
   ASSERT_TRUE(cv::imencode(".png", depth, out));
   ASSERT_TRUE(write_file_atomic(file, std::as_bytes(std::span(out))));
@@ -45,7 +47,7 @@ class DepthRun : public test::RoomRun {
       const Time t{from_seconds(0.1 * i + 0.13)};
       const std::string name = std::to_string(t.time_since_epoch().count()) + ".png";
       write_depth(folder / "depth" / "data" / name, test::room(),
-                  test::path(to_seconds(t)) * SE3::from_xyz_rpy(kDepthMount));
+                  test::path(to_seconds(t)) * SE3::from_xyz_rpy(kDepthMount), static_cast<std::uint16_t>(i));
       index += std::to_string(t.time_since_epoch().count()) + "," + name + "\n";
     }
     ASSERT_TRUE(write_file_atomic(folder / "depth" / "data.csv", index));

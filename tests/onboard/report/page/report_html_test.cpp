@@ -49,6 +49,22 @@ TEST(ReportHtml, IsOneWellFormedPageOfAllParts) {
     EXPECT_THAT(page, HasSubstr(part));
 }
 
+TEST(ReportHtml, ShowsWhereThePeopleWent) {
+  const auto run = sample_run(50);
+  EXPECT_THAT(to_html(run->report).value(), Not(HasSubstr("class=\"person\"")));
+  PeopleStats& people = run->report.people.emplace();
+  people.tracks = 2;
+  people.nearest_m = 1.25;
+  people.paths = {{{1, 1}, {2, 1}}, {{0, 3}, {0, 4}}};
+  const std::string page = to_html(run->report).value();
+  EXPECT_EQ(structure_fault(page), "");
+  std::size_t paths = 0;
+  for (std::size_t at = page.find("<path class=\"person\""); at != std::string::npos; ++paths)
+    at = page.find("<path class=\"person\"", at + 1);
+  EXPECT_EQ(paths, 2U);
+  EXPECT_THAT(page, HasSubstr("nearest 1.25\u202fm"));
+}
+
 TEST(ReportHtml, LoadsNothingAndRunsNothing) {
   const std::string page = to_html(sample_run(50)->report).value();
   for (const char* foreign : {"http:", "https:", "//cdn", "<script", "<link", "@import", "url(", "<iframe", " onload"})

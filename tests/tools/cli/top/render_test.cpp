@@ -36,6 +36,15 @@ TEST(RenderTop, ShowsTasksAgainstTheirDeadlines) {
             "     12.3 s      7x  lidar: incomplete scan: packets were lost\n");
 }
 
+TEST(RenderTop, ShowsPeopleOfARobotThatFollowsThem) {
+  app::LiveView view = support::sample_view();
+  view.people = app::LiveView::People{.now = 0, .tracks = 4};
+  EXPECT_THAT(text(view), HasSubstr("people: none   4 since the start\n"));
+  view.people->now = 2;
+  view.people->nearest_m = 1.26;
+  EXPECT_THAT(text(view), HasSubstr("people: 2   nearest 1.3 m   4 since the start\n"));
+}
+
 TEST(RenderTop, ItsTextReachesTheTerminalAsTextAlone) {
   app::LiveView view = support::sample_view();
   view.robot = "\x1b[2Jevil\n\x07\xc3\xa9";

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <string>
+
+#include "tests/faults/campaign.hpp"
+
+namespace cairn::faults {
+namespace {
+
+/// Two cameras look for somebody, and one of them is wrong.
+Row eye_row(const char* id, const char* fault, const char* requirement, const char* test) {
+  return {id, fault, requirement, {}, {}, safety::Mode::kNormal, std::string("faults/CameraFaults.") + test};
+}
+
+}  // namespace
+
+std::vector<Row> eye_rows() {
+  return {
+      eye_row("L26", "colour camera silent or frozen while people are followed",
+              "The thermal camera finds the people. A repeated picture counts neither for nor against anybody.",
+              "AFrozenColourCameraIsNoEvidence"),
+      eye_row("L27", "thermal camera silent or frozen while people are followed",
+              "As for L26, by the colour camera. A frame counter that goes on does not hide a frozen picture.",
+              "AFrozenThermalCameraIsNoEvidence"),
+      eye_row("L28", "colour camera overexposed",
+              "Its pictures are not looked at, with an event. The thermal camera finds the people.",
+              "AnOverexposedColourCamera"),
+      eye_row("L29", "thermal camera overexposed: half of its pixels are at the end of their range",
+              "As for L28, by the colour camera.", "AnOverexposedThermalCamera"),
+      eye_row("L30", "thermal camera in flat-field correction",
+              "Its pictures are not looked at, without an event. The colour camera finds the people.",
+              "AThermalCameraInFlatFieldCorrectionIsNoFault"),
+      eye_row("L31", "colour camera turned by 2°",
+              "The event camera_moved. Its silence counts for nothing. The thermal camera finds the people.",
+              "AColourCameraThatIsTurnedByTwoDegrees"),
+      eye_row("L32", "thermal camera turned by 2°", "As for L31, by the colour camera.",
+              "AThermalCameraThatIsTurnedByTwoDegrees"),
+  };
+}
+
+}  // namespace cairn::faults
