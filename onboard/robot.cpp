@@ -18,25 +18,23 @@ void keep_every(int stride, std::vector<Eigen::Vector3f>& points) {
 }  // namespace
 
 Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapping_workers, Monitor& monitor)
-    : T_base_lidar_(config.T_base_lidar),
-      odometry_(config.odometry, config.T_base_lidar, odometry_workers),
-      mapper_(config.mapping, mapping_workers),
+    : mapper_(config.mapping, mapping_workers),
       monitor_(monitor),
       odometry_stage_(monitor.stage("odometry")),
       mapping_stage_(monitor.stage("mapping")) {
+  set_up_odometry(config, odometry_workers);
   set_up_cameras(config);
 }
 
 Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapping_workers, Monitor& monitor,
              const Resume& saved)
-    : T_base_lidar_(config.T_base_lidar),
-      odometry_(config.odometry, config.T_base_lidar, odometry_workers),
-      mapper_(config.mapping, mapping_workers, saved.map),
+    : mapper_(config.mapping, mapping_workers, saved.map),
       monitor_(monitor),
       odometry_stage_(monitor.stage("odometry")),
       mapping_stage_(monitor.stage("mapping")) {
+  set_up_odometry(config, odometry_workers);
   set_up_cameras(config);
-  odometry_.resume(saved.T_odom_base, saved.twist, saved.stamp, saved.scans);
+  if (lidar_) lidar_->resume(saved.T_odom_base, saved.twist, saved.stamp, saved.scans);
   LocatedScan located;
   for (const odometry::PlacedScan& scan : saved.scans) {
     if (scan.stamp <= saved.map_stamp) continue;
@@ -46,6 +44,22 @@ Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapp
     if (const auto extended = extend_map(located); !extended)
       monitor.event(scan.stamp, "mapping", to_string(extended.error()));
   }
+}
+
+void Robot::set_up_odometry(const RobotConfig& config, Workers& workers) {
+  if (const auto& stereo = config.stereo) {
+    trust_ = stereo->trust;
+    T_base_sensor_ = stereo->T_base_camera;
+    eyes_.emplace(stereo->odometry, stereo->geometry, stereo->T_base_camera * cameras::T_camera_optical());
+  } else {
+    T_base_sensor_ = config.T_base_lidar;
+    lidar_.emplace(config.odometry, config.T_base_lidar, workers);
+  }
+}
+
+const odometry::MotionSource& Robot::odometry() const {
+  if (eyes_) return *eyes_;
+  return *lidar_;
 }
 
 void Robot::set_up_cameras(const RobotConfig& config) {
@@ -60,31 +74,45 @@ void Robot::set_up_cameras(const RobotConfig& config) {
 }
 
 Result<TrackPoint> Robot::locate(const Scan& scan, Budget& budget, LocatedScan& located, const DriveState* wheels) {
+  if (!lidar_) return Error{Errc::kUnsupported, "a scan came, but both eyes tell this robot's motion", {}, {}, {}};
   const StageTimer timing(odometry_stage_);
-  const bool resuming = odometry_.resuming();
-  const auto motion = odometry_.update(scan, budget, wheels);
+  const bool resuming = lidar_->resuming();
+  const auto motion = lidar_->update(scan, budget, wheels);
   if (!motion) return motion.error();
-
   if (motion->lost) monitor_.event(motion->stamp, "odometry", "lost: the scan does not fit the map of the recent past");
-  located.stamp = motion->stamp;
-  located.T_odom_base = motion->T_odom_base;
-  located.twist = motion->twist;
   located.points_base.assign(motion->points_base.begin(), motion->points_base.end());
-  if (motion->began || motion->apart) ++epoch_;
-  if (motion->apart)
-    monitor_.event(motion->stamp, "odometry",
+  return place(*motion, resuming, located);
+}
+
+Result<TrackPoint> Robot::locate(const stereo::StereoPair& pair, Budget& budget, LocatedScan& located) {
+  if (!eyes_) return Error{Errc::kUnsupported, "a stereo picture came, but a LiDAR tells the motion", {}, {}, {}};
+  const StageTimer timing(odometry_stage_);
+  const auto motion = eyes_->update(pair, budget);
+  if (!motion) return motion.error();
+  if (motion->lost) monitor_.event(motion->stamp, "odometry", "lost: the picture shows too few known places");
+  located.points_base.clear();
+  return place(*motion, false, located);
+}
+
+const TrackPoint& Robot::place(const odometry::MotionUpdate& motion, bool resuming, LocatedScan& located) {
+  located.stamp = motion.stamp;
+  located.T_odom_base = motion.T_odom_base;
+  located.twist = motion.twist;
+  if (motion.began || motion.apart) ++epoch_;
+  if (motion.apart)
+    monitor_.event(motion.stamp, "odometry",
                    "a new map begins: how it lies to the one before is not known (kept as map-epoch-N.cairn)");
-  if (motion->began && resuming)
-    monitor_.event(motion->stamp, "restart", "the robot is not where the saved map ends: it begins anew");
+  if (motion.began && resuming)
+    monitor_.event(motion.stamp, "restart", "the robot is not where the saved map ends: it begins anew");
   located.epoch = epoch_;
-  located.lost = motion->lost;
-  track_.push_back({.stamp = motion->stamp,
-                    .T_odom_base = motion->T_odom_base,
-                    .twist = motion->twist,
+  located.lost = motion.lost;
+  track_.push_back({.stamp = motion.stamp,
+                    .T_odom_base = motion.T_odom_base,
+                    .twist = motion.twist,
                     .epoch = epoch_,
-                    .degenerate_directions = motion->degenerate_directions,
-                    .iterations = motion->iterations,
-                    .lost = motion->lost});
+                    .degenerate_directions = motion.degenerate_directions,
+                    .iterations = motion.iterations,
+                    .lost = motion.lost});
   return track_.back();
 }
 
@@ -109,10 +137,11 @@ Result<void> Robot::extend_map(const LocatedScan& scan, const MapShare& share) {
   const Eigen::Vector3f t = T_odom_base.translation().cast<float>();
   points_odom_.clear();
   for (const Eigen::Vector3f& p : scan.points_base) points_odom_.emplace_back(R * p + t);
-  const Eigen::Vector3f origin_odom = (T_odom_base * T_base_lidar_.translation()).cast<float>();
+  const Eigen::Vector3f origin_odom = (T_odom_base * T_base_sensor_.translation()).cast<float>();
   if (people_) leave_people_out(scan, origin_odom);
   keep_every(share.every_point, points_odom_);
-  const auto inserted = mapper_.insert(points_odom_, origin_odom);
+  const auto inserted =
+      trust_ ? mapper_.insert(points_odom_, origin_odom, *trust_) : mapper_.insert(points_odom_, origin_odom);
   if (!inserted) return inserted.error();
   if (!map_began_) map_began_ = scan.stamp;
   if (people_) take_back_new_people();  // of earlier scans: this one left them out already
@@ -124,7 +153,7 @@ Result<void> Robot::extend_map(const LocatedScan& scan, const MapShare& share) {
 /// What is left in points_odom_ is what stands.
 void Robot::leave_people_out(const LocatedScan& scan, const Eigen::Vector3f& origin_odom) {
   const StageTimer timing(monitor_.stage("people"));
-  const auto height = static_cast<float>(T_base_lidar_.translation().z());
+  const auto height = static_cast<float>(T_base_sensor_.translation().z());
   people_->observe({scan.stamp, points_odom_, origin_odom, height},
                    [this](const Eigen::Vector3f& point) { return mapper_.settled(point); });
   const auto mask = people_->mask();

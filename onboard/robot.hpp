@@ -21,6 +21,9 @@
 #include "onboard/perception/labelling/located_scans.hpp"
 #include "onboard/perception/labelling/point_labeller.hpp"
 #include "onboard/perception/people/people.hpp"
+#include "onboard/perception/stereo/stereo_geometry.hpp"
+#include "onboard/perception/stereo/stereo_pair.hpp"
+#include "onboard/visual_odometry/stereo_odometry.hpp"
 
 namespace cairn {
 
@@ -43,9 +46,18 @@ struct PeopleSetup {
   std::vector<MountedEye> eyes;
 };
 
+/// A robot without a LiDAR: both eyes of its camera tell its motion, and its map is made of what they see.
+struct StereoSetup {
+  visual_odometry::VisualOdometryConfig odometry;
+  stereo::StereoGeometry geometry;
+  SE3 T_base_camera;           ///< of the left eye, in body axes: x along its view, y left, z up
+  mapping::SensorTrust trust;  ///< of the points of located scans
+};
+
 /// One robot: the pose of its LiDAR in base_link, and the settings of odometry and mapping.
 struct RobotConfig {
-  SE3 T_base_lidar;  ///< how the LiDAR is mounted
+  SE3 T_base_lidar;                   ///< how the LiDAR is mounted
+  std::optional<StereoSetup> stereo;  ///< none: a LiDAR tells the motion
   odometry::OdometryConfig odometry;
   mapping::MappingConfig mapping;
   std::optional<LabellingSetup> labelling;    ///< none: the map gets no labels
@@ -121,6 +133,9 @@ class Robot {
   /// state at the scan's end, null where it is not known. On an error the scan is dropped, and the
   /// track is as before.
   Result<TrackPoint> locate(const Scan& scan, Budget& budget, LocatedScan& located, const DriveState* wheels = nullptr);
+  /// The same by what both eyes see. `located` gets no points: they are for who measures them. Errors: kUnsupported
+  /// (the robot has a LiDAR), and those of StereoOdometry::update().
+  Result<TrackPoint> locate(const stereo::StereoPair& pair, Budget& budget, LocatedScan& located);
   /// Adds a scan to the map, where its pose is trusted, but for the points of people. On an error (kLimit: the map's
   /// memory) the map is as before.
   Result<void> extend_map(const LocatedScan& scan, const MapShare& share = {});
@@ -149,12 +164,14 @@ class Robot {
 
   /// The next scan decides whether the robot is where the previous run ended. Grant it every
   /// iteration.
-  [[nodiscard]] bool resuming() const { return odometry_.resuming(); }
+  [[nodiscard]] bool resuming() const { return lidar_ && lidar_->resuming(); }
+  /// Whether both eyes tell its motion, and no LiDAR.
+  [[nodiscard]] bool sees_its_way() const { return eyes_.has_value(); }
 
   [[nodiscard]] const std::vector<TrackPoint>& track() const { return track_; }
   /// Of locate()'s thread: pose and motion at the last scan, and the noise of a prediction from there.
-  [[nodiscard]] const odometry::MotionFilter& motion() const { return odometry_.motion(); }
-  [[nodiscard]] odometry::MotionNoise expected_noise() const { return odometry_.expected_noise(); }
+  [[nodiscard]] const odometry::MotionFilter& motion() const { return odometry().motion(); }
+  [[nodiscard]] odometry::MotionNoise expected_noise() const { return odometry().expected_noise(); }
   [[nodiscard]] const mapping::SemanticOcTree& map() const { return mapper_.tree(); }
   /// Of map(). It may lag behind the last TrackPoint's.
   [[nodiscard]] std::uint32_t map_epoch() const { return mapped_epoch_; }
@@ -168,9 +185,14 @@ class Robot {
   [[nodiscard]] std::vector<mapping::TileKey> take_changed_tiles() { return mapper_.take_changed_tiles(); }
 
  private:
-  SE3 T_base_lidar_;
-  odometry::LidarOdometry odometry_;
+  SE3 T_base_sensor_;  // of what measures the points of located scans
+  std::optional<odometry::LidarOdometry> lidar_;
+  std::optional<visual_odometry::StereoOdometry> eyes_;
+  std::optional<mapping::SensorTrust> trust_;  // of located scans; none: as the map's config has it
   mapping::Mapper mapper_;
+  [[nodiscard]] const odometry::MotionSource& odometry() const;
+  const TrackPoint& place(const odometry::MotionUpdate& motion, bool resuming, LocatedScan& located);
+  void set_up_odometry(const RobotConfig& config, Workers& workers);
   void set_up_cameras(const RobotConfig& config);
   void begin_map(std::uint32_t epoch);
 

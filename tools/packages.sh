@@ -11,7 +11,7 @@ declare -rA packages=(
   [build]="g++ cmake ninja-build pkg-config ccache libeigen3-dev liboctomap-dev libpcap-dev libyaml-cpp-dev
            libfmt-dev libcli11-dev nlohmann-json3-dev libexpected-dev libzstd-dev libxxhash-dev libpng-dev libssl-dev
            libgpiod-dev libembree-dev cyclonedds-dev cyclonedds-tools libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev
-           libopencv-dnn-dev libopencv-calib3d-dev"
+           libopencv-dnn-dev libopencv-calib3d-dev libopencv-video-dev"
   [test]="libgtest-dev libgmock-dev libbenchmark-dev"
   # the proof that another vendor's DDS reads cairn-ros (tests/tools/ros/process/foreign_test.cpp)
   [foreign_dds]="libfastrtps-dev libfastcdr-dev"
@@ -32,7 +32,7 @@ declare -rA packages=(
   [sysroot]="libc6-dev libstdc++-12-dev linux-libc-dev libeigen3-dev liboctomap-dev libpcap-dev libyaml-cpp-dev
              libfmt-dev libcli11-dev nlohmann-json3-dev libexpected-dev libzstd-dev libxxhash-dev libpng-dev libssl-dev
              libgpiod-dev cyclonedds-dev libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev
-             libopencv-dnn-dev libopencv-calib3d-dev libgtest-dev libgmock-dev"
+             libopencv-dnn-dev libopencv-calib3d-dev libopencv-video-dev libgtest-dev libgmock-dev"
 )
 
 list() {

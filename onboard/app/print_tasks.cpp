@@ -6,8 +6,7 @@
 
 #include "hal/monitor.hpp"
 #include "onboard/app/door/devices.hpp"
-#include "onboard/app/perception/open_people.hpp"
-#include "onboard/app/perception/open_perception.hpp"
+#include "onboard/app/perception/open_sight.hpp"
 #include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
 #include "onboard/app/team/join_team.hpp"
@@ -48,11 +47,9 @@ Result<std::string> print_tasks(const RunOptions& options) {
   const auto sources = sources_of(options, profile);
   if (!sources) return sources.error();
   Monitor monitor;
-  auto sight = open_perception(options, profile, chosen->file, *sources, monitor);
+  auto sight = open_sight(options, profile, chosen->file, *sources, monitor);
   if (!sight) return sight.error();
-  auto watch = open_people(options, profile, chosen->file, *sources, monitor);
-  if (!watch) return watch.error();
-  RobotTasks tasks(*sources, profile, options, {}, {std::move(*sight), std::move(*watch)}, monitor);
+  RobotTasks tasks(*sources, profile, options, {}, std::move(*sight), monitor);
   if (options.live()) add_live_only_tasks(options, profile.schedule, tasks);
   return tasks.graph.to_text();
 }

@@ -6,8 +6,7 @@
 #include <thread>
 
 #include "onboard/app/commands/serve_commands.hpp"
-#include "onboard/app/perception/open_people.hpp"
-#include "onboard/app/perception/open_perception.hpp"
+#include "onboard/app/perception/open_sight.hpp"
 #include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/app/restart/restart.hpp"
 #include "onboard/app/restart/start_log.hpp"
@@ -39,7 +38,8 @@ Result<void> make_socket_folder(const std::filesystem::path& folder) {
 }
 
 Devices devices_for(const RunOptions& options, const RobotProfile& profile) {
-  return {.camera = wants_camera(options, profile) || wants_eye(people::Eye::kVisible, options, profile),
+  return {.eyes = profile.sees_its_way(),
+          .camera = wants_camera(options, profile) || wants_eye(people::Eye::kVisible, options, profile),
           .thermal = wants_eye(people::Eye::kThermal, options, profile),
           .depth = profile.depth.map.rate_hz > 0,
           .all = !options.record.empty()};
@@ -65,7 +65,8 @@ Result<void> check_schedule(const RunOptions& options, const RobotProfile& profi
                                              .perception = wants_camera(options, profile),
                                              .depth = profile.depth.exists() && profile.depth.map.rate_hz > 0,
                                              .detection = wants_eye(people::Eye::kVisible, options, profile),
-                                             .thermal_detection = wants_eye(people::Eye::kThermal, options, profile)});
+                                             .thermal_detection = wants_eye(people::Eye::kThermal, options, profile),
+                                             .stereo = profile.sees_its_way()});
   return scheduler::validate(tasks, static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
 }
 
@@ -102,6 +103,12 @@ PreviousRun recorded_previous_run(const std::filesystem::path& recording, Monito
   return previous;
 }
 
+/// A robot without a LiDAR cannot tell whether it is where the previous run ended.
+void forget_place(PreviousRun& previous, Monitor& monitor) {
+  previous.resumed.reset();
+  monitor.event({}, "restart", "the saved map is left alone: a robot without a LiDAR begins anew");
+}
+
 /// The profile for these options, if they fit together.
 Result<ChosenProfile> checked_profile(const RunOptions& options) {
   if (const auto fits = check(options); !fits) return fits.error();
@@ -124,7 +131,7 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
   if (!results) return results.error();
   auto result = std::make_unique<RunResult>();
   for (const std::string& note : chosen->notes) result->monitor.event({}, "profile", note);
-  declare_stages(profile->schedule, result->monitor);
+  declare_stages(profile->schedule, profile->sees_its_way(), result->monitor);
   const LiveClock clock;
   const auto lock = lock_state(options, clock.now(), result->monitor);  // held to the end of the run
   if (!lock) return lock.error();
@@ -133,15 +140,13 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
 
   std::optional<StateFolder> state;
   if (live && !options.state.empty()) state.emplace(options.state, result->monitor);
-  const PreviousRun previous = state  ? find_previous_run(*state, *profile, clock.now(), result->monitor)
-                               : live ? PreviousRun()
-                                      : recorded_previous_run(options.recording, result->monitor);
-  auto sight = open_perception(options, *profile, chosen->file, door->recording.sources, result->monitor);
+  PreviousRun previous = state  ? find_previous_run(*state, *profile, clock.now(), result->monitor)
+                         : live ? PreviousRun()
+                                : recorded_previous_run(options.recording, result->monitor);
+  auto sight = open_sight(options, *profile, chosen->file, door->recording.sources, result->monitor);
   if (!sight) return sight.error();
-  auto watch = open_people(options, *profile, chosen->file, door->recording.sources, result->monitor);
-  if (!watch) return watch.error();
-  RobotTasks tasks(door->recording.sources, *profile, options, previous, {std::move(*sight), std::move(*watch)},
-                   result->monitor);
+  if (sight->eyes && previous.resumed) forget_place(previous, result->monitor);
+  RobotTasks tasks(door->recording.sources, *profile, options, previous, *std::move(sight), result->monitor);
   const RunContext context{*door, *profile, options, previous, result->monitor, results->path()};
   LiveRun live_run(tasks, context, clock);
   const auto ran = live ? live_run.run(state ? &state->generations : nullptr)  // packets → scans → poses and map

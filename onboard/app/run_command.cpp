@@ -100,7 +100,8 @@ int run_robot(Arguments a) {
   if (report.scans != 0) return limits.empty() ? kDone : judge(limits, report);
   const std::string remedy = report.live ? "see the events; `cairn doctor --config PROFILE` listens to the devices"
                                          : "see the events; `cairn inspect` says what a recording holds";
-  return fail({Errc::kNotFound, "not one scan came in", report.source, {}, remedy + kept_results(**result, a.run.out)});
+  const char* const nothing = report.visual_odometry ? "not one stereo picture came in" : "not one scan came in";
+  return fail({Errc::kNotFound, nothing, report.source, {}, remedy + kept_results(**result, a.run.out)});
 }
 
 }  // namespace

@@ -115,6 +115,18 @@ void add_depth(const RobotTasks& tasks, report::RunReport& report) {
                                     .apart = joined.apart};
 }
 
+void add_visual(const RobotTasks& tasks, report::RunReport& report) {
+  if (!tasks.visual) return;
+  const VisualOdometryTask::Figures& looked = tasks.visual->figures();
+  const StereoTask::Figures& measured = tasks.stereo->figures();
+  report.visual_odometry = report::VisualStats{.frames = looked.frames,
+                                               .tracked = looked.tracked,
+                                               .lost = looked.frames - looked.tracked,
+                                               .refused = looked.refused,
+                                               .clouds = measured.clouds,
+                                               .points = measured.points};
+}
+
 /// Empty where the recording knows no time of day.
 std::string utc_of(Time t, const recording::Recording& recording) {
   const std::int64_t utc_ns = recording.utc_ns(t);
@@ -124,7 +136,7 @@ std::string utc_of(Time t, const recording::Recording& recording) {
 
 void add_input(const RunFacts& facts, report::RunReport& report) {
   const ReceiveTask::Figures& figures = facts.tasks.receive.figures();
-  report.scans = figures.scans;
+  report.scans = facts.tasks.looks();
   const auto& sources = facts.door.recording.sources;
   if (figures.scans > 0 && has_kind(sources, recording::kVelodyne)) report.lost_packets = figures.lost_packets;
   for (const Input& input : facts.door.inputs)
@@ -158,6 +170,7 @@ report::RunReport make_report(const RunFacts& facts) {
   add_shed(facts.tasks.mapping, report);
   add_labels(facts.tasks, facts.monitor, report);
   add_depth(facts.tasks, report);
+  add_visual(facts.tasks, report);
   add_people(facts.tasks, report);
   report.monitor = &facts.monitor;
   for (const TrackPoint& p : track) report.trajectory.push_back({p.stamp, p.T_odom_base});

@@ -15,6 +15,8 @@
 #include "hal/workers.hpp"
 #include "onboard/odometry/config.hpp"
 #include "onboard/odometry/estimation/motion_filter.hpp"
+#include "onboard/odometry/estimation/motion_source.hpp"
+#include "onboard/odometry/estimation/motion_update.hpp"
 #include "onboard/odometry/estimation/twist_check.hpp"
 #include "onboard/odometry/estimation/wheel_bridge.hpp"
 #include "onboard/odometry/keypoint_selector.hpp"
@@ -31,32 +33,18 @@
 
 namespace cairn::odometry {
 
-/// The robot's motion, as one scan shows it.
-struct OdometryUpdate {
-  Time stamp{};                     ///< = scan.valid.end; all poses are of this instant
-  UncertainPose T_odom_base;        ///< since the start, where T_odom_base was the identity
-  UncertainPose T_previous_base;    ///< since the scan before
-  Vector6 twist = Vector6::Zero();  ///< of base_link in base_link: m/s, rad/s
+/// The robot's motion, as one scan shows it. Its stamp is scan.valid.end.
+struct OdometryUpdate : MotionUpdate {
   /// The scan's finite points (all of them, as a rule) in the scan's order, deskewed, in base_link
   /// at `stamp`. Owned by the odometry and valid until the next update.
   std::span<const Eigen::Vector3f> points_base;
 
-  int iterations = 0;
   bool converged = false;
   double inlier_ratio = 0;  ///< points within 3 σ of a plane / points whose neighbourhood holds planes
   double rms_m = 0;         ///< point-to-plane distance, robustly weighted
-  /// Directions that the surroundings do not determine. Along them the pose is the prediction, and
-  /// the covariance grows.
-  int degenerate_directions = 0;
   /// The first `degenerate_directions` are valid: unit (translation, rotation·length) in base_link.
   std::array<Vector6, 6> degenerate{};
   double degenerate_length_m = 1;  ///< the lever arm at which rotations were compared with translations
-
-  bool began = false;          ///< the first scan: T_odom_base is the identity, odom has nothing in common with before
-  bool lost = false;           ///< the scan did not fit: the pose is predicted, the map was left alone
-  bool reinitialised = false;  ///< lost for too long: this scan began a new map at the predicted pose
-  /// Reinitialised at a pose so uncertain that the new map must not be added to the one before: they would not match.
-  bool apart = false;
 };
 
 /// Steps that one scan can take at most: a limit for its budget that cuts nothing short.
@@ -67,7 +55,7 @@ struct OdometryUpdate {
 /// An iterated Kalman filter over pose and twist; the twist deskews the scan inside the iteration,
 /// so distorted points take part in estimating it. Same input, same bits, for any number of
 /// workers.
-class LidarOdometry {
+class LidarOdometry final : public MotionSource {
  public:
   /// `T_base_lidar` takes a point of the sensor to base_link. `workers` must outlive the odometry.
   LidarOdometry(const OdometryConfig& config, const SE3& T_base_lidar, Workers& workers);
@@ -90,10 +78,8 @@ class LidarOdometry {
   /// The first scan after resume() is still to come. Grant it every iteration.
   [[nodiscard]] bool resuming() const { return relocaliser_.pending(); }
 
-  /// Pose and motion at the last scan.
-  [[nodiscard]] const MotionFilter& motion() const { return filter_; }
-  /// How much acceleration is expected until the next scan.
-  [[nodiscard]] MotionNoise expected_noise() const { return prior_.usual(map_.settled()); }
+  [[nodiscard]] const MotionFilter& motion() const override { return filter_; }
+  [[nodiscard]] MotionNoise expected_noise() const override { return prior_.usual(map_.settled()); }
 
   /// Blocks the map holds, for figures and tests.
   [[nodiscard]] std::size_t map_blocks() const { return map_.patches().blocks(); }

@@ -9,7 +9,7 @@ namespace cairn::report {
 namespace {
 
 std::string totals(const RunReport& r) {
-  std::string text = fmt::format("{}: {} scans", r.robot, r.scans);
+  std::string text = fmt::format("{}: {} {}", r.robot, r.scans, r.visual_odometry ? "stereo pictures" : "scans");
   text += r.duration_s ? fmt::format(" in {:.1f} s", *r.duration_s) : "";
   text += r.distance_m ? fmt::format(", {:.2f} m travelled", *r.distance_m) : ", distance not measured";
   return text +

@@ -5,3 +5,4 @@ if(embree_FOUND)  # its recordings' wheels are those of the simulator
   cairn_quality(odometry_drives SOURCES odometry_drives.cpp LINK cairn_odometry cairn_velodyne cairn_recording cairn_simulator)
 endif()
 cairn_quality(odometry_delays SOURCES odometry_delays.cpp LINK cairn_odometry cairn_velodyne cairn_recording)
+cairn_quality(visual_accuracy SOURCES visual_accuracy.cpp LINK cairn_visual_odometry cairn_app opencv::imgcodecs opencv::imgproc opencv::core)

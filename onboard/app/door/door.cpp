@@ -59,7 +59,7 @@ class UnreadableSource final : public Source {
 };
 
 bool is_used(const SourceEntry& entry, const Devices& which) {
-  if (entry.kind == recording::kCamera && which.camera) return true;
+  if (entry.kind == recording::kCamera && (which.camera || which.eyes)) return true;
   if (entry.kind == recording::kThermal && which.thermal) return true;
   if (entry.kind == recording::kDepth && which.depth) return true;
   return which.all || !recording::is_picture_kind(entry.kind);
@@ -67,7 +67,8 @@ bool is_used(const SourceEntry& entry, const Devices& which) {
 
 /// Geometry goes on without it.
 bool may_be_missing(const SourceEntry& entry, const Devices& which) {
-  return !which.all && recording::is_picture_kind(entry.kind);
+  const bool eyes = which.eyes && entry.kind == recording::kCamera;
+  return !which.all && !eyes && recording::is_picture_kind(entry.kind);
 }
 
 Result<Input> open_live(const RobotProfile& profile, const SourceEntry& entry, SourceId id, const Clock& clock) {
@@ -108,12 +109,13 @@ Result<void> add_decoders(Door& door, RobotProfile& profile, Monitor& monitor) {
 }  // namespace
 
 Result<Door> open_devices(const RobotProfile& profile, const Devices& which, const Clock& clock, Monitor& monitor) {
-  if (!profile.lidar.enabled)
+  if (!profile.lidar.enabled && !(profile.sees_its_way() && profile.camera.exists()))
     return Error{Errc::kInvalidConfig,
-                 "this robot has no LiDAR, and odometry needs one",
+                 "this robot has neither a LiDAR nor a stereo camera that may tell its motion",
                  profile.name,
                  {},
-                 "its other sensors can be recorded: cairn record"};
+                 "name camera.capture.device, and leave stereo.odometry at auto; its sensors can be recorded: cairn "
+                 "record"};
   Door door;
   const Duration utc_offset = LiveClock::realtime_offset();
   door.recording.robot = profile.name;

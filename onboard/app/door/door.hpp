@@ -42,6 +42,7 @@ struct Door {
 
 /// Which devices a live run opens besides those that geometry and safety use.
 struct Devices {
+  bool eyes = false;     ///< the camera tells the motion: it must not be missing
   bool camera = false;   ///< its pictures are looked at
   bool thermal = false;  ///< the same
   bool depth = false;    ///< its clouds go into the map
@@ -49,7 +50,7 @@ struct Devices {
 };
 
 /// Opens the devices of the profile; they listen from now on. Decoders report events to `monitor`. `monitor` and
-/// `clock` must outlive the door. Errors: kInvalidConfig (the robot has no LiDAR), those of a driver.
+/// `clock` must outlive the door. Errors: kInvalidConfig (nothing could tell the motion), those of a driver.
 Result<Door> open_devices(const RobotProfile& profile, const Devices& which, const Clock& clock, Monitor& monitor);
 /// Opens a recording. Its name, models and ports replace those of `profile`. An unfinished one is an event. A
 /// source whose file cannot be opened returns that error once, and then ends. `monitor` must outlive the door. Errors:

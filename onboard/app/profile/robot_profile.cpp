@@ -28,9 +28,11 @@ void declare(config::Section& s, RobotProfile& p) {
           "perception.segmentation, and to record it (--record)");
   s.group("thermal", p.thermal, "the thermal camera; a live run opens it to record it");
   s.group("depth", p.depth, "the depth camera; a live run opens it for depth.map, and to record it");
+  s.group("stereo", p.stereo, "what both eyes of the colour camera are used for");
   s.group("drive", p.drive, "the drive on its CAN bus; it exists when interface is named");
   s.group("gpio", p.gpio, "e-stop, camera trigger and PPS; they exist when their lines are named");
   s.group("odometry", p.odometry, "scan-to-map registration");
+  s.group("visual_odometry", p.visual_odometry, "the motion of a robot without a LiDAR, by both eyes of its camera");
   s.number("odometry_deadline_s", p.odometry_deadline_s, {0.001, 10}, "s",
            "live: no further refinement of a pose this long after its last packet");
   s.group("mapping", p.mapping, "the OctoMap");

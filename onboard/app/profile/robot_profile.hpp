@@ -24,9 +24,11 @@ struct RobotProfile {
   CameraProfile camera;
   ThermalProfile thermal;
   DepthProfile depth;
+  StereoProfile stereo;
   DriveProfile drive;
   GpioProfile gpio;
   odometry::OdometryConfig odometry;
+  visual_odometry::VisualOdometryConfig visual_odometry;
   mapping::MappingConfig mapping;
   PerceptionProfile perception;
   safety::FailsafeConfig failsafe;
@@ -38,6 +40,8 @@ struct RobotProfile {
   ScheduleProfile schedule;
 
   [[nodiscard]] RobotConfig robot() const;
+  /// Whether both eyes of the camera tell this robot's motion: it has no LiDAR, and the profile does not forbid it.
+  [[nodiscard]] bool sees_its_way() const { return !lidar.enabled && stereo.odometry == "auto"; }
 };
 
 void declare(config::Section& section, RobotProfile& profile);

@@ -13,6 +13,8 @@ void declare(config::Section& s, ScheduleProfile& p) {
   s.group("detection", p.detection, "looks for people in one colour picture at a time");
   s.group("thermal_detection", p.thermal_detection, "looks for people in one thermal picture at a time");
   s.group("depth", p.depth, "turns one depth picture at a time into points for the map");
+  s.group("visual_odometry", p.visual_odometry, "of a robot without a LiDAR: locates one stereo picture at a time");
+  s.group("stereo", p.stereo, "of a robot without a LiDAR: turns one stereo picture at a time into points for the map");
   s.group("team", p.team, "in a team: datagrams of peers, and a slice of the team's map");
   s.group("matching", p.matching, "in a team: compares maps, one pair at a time, for seconds if need be");
   s.group("watch", p.watch, "events, signs of life, live view: waits for no disk");
@@ -23,7 +25,12 @@ void declare(config::Section& s, ScheduleProfile& p) {
 }
 
 std::vector<scheduler::TaskSpec> ScheduleProfile::tasks(const Parts& parts) const {
-  std::vector<scheduler::TaskSpec> all{safety, drive, receive, odometry, mapping, watch, housekeeping, saving};
+  std::vector<scheduler::TaskSpec> all{safety, drive, receive};
+  if (parts.stereo)
+    all.insert(all.end(), {visual_odometry, stereo});
+  else
+    all.push_back(odometry);
+  all.insert(all.end(), {mapping, watch, housekeeping, saving});
   if (parts.team) all.push_back(team);
   if (parts.perception) all.push_back(perception);
   if (parts.depth) all.push_back(depth);
@@ -32,11 +39,13 @@ std::vector<scheduler::TaskSpec> ScheduleProfile::tasks(const Parts& parts) cons
   return all;
 }
 
-void declare_stages(const ScheduleProfile& profile, Monitor& monitor) {
-  monitor.stage("odometry", profile.odometry.soft());
+void declare_stages(const ScheduleProfile& profile, bool by_eyes, Monitor& monitor) {
+  const scheduler::TaskSpec& odometry = by_eyes ? profile.visual_odometry : profile.odometry;
+  monitor.stage("odometry", odometry.soft());
+  if (by_eyes) monitor.stage("stereo", profile.stereo.soft());
   monitor.stage("mapping", profile.mapping.soft());
-  monitor.stage("packet_to_pose", profile.odometry.deadline());
-  monitor.stage("packet_to_map", profile.mapping.deadline());
+  monitor.stage("packet_to_pose", odometry.deadline());
+  monitor.stage("packet_to_map", (by_eyes ? profile.stereo.deadline() : Duration{}) + profile.mapping.deadline());
 }
 
 }  // namespace cairn::app

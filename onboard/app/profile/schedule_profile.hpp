@@ -44,6 +44,16 @@ struct ScheduleProfile {
                                         .nice = 5};
   scheduler::TaskSpec depth{
       .name = "depth", .rate_hz = 50, .phase_ms = 5, .deadline_ms = 100, .soft_ms = 10, .busy_hz = 5, .nice = 5};
+  scheduler::TaskSpec visual_odometry{.name = "visual_odometry",
+                                      .rate_hz = 100,
+                                      .phase_ms = 1,
+                                      .deadline_ms = 60,
+                                      .soft_ms = 20,
+                                      .hard_ms = 60,
+                                      .busy_hz = 30,
+                                      .priority = 50};
+  scheduler::TaskSpec stereo{
+      .name = "stereo", .rate_hz = 50, .phase_ms = 5, .deadline_ms = 250, .soft_ms = 60, .busy_hz = 5};
   scheduler::TaskSpec team{.name = "team", .rate_hz = 25, .phase_ms = 3, .deadline_ms = 200, .soft_ms = 4};
   scheduler::TaskSpec matching{.name = "matching", .rate_hz = 10, .phase_ms = 6, .deadline_ms = 5000};
   scheduler::TaskSpec watch{.name = "watch", .rate_hz = 20, .phase_ms = 4, .deadline_ms = 1000, .soft_ms = 0.5};
@@ -55,6 +65,7 @@ struct ScheduleProfile {
   /// Tasks that not every run has.
   struct Parts {
     bool team = false, perception = false, depth = false, detection = false, thermal_detection = false;
+    bool stereo = false;  ///< both eyes tell the motion, and no LiDAR
   };
   /// The tasks that declare a budget.
   [[nodiscard]] std::vector<scheduler::TaskSpec> tasks(const Parts& parts) const;
@@ -63,7 +74,8 @@ struct ScheduleProfile {
 void declare(config::Section& section, ScheduleProfile& profile);
 
 /// Gives the stages of a run the budgets of their tasks: execution of odometry and mapping `soft_ms`, the latencies
-/// from a scan's last byte their deadline. To be called before the tasks are made. Other stages have no budget.
-void declare_stages(const ScheduleProfile& profile, Monitor& monitor);
+/// from a scan's last byte their deadline. `by_eyes`: both eyes of the camera tell the motion. To be called before the
+/// tasks are made. Other stages have no budget.
+void declare_stages(const ScheduleProfile& profile, bool by_eyes, Monitor& monitor);
 
 }  // namespace cairn::app

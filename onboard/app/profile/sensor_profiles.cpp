@@ -11,6 +11,13 @@ void declare_mount(config::Section& s, std::vector<double>& mount, const char* k
             std::string("pose of the ") + whose + " in base_link: x, y, z, roll, pitch, yaw (fixed axes)");
 }
 
+void declare_trust(config::Section& s, mapping::SensorTrust& trust) {
+  s.number("prob_hit", trust.prob_hit, {0.51, 0.99}, "", "probability that a hit voxel is occupied");
+  s.number("prob_miss", trust.prob_miss, {0.01, 0.49}, "", "probability that a voxel seen through is occupied");
+  s.number("max_range_m", trust.max_range_m, {0.1, 100}, "m",
+           "from here on, a beam is free space alone: noise grows with the square of the distance");
+}
+
 }  // namespace
 
 void declare(config::Section& s, LidarProfile& p) {
@@ -39,10 +46,15 @@ void declare(config::Section& s, DepthProfile& p) {
 
 void declare(config::Section& s, DepthMapProfile& p) {
   s.number("rate_hz", p.rate_hz, {0, 30}, "Hz", "clouds per second, at most; 0: the map gets none");
-  s.number("prob_hit", p.trust.prob_hit, {0.51, 0.99}, "", "probability that a hit voxel is occupied");
-  s.number("prob_miss", p.trust.prob_miss, {0.01, 0.49}, "", "probability that a voxel seen through is occupied");
-  s.number("max_range_m", p.trust.max_range_m, {0.1, 100}, "m",
-           "from here on, a beam is free space alone: noise grows with the square of the distance");
+  declare_trust(s, p.trust);
+}
+
+void declare(config::Section& s, StereoProfile& p) {
+  s.choice("odometry", p.odometry, {"auto", "never"},
+           "auto: both eyes tell the motion of a robot without a LiDAR, and its map is made of what they see");
+  s.number("map_rate_hz", p.map_rate_hz, {0.1, 30}, "Hz", "clouds per second that get into the map, at most");
+  declare_trust(s, p.trust);
+  s.group("dense", p.dense, "how the points that both eyes see are found");
 }
 
 void declare(config::Section& s, DriveProfile& p) { declare(s, p.driver); }

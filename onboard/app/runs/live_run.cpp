@@ -102,7 +102,7 @@ Result<void> LiveRun::open_streams() {
   if (!hub) return hub.error();
   outlets_.emplace();
   streams_.emplace(std::move(*hub), session, robot_id, *outlets_, context_.monitor);
-  tasks_.odometry.serve(*outlets_);
+  tasks_.serve_poses(*outlets_);
   tasks_.drive.publish_to(outlets_->drive);
   tasks_.mapping.serve(outlets_->own);
   tasks_.mapping.tell_people(outlets_->people);
@@ -146,7 +146,7 @@ safety::Pulse LiveRun::add_saving(Generations& generations) {
   const PreviousRun& previous = context_.previous;
   saving_.emplace(generations, to_save_, previous.epoch, boot_id(), context_.monitor);
   const auto& scheduled = add_live_only(profile.schedule.saving, *saving_);
-  tasks_.odometry.publish_to(to_save_.pose);
+  tasks_.publish_poses_to(to_save_.pose);
   odometry::ScanSelection selection;
   if (previous.resumed) {
     saving_->go_on_with(previous.resumed->scans);
@@ -190,7 +190,7 @@ RunEnd LiveRun::end() const {
 void LiveRun::publish_status(Time now) {
   publisher_->set_decision(safety_events_.decision());
   publisher_->set_shed(tasks_.mapping.shed_in_force());
-  publisher_->set_scans(tasks_.receive.figures().scans);
+  publisher_->set_scans(tasks_.looks());
   if (tasks_.team && tasks_.team->team().view().refresh()) publisher_->set_peers(tasks_.team->team().view().value());
   if (tasks_.robot.follows_people()) publish_people();
   if (outlets_) publish_state();
@@ -212,7 +212,7 @@ void LiveRun::publish_state() {
   outlets_->state.publish(StateNews{.decision = safety_events_.decision(),
                                     .drive = outlets_->drive.value(),
                                     .shed = tasks_.mapping.shed(),
-                                    .scans = tasks_.receive.figures().scans,
+                                    .scans = tasks_.looks(),
                                     .T_team_odom = outlets_->T_team_odom.value()});
 }
 

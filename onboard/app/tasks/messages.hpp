@@ -32,6 +32,13 @@ struct ArrivedPicture {
   Packet packet;
 };
 
+/// A stereo picture and where it was taken. From visual odometry to who measures its points.
+struct ArrivedView {
+  stereo::StereoPair pair;
+  LocatedScan scan;  ///< without points
+  Time arrival{};    ///< of the picture
+};
+
 /// What a network said of a picture. From perception to mapping.
 struct ArrivedLabels {
   LabelImage labels;

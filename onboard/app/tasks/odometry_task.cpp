@@ -36,8 +36,10 @@ void OdometryTask::locate(const ArrivedScan& arrived, Tick& tick) {
   const auto located =
       robot_.locate(arrived.scan, budget, out != nullptr ? out->scan : dropped_, rolled ? &*rolled : nullptr);
   tick.settle(steps_slot, budget);
-  if (located && published_ != nullptr) published_->publish(*located);
-  if (located && outlets_ != nullptr) hand_to_clients(*located, out != nullptr ? out->scan : dropped_);
+  if (located) {
+    teller_.tell(*located, robot_);
+    teller_.tell(out != nullptr ? out->scan : dropped_);
+  }
   lost_ = !located || located->lost;
   if (!located) {
     monitor_.event(arrived.scan.valid.end, "odometry", to_string(located.error()));
@@ -49,18 +51,6 @@ void OdometryTask::locate(const ArrivedScan& arrived, Tick& tick) {
   }
   if (tick.takes_time()) latency_.record(tick.figure_now() - arrived.arrival);
   if (progress_) progress_(arrived.scan.valid.end, ++count_);
-}
-
-void OdometryTask::hand_to_clients(const TrackPoint& point, const LocatedScan& scan) {
-  if (PoseNews* pose = outlets_->poses.back()) {
-    *pose = {point, robot_.motion(), robot_.expected_noise()};
-    outlets_->poses.push();
-  }
-  if (!outlets_->scans_wanted.load(std::memory_order_relaxed)) return;
-  if (LocatedScan* copy = outlets_->scans.back()) {
-    *copy = scan;
-    outlets_->scans.push();
-  }
 }
 
 /// The safety task hears of changes only.

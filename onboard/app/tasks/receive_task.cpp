@@ -114,11 +114,11 @@ void ReceiveTask::hand_on(const Packet& picture, scheduler::OutputPort<ArrivedPi
   to.push(tick);
 }
 
-std::array<scheduler::OutputPort<ArrivedPicture>*, 2> ReceiveTask::ports_of(recording::SensorKind kind) {
-  if (kind == recording::kCamera) return {&pictures, &watched};
-  if (kind == recording::kThermal) return {&thermals, nullptr};
-  if (kind == recording::kDepth) return {&depths, nullptr};
-  return {nullptr, nullptr};
+ReceiveTask::PicturePorts ReceiveTask::ports_of(recording::SensorKind kind) {
+  if (kind == recording::kCamera) return {&pictures, &watched, &eyes};
+  if (kind == recording::kThermal) return {&thermals};
+  if (kind == recording::kDepth) return {&depths};
+  return {};
 }
 
 void ReceiveTask::note(safety::Watched what, Time when) {

@@ -32,6 +32,7 @@ class ReceiveTask final : public scheduler::Task {
   scheduler::OutputPort<ArrivedPicture> depths{*this, "depths"};      ///< of the depth camera
   scheduler::OutputPort<ArrivedPicture> watched{*this, "watched"};  ///< of the colour camera, for who looks for people
   scheduler::OutputPort<ArrivedPicture> thermals{*this, "thermals"};  ///< of the thermal camera, for the same
+  scheduler::OutputPort<ArrivedPicture> eyes{*this, "eyes"};          ///< of the colour camera, for visual odometry
 
   /// What came in. Of the task's thread, or after the run. Any thread may read the counters.
   struct Figures {
@@ -53,11 +54,12 @@ class ReceiveTask final : public scheduler::Task {
   [[nodiscard]] std::uint64_t missing_packets() const;
 
  private:
+  using PicturePorts = std::array<scheduler::OutputPort<ArrivedPicture>*, 3>;  // null: nowhere
   struct Sensor {
     scheduler::Feed feed;
     ScanDecoder* decoder;                    // null: its packets are only counted and recorded
     std::optional<safety::Watched> watched;  // without a decoder: every packet is good data of this kind
-    std::array<scheduler::OutputPort<ArrivedPicture>*, 2> pictures;  // where its packets go; null: nowhere
+    PicturePorts pictures;                   // where its packets go
     safety::StuckWatch stuck{};
     safety::PictureSample sample{};
     safety::RejectionWatch rejection{};
@@ -69,7 +71,7 @@ class ReceiveTask final : public scheduler::Task {
   void judge(Time now);
   void hand_on(const Scan* scan, scheduler::Tick& tick, bool at_the_end);
   static void hand_on(const Packet& picture, scheduler::OutputPort<ArrivedPicture>& to, scheduler::Tick& tick);
-  [[nodiscard]] std::array<scheduler::OutputPort<ArrivedPicture>*, 2> ports_of(recording::SensorKind kind);
+  [[nodiscard]] PicturePorts ports_of(recording::SensorKind kind);
   void note(safety::Watched what, Time when);
   void publish(scheduler::Tick& tick);
 

@@ -18,6 +18,8 @@ constexpr std::size_t kWaitingNews = 64;
 constexpr std::size_t kWaitingRequests = 8;
 // At 15 to 30 Hz a network takes the time of some of them.
 constexpr std::size_t kWaitingPictures = 8;
+// One is measured while the next one waits.
+constexpr std::size_t kWaitingViews = 2;
 // In virtual time. Real news takes less, so a replay at real speed need not wait for it.
 constexpr Duration kSensorsLag = std::chrono::milliseconds(20);
 // Visible with the next tick of the consumer.
@@ -35,6 +37,7 @@ Robot make_robot(const RobotProfile& profile, const Sight& sight, RobotTasks& ta
   RobotConfig config = profile.robot();
   config.labelling = sight.labels.labelling;
   config.people = sight.people.setup;
+  if (sight.eyes) config.stereo = sight.eyes->setup;
   if (previous.resumed)
     return {config, tasks.odometry_workers, tasks.mapping_workers, monitor, resume(*previous.resumed)};
   return {config, tasks.odometry_workers, tasks.mapping_workers, monitor};
@@ -50,11 +53,15 @@ RobotTasks::RobotTasks(std::span<const recording::SourceEntry> sources, const Ro
       robot(make_robot(profile, sight, *this, previous, monitor)),
       safety(profile.failsafe, fitted),
       receive(monitor),
-      odometry(profile, robot, monitor, options.progress),
       mapping(profile.overload, profile.schedule.mapping.deadline(), robot, monitor) {
-  add_tasks(profile.schedule);
+  add_inputs(profile.schedule);
+  if (sight.eyes)
+    add_eyes(*std::move(sight.eyes), profile, options, monitor);
+  else
+    add_odometry(profile, options, monitor);
+  graph.add(profile.schedule.mapping, mapping);
   connect_safety(profile.schedule);
-  connect_map(options.live());
+  connect_map(profile.schedule, options.live());
   if (sight.labels.on()) add_perception(std::move(sight.labels), profile.schedule, options.live(), monitor);
   for (DetectionParts& parts : sight.people.detectors)
     add_detection(std::move(parts), profile.schedule, options.live(), monitor);
@@ -73,29 +80,58 @@ RobotTasks::RobotTasks(std::span<const recording::SourceEntry> sources, const Ro
 }
 
 /// Producers before consumers, but for safety and drive, which come first and hear of the others with the next tick.
-void RobotTasks::add_tasks(const ScheduleProfile& schedule) {
+void RobotTasks::add_inputs(const ScheduleProfile& schedule) {
   using scheduler::TaskRole;
   graph.add(schedule.safety, safety, TaskRole::kInput);
   graph.add(schedule.drive, drive, TaskRole::kInput);
   graph.add(schedule.receive, receive, TaskRole::kInput);
-  graph.add(schedule.odometry, odometry);
-  graph.add(schedule.mapping, mapping);
+}
+
+void RobotTasks::add_odometry(const RobotProfile& profile, const RunOptions& options, Monitor& monitor) {
+  odometry.emplace(profile, robot, monitor, options.progress);
+  graph.add(profile.schedule.odometry, *odometry);
+}
+
+void RobotTasks::add_eyes(StereoEyes eyes, const RobotProfile& profile, const RunOptions& options, Monitor& monitor) {
+  visual.emplace(profile, std::move(eyes.camera), std::move(eyes.rectifier), robot, monitor, options.progress);
+  stereo.emplace(std::move(eyes.dense), eyes.setup, monitor);
+  graph.add(profile.schedule.visual_odometry, *visual);
+  graph.add(profile.schedule.stereo, *stereo);
 }
 
 void RobotTasks::connect_safety(const ScheduleProfile& schedule) {
   graph.connect(receive.seen, safety.sensors, {.capacity = kWaitingNews, .lag = kSensorsLag});
   graph.connect(drive.status, safety.drive, {.capacity = kWaitingNews, .lag = kNextTick});
-  graph.connect(odometry.status, safety.odometry, {.capacity = kWaitingNews, .lag = 2 * schedule.odometry.deadline()});
+  const Duration lag = 2 * (odometry ? schedule.odometry : schedule.visual_odometry).deadline();
+  graph.connect(odometry ? odometry->status : visual->status, safety.odometry, {.capacity = kWaitingNews, .lag = lag});
   graph.connect(safety.decisions, drive.decisions, {.capacity = kWaitingNews});
   graph.connect(drive.rearms, safety.rearms, {.capacity = kWaitingRequests, .lag = kNextTick});
-  graph.connect(drive.wheels, odometry.wheels, {.capacity = kWaitingNews, .lag = kNextTick});
+  if (odometry) graph.connect(drive.wheels, odometry->wheels, {.capacity = kWaitingNews, .lag = kNextTick});
 }
 
-void RobotTasks::connect_map(bool live) {
-  const std::size_t reserve = live ? 0 : 3 * kWaitingScans;
-  graph.connect(receive.scans, odometry.scans, {.capacity = kWaitingScans, .reserve = reserve});
-  graph.connect(odometry.motions, mapping.motions, {.capacity = kWaitingScans, .reserve = reserve});
+void RobotTasks::connect_map(const ScheduleProfile& schedule, bool live) {
+  const std::size_t scans = live ? 0 : 3 * kWaitingScans, pictures = live ? 0 : 3 * kWaitingPictures;
+  if (odometry) {
+    graph.connect(receive.scans, odometry->scans, {.capacity = kWaitingScans, .reserve = scans});
+    graph.connect(odometry->motions, mapping.motions, {.capacity = kWaitingScans, .reserve = scans});
+    return;
+  }
+  graph.connect(receive.eyes, visual->pictures, {.capacity = kWaitingPictures, .reserve = pictures});
+  graph.connect(visual->views, stereo->views, {.capacity = kWaitingViews});
+  graph.connect(stereo->motions, mapping.motions,
+                {.capacity = kWaitingScans, .reserve = scans, .lag = schedule.stereo.deadline()});
 }
+
+void RobotTasks::publish_poses_to(LatestValue<TrackPoint>& pose) {
+  (odometry ? odometry->teller() : visual->teller()).publish_to(pose);
+}
+
+void RobotTasks::serve_poses(StreamOutlets& outlets) {
+  (odometry ? odometry->teller() : visual->teller()).serve(outlets);
+  if (stereo) stereo->teller().serve(outlets);
+}
+
+std::uint64_t RobotTasks::looks() const { return visual ? visual->figures().frames : receive.figures().scans; }
 
 void RobotTasks::add_depth(const RobotProfile& profile, bool live, Monitor& monitor) {
   const scheduler::TaskSpec& spec = profile.schedule.depth;

@@ -6,8 +6,7 @@
 #include <span>
 
 #include "hal/workers.hpp"
-#include "onboard/app/perception/open_people.hpp"
-#include "onboard/app/perception/open_perception.hpp"
+#include "onboard/app/perception/open_sight.hpp"
 #include "onboard/app/profile/run_options.hpp"
 #include "onboard/app/restart/restart.hpp"
 #include "onboard/app/tasks/depth_task.hpp"
@@ -18,17 +17,13 @@
 #include "onboard/app/tasks/perception_task.hpp"
 #include "onboard/app/tasks/receive_task.hpp"
 #include "onboard/app/tasks/safety_task.hpp"
+#include "onboard/app/tasks/stereo_task.hpp"
+#include "onboard/app/tasks/visual_odometry_task.hpp"
 #include "onboard/app/team/team_tasks.hpp"
 #include "onboard/scheduler/idle_task.hpp"
 #include "onboard/scheduler/task_graph.hpp"
 
 namespace cairn::app {
-
-/// All that looks at pictures.
-struct Sight {
-  Perception labels;
-  PeopleWatch people;
-};
 
 /// The tasks of one robot and the graph that connects them. What a live run adds (recording, saving, publishing) is
 /// not in it; see LiveRun.
@@ -48,19 +43,30 @@ class RobotTasks {
   SafetyTask safety;
   DriveTask drive;
   ReceiveTask receive;
-  OdometryTask odometry;
   MappingTask mapping;
   scheduler::IdleTask reference;  ///< as often as the control task
   scheduler::TaskGraph graph;
+  std::optional<OdometryTask> odometry;      ///< none: both eyes tell the motion
+  std::optional<VisualOdometryTask> visual;  ///< none: a LiDAR tells the motion
+  std::optional<StereoTask> stereo;          ///< with `visual`
   std::optional<PerceptionTask> perception;  ///< none: nothing is labelled
   std::deque<DetectionTask> detections;      ///< one for each camera that looks for people
   std::optional<DepthTask> depth;            ///< none: no depth camera, or the map gets no clouds
   std::optional<TeamTasks> team;             ///< none: this robot takes part in no team
 
+  /// Every pose is told to `pose`; see PoseTeller.
+  void publish_poses_to(LatestValue<TrackPoint>& pose);
+  /// Poses and located scans are told to `outlets`; see PoseTeller.
+  void serve_poses(StreamOutlets& outlets);
+  /// Scans that came whole, or stereo pictures that were looked at. Any thread.
+  [[nodiscard]] std::uint64_t looks() const;
+
  private:
-  void add_tasks(const ScheduleProfile& schedule);
+  void add_inputs(const ScheduleProfile& schedule);
+  void add_odometry(const RobotProfile& profile, const RunOptions& options, Monitor& monitor);
+  void add_eyes(StereoEyes eyes, const RobotProfile& profile, const RunOptions& options, Monitor& monitor);
   void connect_safety(const ScheduleProfile& schedule);
-  void connect_map(bool live);
+  void connect_map(const ScheduleProfile& schedule, bool live);
   void add_depth(const RobotProfile& profile, bool live, Monitor& monitor);
   void add_detection(DetectionParts parts, const ScheduleProfile& schedule, bool live, Monitor& monitor);
   void add_perception(Perception sight, const ScheduleProfile& schedule, bool live, Monitor& monitor);

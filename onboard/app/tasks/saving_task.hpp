@@ -7,7 +7,7 @@
 
 #include "hal/monitor.hpp"
 #include "onboard/app/restart/generations.hpp"
-#include "onboard/app/tasks/map_copier.hpp"
+#include "onboard/app/restart/map_copier.hpp"
 #include "onboard/scheduler/tick.hpp"
 
 namespace cairn::app {

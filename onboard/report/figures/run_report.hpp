@@ -58,6 +58,16 @@ struct LabelStats {
   std::uint64_t apart = 0;               ///< that were labelled, but had no scans around them
 };
 
+/// What became of the stereo pictures of a robot whose motion both eyes tell.
+struct VisualStats {
+  std::uint64_t frames = 0;   ///< that were looked at
+  std::uint64_t tracked = 0;  ///< of these, those that told the motion
+  std::uint64_t lost = 0;     ///< of these, the others
+  std::uint64_t refused = 0;  ///< not looked at: damaged, of another size, or the same again and again
+  std::uint64_t clouds = 0;   ///< of these, those whose points went to the map
+  std::uint64_t points = 0;   ///< in them
+};
+
 /// What became of the pictures of the depth camera.
 struct DepthStats {
   std::uint64_t images = 0, points = 0;  ///< that are in the map
@@ -134,6 +144,7 @@ struct RunReport {
   std::string mode_cause;                                   ///< the fault's code; empty: none
   std::vector<std::pair<std::string, std::uint64_t>> shed;  ///< scans at each level of shedding, `nothing` first
   std::optional<LabelStats> labels;                         ///< of a run that looked at pictures
+  std::optional<VisualStats> visual_odometry;               ///< of a robot whose motion both eyes tell
   std::optional<DepthStats> depth;                          ///< of a run whose map got clouds
   std::optional<PeopleStats> people;                        ///< of a run that followed people
   OdometryStats odometry;

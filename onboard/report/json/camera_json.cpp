@@ -18,6 +18,13 @@ nlohmann::json labels_json(const RunReport& report) {
           {"apart", l.apart}};
 }
 
+nlohmann::json visual_odometry_json(const RunReport& report) {
+  if (!report.visual_odometry) return nullptr;
+  const VisualStats& v = *report.visual_odometry;
+  return {{"frames", v.frames},   {"tracked", v.tracked}, {"lost", v.lost},
+          {"refused", v.refused}, {"clouds", v.clouds},   {"points", v.points}};
+}
+
 nlohmann::json depth_json(const RunReport& report) {
   if (!report.depth) return nullptr;
   const DepthStats& d = *report.depth;

@@ -7,8 +7,10 @@
 
 namespace cairn::report {
 
-/// What became of the pictures, as report.json has it under `labels` and `depth`; null where the run looked at none.
+/// What became of the pictures, as report.json has it under `labels`, `depth`, `visual_odometry` and `people`; null
+/// where the run looked at none.
 [[nodiscard]] nlohmann::json labels_json(const RunReport& report);
+[[nodiscard]] nlohmann::json visual_odometry_json(const RunReport& report);
 [[nodiscard]] nlohmann::json depth_json(const RunReport& report);
 [[nodiscard]] nlohmann::json people_json(const RunReport& report);
 

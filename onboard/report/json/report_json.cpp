@@ -222,6 +222,7 @@ Json to_json(const RunReport& report) {
           {"labels", labels_json(report)},
           {"people", people_json(report)},
           {"depth", depth_json(report)},
+          {"visual_odometry", visual_odometry_json(report)},
           {"memory", {{"peak_rss_mb", report.peak_rss_mb}}},
           {"allocations", {{"control_thread", or_null(report.control_thread_allocations)}}},
           {"peers", peers_json(report)},

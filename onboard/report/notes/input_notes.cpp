@@ -26,7 +26,9 @@ void note_losses(NoteList& notes, const RunReport& report) {
 
 void note_inputs(NoteList& notes, const RunReport& report) {
   if (report.scans == 0)
-    notes.error("No scan arrived: there is no trajectory, and the map is empty.", remedy_without_scans(report));
+    notes.error(report.visual_odometry ? "No stereo picture arrived: there is no trajectory, and the map is empty."
+                                       : "No scan arrived: there is no trajectory, and the map is empty.",
+                remedy_without_scans(report));
   if (report.missing_packets > 0)
     notes.error(fmt::format("The recording lacks {} packets that the live run had: this is not the live run's result.",
                             report.missing_packets),

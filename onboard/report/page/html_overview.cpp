@@ -65,7 +65,8 @@ std::string tiles(const RunReport& report, const Accuracy& accuracy) {
   std::string s = "<div class=\"tiles\">\n";
   s += tile(measured(report.distance_m, length), "distance",
             report.duration_s ? "in " + duration(*report.duration_s) : "");
-  s += tile(count(report.scans), "scans", "packets lost: " + measured(report.lost_packets, count),
+  s += tile(count(report.scans), report.visual_odometry ? "stereo pictures" : "scans",
+            "packets lost: " + measured(report.lost_packets, count),
             report.scans == 0                     ? "bad"
             : report.lost_packets.value_or(0) > 0 ? "warn"
                                                   : "");

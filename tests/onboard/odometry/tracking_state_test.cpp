@@ -14,7 +14,7 @@ Time time_at(double seconds) { return Time{from_seconds(seconds)}; }
 SE3 driven(double metres) { return SE3(Eigen::Quaterniond::Identity(), {metres, 0, 0}); }
 SE3 turned(double radians) { return SE3::exp(radians * Vector6::Unit(5)); }
 
-Fit fit_of(int matched, int inliers) {
+Fit fit_with(int matched, int inliers) {
   Fit out;
   out.equations.matched = matched;
   out.equations.inliers = inliers;
@@ -50,12 +50,12 @@ TEST_F(Tracking, BeginsWithTheFirstScan) {
 TEST_F(Tracking, KnowsHowLongAgoAScanWasFollowed) {
   state_.begin(time_at(0));
   state_.advance(time_at(0.1), 0.1);
-  EXPECT_EQ(judge(fit_of(100, 10)), Track::kLost);
+  EXPECT_EQ(judge(fit_with(100, 10)), Track::kLost);
   EXPECT_TRUE(state_.lost());
   EXPECT_NEAR(state_.seconds_since_followed(time_at(0.2)), 0.2, 1e-12);
   EXPECT_NEAR(state_.seconds_since_last(time_at(0.2)), 0.1, 1e-12);
   state_.advance(time_at(0.2), 0.1);
-  EXPECT_EQ(judge(fit_of(100, 90)), Track::kFollowed);
+  EXPECT_EQ(judge(fit_with(100, 90)), Track::kFollowed);
   EXPECT_FALSE(state_.lost());
   EXPECT_NEAR(state_.seconds_since_followed(time_at(0.3)), 0.1, 1e-12);
 }
@@ -80,47 +80,47 @@ TEST_F(Tracking, AMotorMayTurnFasterFromNowOn) {
 }
 
 TEST_F(Tracking, AFitIsFollowedIfEnoughPointsMatchAndFit) {
-  EXPECT_EQ(judge(fit_of(60, 24)), Track::kFollowed);
-  EXPECT_EQ(judge(fit_of(59, 59)), Track::kLost) << "too few matches";
-  EXPECT_EQ(judge(fit_of(100, 39)), Track::kLost) << "too few of them fit";
+  EXPECT_EQ(judge(fit_with(60, 24)), Track::kFollowed);
+  EXPECT_EQ(judge(fit_with(59, 59)), Track::kLost) << "too few matches";
+  EXPECT_EQ(judge(fit_with(100, 39)), Track::kLost) << "too few of them fit";
 }
 
 TEST_F(Tracking, WhereFewDirectionsAreSeenFewMatchesAreEnough) {
-  Fit fit = fit_of(30, 30);
+  Fit fit = fit_with(30, 30);
   for (const int degenerate : {0, 1, 2}) {
     fit.degeneracy.count = degenerate;
     EXPECT_EQ(judge(fit), Track::kLost) << degenerate;
   }
   fit.degeneracy.count = 3;
   EXPECT_EQ(judge(fit), Track::kFollowed);
-  fit = fit_of(19, 19);
+  fit = fit_with(19, 19);
   fit.degeneracy.count = 6;
   EXPECT_EQ(judge(fit), Track::kLost) << "too few to say anything";
 }
 
 TEST_F(Tracking, AMotionThatNoRobotMakesIsNotFollowed) {
-  EXPECT_EQ(judge(fit_of(100, 100), driven(4.9)), Track::kFollowed) << "49 m/s";
-  EXPECT_EQ(judge(fit_of(100, 100), driven(5.1)), Track::kLost);
-  EXPECT_EQ(judge(fit_of(100, 100), turned(0.59)), Track::kFollowed) << "5.9 rad/s";
-  EXPECT_EQ(judge(fit_of(100, 100), turned(0.61)), Track::kLost);
+  EXPECT_EQ(judge(fit_with(100, 100), driven(4.9)), Track::kFollowed) << "49 m/s";
+  EXPECT_EQ(judge(fit_with(100, 100), driven(5.1)), Track::kLost);
+  EXPECT_EQ(judge(fit_with(100, 100), turned(0.59)), Track::kFollowed) << "5.9 rad/s";
+  EXPECT_EQ(judge(fit_with(100, 100), turned(0.61)), Track::kLost);
 }
 
 TEST_F(Tracking, LostScansInARowBeginANewMap) {
   for (int round = 0; round < 2; ++round) {
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(judge(fit_of(0, 0)), Track::kLost) << i;
-    EXPECT_EQ(judge(fit_of(0, 0)), Track::kReinitialised);
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(judge(fit_with(0, 0)), Track::kLost) << i;
+    EXPECT_EQ(judge(fit_with(0, 0)), Track::kReinitialised);
   }
-  for (int i = 0; i < 3; ++i) (void)judge(fit_of(0, 0));
-  EXPECT_EQ(judge(fit_of(100, 100)), Track::kFollowed);
-  for (int i = 0; i < 3; ++i) EXPECT_EQ(judge(fit_of(0, 0)), Track::kLost) << "the count begins again";
+  for (int i = 0; i < 3; ++i) (void)judge(fit_with(0, 0));
+  EXPECT_EQ(judge(fit_with(100, 100)), Track::kFollowed);
+  for (int i = 0; i < 3; ++i) EXPECT_EQ(judge(fit_with(0, 0)), Track::kLost) << "the count begins again";
 }
 
 TEST_F(Tracking, AMapWithoutPatchesIsGivenUpAtOnce) {
-  EXPECT_EQ(state_.judge(fit_of(0, 0), {}, kScan_s, empty_, true, kPatience), Track::kReinitialised);
+  EXPECT_EQ(state_.judge(fit_with(0, 0), {}, kScan_s, empty_, true, kPatience), Track::kReinitialised);
 }
 
 TEST_F(Tracking, AFitThatMayBeOfAnotherPlaceIsNotFollowed) {
-  EXPECT_EQ(judge(fit_of(100, 100), {}, false), Track::kLost);
+  EXPECT_EQ(judge(fit_with(100, 100), {}, false), Track::kLost);
 }
 
 TEST_F(Tracking, EveryOutcomeHasAName) {

@@ -45,8 +45,8 @@ TEST_F(RobotTasksTest, TheSlotsInTheScheduleLogNeverChange) {
         drive.decisions.slot(), drive.status.slot()}},
       {"receive", {tasks.receive.packets_slot, tasks.receive.scans.slot(), tasks.receive.seen.slot()}},
       {"odometry",
-       {tasks.odometry.scans.slot(), tasks.odometry.steps_slot, tasks.odometry.motions.slot(),
-        tasks.odometry.status.slot()}},
+       {tasks.odometry->scans.slot(), tasks.odometry->steps_slot, tasks.odometry->motions.slot(),
+        tasks.odometry->status.slot()}},
       {"mapping", {tasks.mapping.motions.slot(), tasks.mapping.shed_slot, tasks.mapping.tiles.slot()}},
       {"team", {team.tiles.slot(), team.datagrams_slot, team.fuse_slot, team.jobs.slot(), team.results.slot()}},
       {"matching", {matching.jobs.slot(), matching.steps_slot, matching.results.slot()}}};

@@ -6,7 +6,7 @@
 
 #include "hal/drive.hpp"
 
-namespace cairn::app {
+namespace cairn::odometry {
 
 /// The last second of wheel states, to ask for one at a time in between.
 class WheelHistory {
@@ -22,4 +22,4 @@ class WheelHistory {
   std::deque<DriveState> states_;  // by stamp
 };
 
-}  // namespace cairn::app
+}  // namespace cairn::odometry

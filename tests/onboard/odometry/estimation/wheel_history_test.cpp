@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/app/tasks/wheel_history.hpp"
+#include "onboard/odometry/estimation/wheel_history.hpp"
 
 #include <gtest/gtest.h>
 
-namespace cairn::app {
+namespace cairn::odometry {
 namespace {
 
 using namespace std::chrono_literals;
@@ -53,4 +53,4 @@ TEST(WheelHistory, TurnsAsItGoesOn) {
 }
 
 }  // namespace
-}  // namespace cairn::app
+}  // namespace cairn::odometry

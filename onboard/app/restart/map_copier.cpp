@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/app/tasks/map_copier.hpp"
+#include "onboard/app/restart/map_copier.hpp"
 
 namespace cairn::app {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/app/tasks/wheel_history.hpp"
+#include "onboard/odometry/estimation/wheel_history.hpp"
 
 #include <algorithm>
 
-namespace cairn::app {
+namespace cairn::odometry {
 
 void WheelHistory::add(const DriveState& state) {
   if (!states_.empty() && state.stamp <= states_.back().stamp) return;
@@ -24,4 +24,4 @@ std::optional<DriveState> WheelHistory::at(Time t) const {
   return state;
 }
 
-}  // namespace cairn::app
+}  // namespace cairn::odometry

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include "hal/se3.hpp"
+#include "hal/time.hpp"
+
+namespace cairn::odometry {
+
+/// The robot's motion, as one measurement of any sensor shows it: a scan, or a picture of both eyes.
+struct MotionUpdate {
+  Time stamp{};                     ///< all poses are of this instant
+  UncertainPose T_odom_base;        ///< since the start, where T_odom_base was the identity
+  UncertainPose T_previous_base;    ///< since the measurement before
+  Vector6 twist = Vector6::Zero();  ///< of base_link in base_link: m/s, rad/s
+
+  int iterations = 0;
+  /// Directions that the surroundings do not determine. Along them the pose is the prediction, and
+  /// the covariance grows.
+  int degenerate_directions = 0;
+
+  bool began = false;          ///< the first one: T_odom_base is the identity, odom has nothing in common with before
+  bool lost = false;           ///< the measurement did not fit: the pose is predicted, the map was left alone
+  bool reinitialised = false;  ///< lost for too long: a new map began at the predicted pose
+  /// Reinitialised at a pose so uncertain that the new map must not be added to the one before: they would not match.
+  bool apart = false;
+};
+
+}  // namespace cairn::odometry

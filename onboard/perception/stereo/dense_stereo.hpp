@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <Eigen/Core>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "hal/config/config.hpp"
+#include "onboard/perception/stereo/stereo_geometry.hpp"
+#include "onboard/perception/stereo/stereo_pair.hpp"
+
+namespace cairn::stereo {
+
+struct DisparityStart;
+
+/// Settings of DenseStereo.
+struct DenseStereoConfig {
+  int disparities = 96;         ///< pixels that are searched; a multiple of 16
+  int block_px = 5;             ///< edge of the blocks that are compared; odd
+  int uniqueness_percent = 10;  ///< the best match must be so much better than the second
+  int speckle_px = 150;         ///< smaller islands of equal depth are left out
+  int stride_px = 3;            ///< every so many pixels of a row and of a column become a point
+  double max_jump_px = 1.5;     ///< a point is left out where the disparity differs more within two pixels: an edge
+};
+
+/// Names, units and bounds of every key (config section `stereo.dense`).
+void declare(config::Section& section, DenseStereoConfig& config);
+
+/// The points that both eyes see: semi-global matching (Hirschmüller, 2008) by OpenCV, and then DisparityRefiner. The
+/// result does not depend on the number of threads.
+class DenseStereo {
+ public:
+  DenseStereo(const DenseStereoConfig& config, const StereoGeometry& geometry);
+  DenseStereo(DenseStereo&&) noexcept;
+  DenseStereo& operator=(DenseStereo&&) noexcept;
+  ~DenseStereo();
+
+  /// Fills `points` in the optical frame, metres, row by row. None is farther than `max_range_m` along the view.
+  void measure(const StereoPair& pair, double max_range_m, std::vector<Eigen::Vector3f>& points);
+
+ private:
+  struct Matcher;
+  [[nodiscard]] std::optional<DisparityStart> start_at(int x, int y) const;
+
+  DenseStereoConfig config_;
+  StereoGeometry geometry_;
+  std::unique_ptr<Matcher> matcher_;
+};
+
+}  // namespace cairn::stereo

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "onboard/visual_odometry/feature_tracker.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <opencv2/imgproc.hpp>
+#include <opencv2/video/tracking.hpp>
+
+#include "onboard/perception/stereo/as_mat.hpp"
+
+namespace cairn::visual_odometry {
+namespace {
+
+constexpr int kSteps = 12;            // of an alignment at most
+constexpr double kEnough_px = 0.02;   // a smaller step ends it
+constexpr double kLeastEigen = 1e-3;  // of a patch, per pixel: below, it has no structure
+constexpr int kBorder_px = 6;         // corners keep away from the edge
+
+cv::Point2f point(const Eigen::Vector2f& p) { return {p.x(), p.y()}; }
+
+struct Alignment {
+  std::vector<cv::Point2f> to;
+  std::vector<unsigned char> found;
+};
+
+/// Where the patches around `from` are in the other picture; `to` is where the search begins.
+void align(const std::vector<cv::Mat>& first, const std::vector<cv::Mat>& second, const std::vector<cv::Point2f>& from,
+           const TrackingConfig& config, Alignment& result) {
+  std::vector<float> errors;
+  const cv::TermCriteria until(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, kSteps, kEnough_px);
+  cv::calcOpticalFlowPyrLK(first, second, from, result.to, result.found, errors,
+                           cv::Size(config.window_px, config.window_px), config.levels, until,
+                           cv::OPTFLOW_USE_INITIAL_FLOW, kLeastEigen);
+}
+
+/// 255 where a corner may be added.
+cv::Mat free_places(std::span<const Feature> features, const cv::Size& size, int spacing_px) {
+  cv::Mat mask(size, CV_8UC1, cv::Scalar(0));
+  const cv::Rect inner(kBorder_px, kBorder_px, size.width - 2 * kBorder_px, size.height - 2 * kBorder_px);
+  mask(inner).setTo(255);
+  for (const Feature& f : features) cv::circle(mask, point(f.left), spacing_px, cv::Scalar(0), cv::FILLED);
+  return mask;
+}
+
+}  // namespace
+
+struct FeatureTracker::Pyramids {
+  std::vector<cv::Mat> before, left, right;
+};
+
+FeatureTracker::FeatureTracker(const TrackingConfig& config, const stereo::StereoGeometry& geometry)
+    : config_(config), geometry_(geometry), pyramids_(std::make_unique<Pyramids>()) {}
+FeatureTracker::FeatureTracker(FeatureTracker&&) noexcept = default;
+FeatureTracker& FeatureTracker::operator=(FeatureTracker&&) noexcept = default;
+FeatureTracker::~FeatureTracker() = default;
+
+void FeatureTracker::follow(const stereo::StereoPair& pair, const Expected& expected) {
+  const cv::Size window(config_.window_px, config_.window_px);
+  std::swap(pyramids_->before, pyramids_->left);
+  features_before_ = features_;
+  cv::buildOpticalFlowPyramid(stereo::as_mat(pair.left), pyramids_->left, window, config_.levels);
+  cv::buildOpticalFlowPyramid(stereo::as_mat(pair.right), pyramids_->right, window, config_.levels);
+  if (features_.empty()) return;
+  std::vector<cv::Point2f> from;
+  Alignment now;
+  for (const Feature& f : features_) {
+    from.push_back(point(f.left));
+    const auto place = expected(f);
+    now.to.push_back(place ? cv::Point2f(static_cast<float>(place->x()), static_cast<float>(place->y())) : from.back());
+  }
+  align(pyramids_->before, pyramids_->left, from, config_, now);
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < features_.size(); ++i) {
+    const cv::Point2f& p = now.to[i];
+    const bool inside = p.x >= kBorder_px && p.y >= kBorder_px &&
+                        p.x < static_cast<float>(geometry_.width - kBorder_px) &&
+                        p.y < static_cast<float>(geometry_.height - kBorder_px);
+    if (now.found[i] == 0 || !inside) continue;
+    features_[kept] = features_[i];
+    features_[kept++].left = {p.x, p.y};
+  }
+  features_.resize(kept);
+  match_eyes(features_, expected);
+}
+
+void FeatureTracker::match_eyes(std::span<Feature> features, const Expected& expected) const {
+  if (features.empty()) return;
+  std::vector<cv::Point2f> from;
+  Alignment now;
+  for (const Feature& f : features) {
+    const auto place = expected(f);
+    const auto disparity = place ? static_cast<float>(place->z()) : f.disparity.value_or(0.0F);
+    from.push_back(point(f.left));
+    now.to.emplace_back(f.left.x() - disparity, f.left.y());
+  }
+  align(pyramids_->left, pyramids_->right, from, config_, now);
+  for (std::size_t i = 0; i < features.size(); ++i) {
+    const float disparity = from[i].x - now.to[i].x;
+    const bool same_row = std::abs(from[i].y - now.to[i].y) < static_cast<float>(config_.max_row_error_px);
+    const bool seen = now.found[i] != 0 && same_row && disparity > 0 && now.to[i].x > kBorder_px;
+    features[i].disparity = seen ? std::optional(disparity) : std::nullopt;
+  }
+}
+
+void FeatureTracker::drop(const std::function<bool(const Feature&)>& unwanted) { std::erase_if(features_, unwanted); }
+
+void FeatureTracker::reject() {
+  std::swap(pyramids_->before, pyramids_->left);
+  features_ = features_before_;
+}
+
+void FeatureTracker::add_corners() {
+  for (const Feature& corner : corners_between(features_)) features_.push_back(corner);
+}
+
+std::vector<Feature> FeatureTracker::fresh_corners() { return corners_between({}); }
+
+std::vector<Feature> FeatureTracker::corners_between(std::span<const Feature> others) {
+  std::vector<Feature> corners;
+  const int room = config_.features - static_cast<int>(others.size());
+  if (room <= 0 || pyramids_->left.empty()) return corners;
+  std::vector<cv::Point2f> found;
+  const cv::Mat& picture = pyramids_->left[0];
+  cv::goodFeaturesToTrack(picture, found, room, config_.quality, config_.spacing_px,
+                          free_places(others, picture.size(), config_.spacing_px), 3);
+  for (const cv::Point2f& p : found) corners.push_back({next_id_++, {p.x, p.y}, std::nullopt});
+  match_eyes(corners, [](const Feature&) { return std::nullopt; });
+  return corners;
+}
+
+}  // namespace cairn::visual_odometry

@@ -1,0 +1,202 @@
+// SPDX-License-Identifier: Apache-2.0
+// Accuracy of the visual odometry on recordings of stereo pictures with ground truth: drift, consistency of the
+// covariance, CPU time.
+//   visual_accuracy RECORDING… [KEY=VALUE …]
+// TRACE=1 prints every picture. VisualOdometryConfig's keys, and: every=N takes every N-th picture; dark=S,L makes the
+// pictures from second S on black for L seconds.
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <numbers>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <string>
+#include <vector>
+
+#include "hal/clock.hpp"
+#include "onboard/app/profile/recorded_profile.hpp"
+#include "onboard/perception/stereo/rectifier.hpp"
+#include "onboard/visual_odometry/stereo_odometry.hpp"
+
+namespace cairn::visual_odometry {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct Settings {
+  VisualOdometryConfig odometry;
+  int every = 1;
+  double dark_from_s = -1, dark_for_s = 0;
+};
+
+struct Truth {
+  std::map<std::int64_t, SE3> poses;  // by nanoseconds
+
+  [[nodiscard]] SE3 at(std::int64_t ns) const {
+    const auto after = poses.lower_bound(ns);
+    if (after == poses.end()) return poses.rbegin()->second;
+    if (after == poses.begin() || after->first == ns) return after->second;
+    const auto before = std::prev(after);
+    const double share = static_cast<double>(ns - before->first) / static_cast<double>(after->first - before->first);
+    return before->second * SE3::exp(share * (before->second.inverse() * after->second).log());
+  }
+};
+
+Truth load_truth(const fs::path& file) {
+  Truth truth;
+  std::ifstream in(file);
+  double t = 0, x = 0, y = 0, z = 0, qx = 0, qy = 0, qz = 0, qw = 0;
+  while (in >> t >> x >> y >> z >> qx >> qy >> qz >> qw)
+    truth.poses[std::llround(t * 1e9)] = SE3(Eigen::Quaterniond(qw, qx, qy, qz), Eigen::Vector3d(x, y, z));
+  return truth;
+}
+
+double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  std::ranges::sort(values);
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
+struct Figures {
+  double length = 0, squared = 0, worst = 0, nees = 0, step_nees = 0, yaw_path = 0, worst_jump = 0;
+  Eigen::Vector3d inside = Eigen::Vector3d::Zero();
+  int frames = 0, lost = 0, keyframes = 0, all_inside = 0;
+  double inliers = 0, rms_px = 0;
+  std::vector<double> cpu_ms;
+  Vector6 error = Vector6::Zero(), sigma = Vector6::Zero();
+};
+
+void account(Figures& f, const VisualUpdate& u, const SE3& truth, const SE3& before) {
+  ++f.frames;
+  f.length += (before.inverse() * truth).translation().norm();
+  f.error = (u.T_odom_base.mean.inverse() * truth).log();
+  f.sigma = u.T_odom_base.covariance.diagonal().cwiseSqrt();
+  const double off = (u.T_odom_base.mean.translation() - truth.translation()).norm();
+  f.squared += off * off;
+  f.worst = std::max(f.worst, off);
+  f.nees += f.error.dot(u.T_odom_base.covariance.ldlt().solve(f.error));
+  const Vector6 step = (u.T_previous_base.mean.inverse() * (before.inverse() * truth)).log();
+  f.step_nees += step.dot(u.T_previous_base.covariance.ldlt().solve(step));
+  if (!u.lost) f.worst_jump = std::max(f.worst_jump, step.head<3>().norm());
+  bool all = true;
+  for (int k = 0; k < 6; ++k) {
+    const bool in = std::abs(f.error[k]) < 3 * f.sigma[k];
+    all = all && in;
+    if (k < 3) f.inside[k] += in ? 1 : 0;
+  }
+  f.all_inside += all ? 1 : 0;
+  f.lost += u.lost ? 1 : 0;
+  f.keyframes += u.keyframe ? 1 : 0;
+  f.inliers += u.inliers;
+  f.rms_px += u.rms_px;
+}
+
+void print(const std::string& name, const Figures& f) {
+  const double n = f.frames, ate = std::sqrt(f.squared / n);
+  std::printf(
+      "%-28s %6.1f m  ATE %.3f m (%.2f %%) worst %.3f  yaw %.4f deg/m  tilt %.2f deg  jump %.3f | NEES/6 %.2f step "
+      "%.2f in 3s x%.0f y%.0f z%.0f all %.0f | inl %.0f rms %.2f px lost %d kf %d/%d | ms p50 %.1f p99 %.1f max %.1f\n",
+      name.c_str(), f.length, ate, 100 * ate / f.length, f.worst,
+      std::abs(f.error[5]) * 180 / std::numbers::pi / f.length, f.error.segment<2>(3).norm() * 180 / std::numbers::pi,
+      f.worst_jump, f.nees / n / 6, f.step_nees / n / 6, 100 * f.inside[0] / n, 100 * f.inside[1] / n,
+      100 * f.inside[2] / n, 100 * f.all_inside / n, f.inliers / n, f.rms_px / n, f.lost, f.keyframes, f.frames,
+      percentile(f.cpu_ms, 0.5), percentile(f.cpu_ms, 0.99), percentile(f.cpu_ms, 1));
+  std::fflush(stdout);
+}
+
+std::vector<std::pair<std::int64_t, fs::path>> pictures_of(const fs::path& recording) {
+  std::vector<std::pair<std::int64_t, fs::path>> pictures;
+  for (const auto& entry : fs::directory_iterator(recording / "camera" / "data"))
+    if (entry.path().extension() == ".png") pictures.emplace_back(std::stoll(entry.path().stem()), entry.path());
+  std::ranges::sort(pictures);
+  return pictures;
+}
+
+Image decoded(const fs::path& file, std::int64_t ns, bool dark) {
+  cv::Mat picture = cv::imread(file.string(), cv::IMREAD_COLOR);
+  if (dark) cv::randn(picture, cv::Scalar::all(4), cv::Scalar::all(2));
+  Image image;
+  image.resize(PixelFormat::kBgr8, picture.cols, picture.rows);
+  std::memcpy(image.bytes.data(), picture.data, image.bytes.size());
+  image.stamp = Time{std::chrono::nanoseconds(ns)};
+  return image;
+}
+
+void run(const fs::path& recording, const Settings& settings) {
+  const auto chosen = app::choose_profile({}, recording);
+  if (!chosen) return (void)std::printf("%s\n", to_string(chosen.error()).c_str());
+  const app::CameraProfile& camera = chosen->profile.camera;
+  const app::PictureSize size = picture_size(camera);
+  const auto model = camera.intrinsics.model(size.width, size.height);
+  if (!model) return (void)std::printf("%s\n", to_string(model.error()).c_str());
+  const auto rectifier = stereo::Rectifier::create(*model, camera.intrinsics.baseline_m);
+  if (!rectifier) return (void)std::printf("%s\n", to_string(rectifier.error()).c_str());
+  const SE3 T_base_eye =
+      SE3::from_xyz_rpy(Eigen::Map<const Vector6>(camera.base_xyz_rpy.data())) * cameras::T_camera_optical();
+  StereoOdometry odometry(settings.odometry, rectifier->geometry(), T_base_eye);
+  const Truth truth = load_truth(recording / "ground_truth.tum");
+  const auto pictures = pictures_of(recording);
+  const SE3 T_start = truth.at(pictures.front().first);
+  Figures figures;
+  SE3 before;
+  stereo::StereoPair pair;
+  for (std::size_t i = 0; i < pictures.size(); i += static_cast<std::size_t>(settings.every)) {
+    const auto& [ns, file] = pictures[i];
+    const double s = static_cast<double>(ns - pictures.front().first) * 1e-9;
+    const bool dark = s >= settings.dark_from_s && s < settings.dark_from_s + settings.dark_for_s;
+    const Image image = decoded(file, ns, dark);
+    const Duration begin = thread_cpu_time();
+    if (const auto done = rectifier->rectify(image, pair); !done) return;
+    Budget budget = Budget::steps(settings.odometry.max_iterations * 2);
+    const auto u = odometry.update(pair, budget);
+    figures.cpu_ms.push_back(to_milliseconds(thread_cpu_time() - begin));
+    if (!u) return (void)std::printf("%s\n", to_string(u.error()).c_str());
+    const SE3 now = T_start.inverse() * truth.at(ns);
+    if (i > 0) account(figures, *u, now, before);
+    before = now;
+    if (std::getenv("TRACE") != nullptr)
+      std::printf(
+          "%.2f s followed %d inliers %d rms %.2f it %d kf %d lost %d err %.3f %.3f %.3f r %.4f %.4f %.4f sig "
+          "%.3f %.3f %.3f speed %.2f landmarks %zu\n",
+          s, u->followed, u->inliers, u->rms_px, u->iterations, u->keyframe, u->lost, figures.error[0],
+          figures.error[1], figures.error[2], figures.error[3], figures.error[4], figures.error[5], figures.sigma[0],
+          figures.sigma[1], figures.sigma[2], u->twist.head<3>().norm(), odometry.landmarks());
+  }
+  print(recording.parent_path().filename().string(), figures);
+}
+
+bool set(const std::string& key, const std::string& value, Settings& s) {
+  if (key == "every") return (s.every = std::stoi(value)) > 0;
+  if (key == "dark") return std::sscanf(value.c_str(), "%lf,%lf", &s.dark_from_s, &s.dark_for_s) == 2;
+  config::Section section;
+  declare(section, s.odometry);
+  return config::parse(key + ": " + value, "arguments", section).has_value();
+}
+
+int main_program(int argc, char** argv) {
+  Settings settings;
+  std::vector<fs::path> recordings;
+  for (int i = 1; i < argc; ++i) {
+    const std::string text = argv[i];
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) {
+      recordings.emplace_back(text);
+    } else if (!set(text.substr(0, equals), text.substr(equals + 1), settings)) {
+      std::fprintf(stderr, "%s: no such setting\n", text.c_str());
+      return 2;
+    }
+  }
+  cv::setNumThreads(1);
+  for (const fs::path& recording : recordings) run(recording, settings);
+  return 0;
+}
+
+}  // namespace
+}  // namespace cairn::visual_odometry
+
+int main(int argc, char** argv) { return cairn::visual_odometry::main_program(argc, argv); }
