@@ -15,6 +15,20 @@ void keep_every(int stride, std::vector<Eigen::Vector3f>& points) {
   points.resize(kept);
 }
 
+people::Space space_of(mapping::Standing standing) {
+  switch (standing) {
+    case mapping::Standing::kFree:
+      return people::Space::kFree;
+    case mapping::Standing::kOccupied:
+      return people::Space::kNew;
+    case mapping::Standing::kSettled:
+      return people::Space::kSettled;
+    case mapping::Standing::kUnknown:
+      break;
+  }
+  return people::Space::kUnknown;
+}
+
 }  // namespace
 
 Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapping_workers, Monitor& monitor)
@@ -155,7 +169,7 @@ void Robot::leave_people_out(const LocatedScan& scan, const Eigen::Vector3f& ori
   const StageTimer timing(monitor_.stage("people"));
   const auto height = static_cast<float>(T_base_sensor_.translation().z());
   people_->observe({scan.stamp, points_odom_, origin_odom, height},
-                   [this](const Eigen::Vector3f& point) { return mapper_.settled(point); });
+                   [this](const Eigen::Vector3f& point) { return space_of(mapper_.standing(point)); });
   const auto mask = people_->mask();
   std::size_t kept = 0;
   for (std::size_t i = 0; i < points_odom_.size(); ++i)

@@ -14,6 +14,8 @@ constexpr std::size_t kMegabyte = std::size_t{1} << 20U;
 // Tiles. Lists of changed tiles have room for so many from the start, and grow beyond it.
 constexpr std::size_t kTiles = std::size_t{1} << 14U;
 
+constexpr float kFreeRays = 3;  // that went through make a voxel free
+
 std::size_t megabytes(int n) { return static_cast<std::size_t>(n) * kMegabyte; }
 
 }  // namespace
@@ -98,13 +100,18 @@ std::size_t Mapper::take_back(std::span<const Eigen::Vector3f> points_map) {
   return voxels;
 }
 
-bool Mapper::settled(const Eigen::Vector3f& p) const {
+Standing Mapper::standing(const Eigen::Vector3f& p) const {
   octomap::OcTreeKey key;
   const auto farthest = static_cast<float>(config_.resolution_m * (1U << (SemanticOcTree::kDepth - 1)));
-  if (!(p.array().abs() < farthest).all() || !tree_->coordToKeyChecked(p.x(), p.y(), p.z(), key)) return false;
+  if (!(p.array().abs() < farthest).all() || !tree_->coordToKeyChecked(p.x(), p.y(), p.z(), key))
+    return Standing::kUnknown;
   const SemanticNode* node = tree_->search(key);
+  if (node == nullptr) return Standing::kUnknown;
   const SensorModel model = tree_->sensor_model();
-  return node != nullptr && node->getLogOdds() > model.occupied + 2 * model.hit;
+  const float known = node->getLogOdds() - model.occupied;
+  if (known > 2 * model.hit) return Standing::kSettled;
+  if (known >= 0) return Standing::kOccupied;
+  return known <= kFreeRays * model.miss ? Standing::kFree : Standing::kUnknown;
 }
 
 /// A set does not depend on how its parts were found: here the number of parts may depend on the

@@ -30,6 +30,14 @@ struct InsertReport {
   std::size_t changed_tiles = 0;  ///< see Mapper::changed_tiles()
 };
 
+/// How sure a voxel is.
+enum class Standing : std::uint8_t {
+  kUnknown,   ///< never seen, or hardly
+  kFree,      ///< rays went through several times
+  kOccupied,  ///< one or two contradictions would free it
+  kSettled,   ///< seen occupied so often that one contradiction would not free it
+};
+
 /// Keeps the map of one robot. Inserting a scan leaves exactly the tree, inner nodes and log-odds bits included, that
 /// octomap::OcTree::insertPointCloud(points, origin, max_range, lazy_eval = false, discretize = true) would leave for
 /// the points that were accepted. The result does not depend on the number of threads.
@@ -59,8 +67,8 @@ class Mapper {
   /// changed.
   std::size_t take_back(std::span<const Eigen::Vector3f> points_map);
 
-  /// Whether a point's voxel has been seen occupied so often that one contradiction would not free it.
-  [[nodiscard]] bool settled(const Eigen::Vector3f& point_map) const;
+  /// What the map knows of a point's voxel.
+  [[nodiscard]] Standing standing(const Eigen::Vector3f& point_map) const;
 
   /// Begins with an empty map, and returns the one before.
   std::unique_ptr<SemanticOcTree> begin_anew();

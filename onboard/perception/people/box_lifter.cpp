@@ -17,6 +17,12 @@ constexpr double kNearest = 0.5;                     // m along the view
 // A box may be so much too high or too low for where its cluster stands: children, and people half hidden.
 constexpr double kLowest = 0.45, kHighest = 1.6;
 constexpr double kWorst = 0.7;  // mismatch
+// Of a box without a cluster.
+constexpr double kCore = 0.6;                             // of its width, around its middle
+constexpr double kShallowest = 0.75, kDeepest = 1.3;      // of the depth at which a usual person fills it
+constexpr double kFarthestLifted = 10, kFarthestCut = 3;  // m
+constexpr double kThick = 0.5;                            // m along the view
+constexpr std::size_t kFewestPoints = 6;
 
 }  // namespace
 
@@ -98,7 +104,10 @@ void BoxLifter::assign(const Detections& boxes) {
       least = mismatched;
       best = k;
     }
-    if (best < seen_.size()) verdicts_[best] = Verdict::kPerson;
+    if (best < seen_.size())
+      verdicts_[best] = Verdict::kPerson;
+    else
+      apart_.push_back(*box);
   }
 }
 
@@ -140,9 +149,10 @@ std::span<const BoxBeside> BoxLifter::offsets(const Detections& boxes, std::span
 
 std::span<const Verdict> BoxLifter::judge(const Detections& boxes, std::span<const Cluster> clusters,
                                           const SE3& T_odom_base) {
-  const SE3 T_optical_odom = T_optical_base_ * T_odom_base.inverse();
+  T_optical_odom_ = T_optical_base_ * T_odom_base.inverse();
   seen_.clear();
-  for (const Cluster& cluster : clusters) seen_.push_back(look_at(cluster, T_optical_odom));
+  apart_.clear();
+  for (const Cluster& cluster : clusters) seen_.push_back(look_at(cluster, T_optical_odom_));
   verdicts_.assign(clusters.size(), Verdict::kNothing);
   if (boxes.width < 1 || boxes.height < 1) return verdicts_;
   assign(boxes);
@@ -150,6 +160,44 @@ std::span<const Verdict> BoxLifter::judge(const Detections& boxes, std::span<con
     if (verdicts_[i] == Verdict::kNothing && seen_[i].in_view && seen_[i].depth < farthest_ && !covered(i))
       verdicts_[i] = Verdict::kSilence;
   return verdicts_;
+}
+
+/// The nearest of the depths at which many points are. A cut box tells the least depth only.
+std::optional<Lifted> BoxLifter::lift(const Box& box, std::span<const Eigen::Vector3f> points_odom) const {
+  const double height = box.bottom - box.top, middle = 0.5 * (box.left + box.right);
+  const double half = kCore * 0.5 * (box.right - box.left);
+  const bool cut = box.open_top || box.open_bottom;
+  const double nearest = kNearest,
+               farthest = cut ? kFarthestCut : std::min(kFarthestLifted, kDeepest * kHeight / height);
+  const double least = cut ? nearest : kShallowest * kHeight / height;
+  struct Within {
+    double depth;
+    const Eigen::Vector3f* point;
+  };
+  std::vector<Within> within;
+  for (const Eigen::Vector3f& p : points_odom) {
+    const Eigen::Vector3d q = T_optical_odom_ * p.cast<double>();
+    if (q.z() < least || q.z() > farthest) continue;
+    if (std::abs(q.x() / q.z() - middle) > half || q.y() / q.z() < box.top || q.y() / q.z() > box.bottom) continue;
+    within.push_back({q.z(), &p});
+  }
+  std::ranges::sort(within, {}, &Within::depth);
+  std::size_t last = 0;
+  for (std::size_t first = 0; first < within.size(); ++first) {
+    while (last < within.size() && within[last].depth < within[first].depth + kThick) ++last;
+    if (last - first < kFewestPoints) continue;
+    Eigen::Vector2d sum(0, 0);
+    for (std::size_t i = first; i < last; ++i) sum += within[i].point->head<2>().cast<double>();
+    return Lifted{sum / static_cast<double>(last - first), 0};
+  }
+  return std::nullopt;
+}
+
+std::vector<Lifted> BoxLifter::lift(std::span<const Eigen::Vector3f> points_odom) {
+  std::vector<Lifted> lifted;
+  for (const Box& box : apart_)
+    if (const auto found = lift(box, points_odom)) lifted.push_back(*found);
+  return lifted;
 }
 
 }  // namespace cairn::people

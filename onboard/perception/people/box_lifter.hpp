@@ -21,6 +21,12 @@ enum class Verdict : std::uint8_t {
   kSilence,  ///< in view, and no box belongs to it
 };
 
+/// Where the points of somebody are who has a box and no cluster.
+struct Lifted {
+  Eigen::Vector2d position{0, 0};  ///< of the body's middle, odom, m
+  float ground = 0;                ///< z of the ground there
+};
+
 /// Boxes of a picture → the clusters that they belong to. A box takes the cluster in whose direction it is, that is as
 /// high in the picture as a person would be there, and that no other stands before. Depth comes from the scan alone.
 class BoxLifter {
@@ -30,6 +36,9 @@ class BoxLifter {
 
   /// `T_odom_base`: when the picture was taken. One verdict for each cluster; valid until the next call.
   std::span<const Verdict> judge(const Detections& boxes, std::span<const Cluster> clusters, const SE3& T_odom_base);
+  /// Of the same picture: boxes that are of none of the clusters, and the nearest of these points that are in their
+  /// direction and as far away as the box is high. The ground is not told.
+  [[nodiscard]] std::vector<Lifted> lift(std::span<const Eigen::Vector3f> points_odom);
 
   /// The boxes that must be those of `people`: no other box or person is within kBeside of them, and they are as high
   /// as they would be. People nearer than kNotTooNear are left out: so near, a body has many directions. Valid until
@@ -58,12 +67,15 @@ class BoxLifter {
   [[nodiscard]] double mismatch(const Box& box, const Seen& seen) const;
   void assign(const Detections& boxes);
   [[nodiscard]] bool covered(std::size_t i) const;
+  [[nodiscard]] std::optional<Lifted> lift(const Box& box, std::span<const Eigen::Vector3f> points_odom) const;
 
   cameras::CameraModel camera_;
   SE3 T_optical_base_;
   double farthest_;
   std::vector<Seen> seen_;
   std::vector<Verdict> verdicts_;
+  std::vector<Box> apart_;  // boxes of none of the clusters
+  SE3 T_optical_odom_;
   std::vector<std::uint32_t> order_;
   std::vector<BoxBeside> offsets_;
 };

@@ -19,6 +19,9 @@ constexpr float kLowestTop = 0.9F;      // m: a child; what is lower is furnitur
 constexpr float kHighestBottom = 1.0F;  // m: what hangs in the air is no person
 constexpr float kSteepest = 0.26F;      // tangent of a VLP-16's highest laser: near people have no heads
 constexpr float kHalfBody = 0.12F;      // m from the side that is seen to the middle
+constexpr float kOneBody = 0.65F;       // m; two together are wider
+constexpr float kSeedReach = 0.45F;     // m from where somebody is expected
+constexpr int kEdge = 1;                // cells around what has long stood there: its edges
 constexpr std::uint32_t kFewest = 4;    // points
 
 }  // namespace
@@ -27,56 +30,97 @@ struct ClusterFinder::Body {
   Vector2f low = Vector2f::Constant(std::numeric_limits<float>::infinity()), high = -low;
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   float bottom = kHead, top = 0;
-  std::uint32_t points = 0;
+  std::uint32_t points = 0, entered = 0, known = 0;
 
   [[nodiscard]] float extent() const { return (high - low).maxCoeff(); }
   [[nodiscard]] Vector2f middle() const { return (sum / points).cast<float>(); }
+  [[nodiscard]] bool may_hold(const Vector2f& seed) const {
+    return (seed.array() > low.array() - kSeedReach).all() && (seed.array() < high.array() + kSeedReach).all();
+  }
 };
 
 ClusterFinder::ClusterFinder(double farthest_m)
     : farthest_(static_cast<float>(farthest_m)),
       side_(2 * static_cast<int>(std::ceil(farthest_m / kCell)) + 2),
       ground_(farthest_m),
-      head_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), 0) {}
+      head_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), 0),
+      standing_(head_.size(), 0) {}
 
-/// A rim of cells stays empty, so that every cell has its neighbours.
-void ClusterFinder::fill_cells(std::span<const Vector3f> points, const Vector3f& sensor) {
-  std::ranges::fill(head_, 0U);
-  filled_.clear();
+void ClusterFinder::measure(std::span<const Vector3f> points, const Vector3f& sensor, float sensor_height_m) {
+  sensor_ = sensor;
+  sensor_height_ = sensor_height_m;
+  ground_.fill(points, sensor, sensor_height_m);
   heights_.assign(points.size(), 0.0F);
-  next_.resize(points.size());
   const auto side = static_cast<float>(side_);
   const Vector2f corner = sensor.head<2>().array() - 0.5F * kCell * side;
-  for (std::uint32_t i = 0; i < points.size(); ++i) {
+  for (std::size_t i = 0; i < points.size(); ++i) {
     const Vector2f at = (points[i].head<2>() - corner) / kCell;
-    // What is not finite is not within, either.
+    // A rim of cells stays empty, so that every cell has its neighbours. What is not finite is not within, either.
     if (!(at.array() >= 1).all() || !(at.array() < side - 1).all()) continue;
     if ((points[i].head<2>() - sensor.head<2>()).norm() > farthest_) continue;
     heights_[i] = points[i].z() - ground_.height(points[i].x(), points[i].y());
+  }
+}
+
+std::uint32_t ClusterFinder::cell_of(const Vector3f& point) const {
+  const Vector2f corner = sensor_.head<2>().array() - 0.5F * kCell * static_cast<float>(side_);
+  const Vector2f at = (point.head<2>() - corner) / kCell;
+  return static_cast<std::uint32_t>(static_cast<int>(at.y()) * side_ + static_cast<int>(at.x()));
+}
+
+void ClusterFinder::put(std::uint32_t point, std::uint32_t cell) {
+  if (head_[cell] == 0) filled_.push_back(cell);
+  next_[point] = head_[cell];
+  head_[cell] = point + 1;
+}
+
+/// Cells with something that has long stood there. A body in front of it is not in them.
+void ClusterFinder::mark_standing(std::span<const Vector3f> points, std::span<const Space> spaces) {
+  for (const std::uint32_t cell : standing_cells_) standing_[cell] = 0;
+  standing_cells_.clear();
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
+    if (spaces[i] != Space::kSettled || !(heights_[i] > kShin && heights_[i] < kHead)) continue;
+    const std::uint32_t cell = cell_of(points[i]);
+    if (standing_[cell]++ == 0) standing_cells_.push_back(cell);
+  }
+}
+
+/// Who came into a free place may be close to a wall.
+bool ClusterFinder::beside_standing(std::uint32_t cell, Space space) const {
+  const int reach = space == Space::kFree ? 0 : kEdge;
+  for (int row = -reach; row <= reach; ++row)
+    for (int column = -reach; column <= reach; ++column)
+      if (standing_[static_cast<std::uint32_t>(static_cast<int>(cell) + row * side_ + column)] != 0) return true;
+  return false;
+}
+
+void ClusterFinder::fill_cells(std::span<const Vector3f> points, const ClusterChoice& choice) {
+  std::ranges::fill(head_, 0U);
+  filled_.clear();
+  next_.resize(points.size());
+  if (choice.loose) mark_standing(points, choice.spaces);
+  if (choice.loose) loose_.assign(points.size(), 0);
+  for (std::uint32_t i = 0; i < points.size(); ++i) {
     if (!(heights_[i] > kShin && heights_[i] < kHead)) continue;
-    const auto cell = static_cast<std::uint32_t>(static_cast<int>(at.y()) * side_ + static_cast<int>(at.x()));
-    if (head_[cell] == 0) filled_.push_back(cell);
-    next_[i] = head_[cell];
-    head_[cell] = i + 1;
+    const std::uint32_t cell = cell_of(points[i]);
+    if (choice.loose) {
+      if (choice.spaces[i] == Space::kSettled || beside_standing(cell, choice.spaces[i])) continue;
+      loose_[i] = 1;
+    }
+    put(i, cell);
   }
   std::ranges::sort(filled_);
 }
 
-void ClusterFinder::visit(std::uint32_t cell, std::span<const Vector3f> points, Body& body) {
-  for (std::uint32_t link = std::exchange(head_[cell], 0U); link != 0; link = next_[link - 1]) {
-    const Vector3f& p = points[link - 1];
-    body.low = body.low.cwiseMin(p.head<2>());
-    body.high = body.high.cwiseMax(p.head<2>());
-    body.sum += p.head<2>().cast<double>();
-    body.bottom = std::min(body.bottom, heights_[link - 1]);
-    body.top = std::max(body.top, heights_[link - 1]);
-    ++body.points;
-  }
+void ClusterFinder::visit(std::uint32_t cell) {
+  for (std::uint32_t link = std::exchange(head_[cell], 0U); link != 0; link = next_[link - 1])
+    members_.push_back(link - 1);
 }
 
-void ClusterFinder::flood(std::uint32_t first, std::span<const Vector3f> points, Body& body) {
+void ClusterFinder::flood(std::uint32_t first) {
+  members_.clear();
   open_.assign(1, first);
-  visit(first, points, body);
+  visit(first);
   while (!open_.empty()) {
     const auto cell = static_cast<int>(open_.back());
     open_.pop_back();
@@ -84,31 +128,77 @@ void ClusterFinder::flood(std::uint32_t first, std::span<const Vector3f> points,
       for (int column = -1; column <= 1; ++column) {
         const auto neighbour = static_cast<std::uint32_t>(cell + row * side_ + column);
         if (head_[neighbour] == 0) continue;
-        visit(neighbour, points, body);
+        visit(neighbour);
         open_.push_back(neighbour);
       }
     }
   }
 }
 
-const std::vector<Cluster>& ClusterFinder::find(std::span<const Vector3f> points, const Vector3f& sensor,
-                                                float sensor_height_m) {
-  ground_.fill(points, sensor, sensor_height_m);
-  fill_cells(points, sensor);
+ClusterFinder::Body ClusterFinder::body_of(std::span<const std::uint32_t> members, std::span<const Vector3f> points,
+                                           const ClusterChoice& choice) const {
+  Body body;
+  for (const std::uint32_t i : members) {
+    const Vector3f& p = points[i];
+    body.low = body.low.cwiseMin(p.head<2>());
+    body.high = body.high.cwiseMax(p.head<2>());
+    body.sum += p.head<2>().cast<double>();
+    body.bottom = std::min(body.bottom, heights_[i]);
+    body.top = std::max(body.top, heights_[i]);
+    ++body.points;
+    if (choice.spaces.empty()) continue;
+    if (choice.spaces[i] == Space::kFree) ++body.entered;
+    if (choice.spaces[i] == Space::kNew || choice.spaces[i] == Space::kSettled) ++body.known;
+  }
+  return body;
+}
+
+void ClusterFinder::add_if_person_sized(const Body& body) {
+  if (body.points < kFewest || body.extent() > kWidest || body.bottom > kHighestBottom) return;
+  const Vector2f away = body.middle() - sensor_.head<2>();
+  const float seen_up_to = sensor_height_ + kSteepest * away.norm() - kCell;
+  if (body.top < std::min(kLowestTop, seen_up_to)) return;
+  clusters_.push_back({.centre = body.middle() + kHalfBody * away.normalized(),
+                       .ground = ground_.height(body.middle().x(), body.middle().y()),
+                       .top = body.top,
+                       .extent = body.extent(),
+                       .points = body.points,
+                       .entered = static_cast<float>(body.entered) / static_cast<float>(body.points),
+                       .known = static_cast<float>(body.known) / static_cast<float>(body.points)});
+}
+
+/// Each point is of the nearest person who is expected there. What is of nobody is put back.
+void ClusterFinder::part(std::span<const Vector3f> points, const ClusterChoice& choice, const Body& whole) {
+  std::vector<Vector2f> seeds;
+  for (const Eigen::Vector2d& seed : choice.seeds)
+    if (whole.may_hold(seed.cast<float>())) seeds.push_back(seed.cast<float>());
+  if (seeds.empty() || (seeds.size() == 1 && whole.extent() <= kWidest)) return add_if_person_sized(whole);
+  of_seed_.resize(std::max(of_seed_.size(), seeds.size()));
+  for (auto& members : of_seed_) members.clear();
+  for (const std::uint32_t i : members_) {
+    const auto nearest = std::ranges::min_element(
+        seeds, {}, [&](const Vector2f& seed) { return (points[i].head<2>() - seed).squaredNorm(); });
+    if ((points[i].head<2>() - *nearest).norm() < kSeedReach)
+      of_seed_[static_cast<std::size_t>(nearest - seeds.begin())].push_back(i);
+    else
+      put(i, cell_of(points[i]));
+  }
+  for (std::size_t s = 0; s < seeds.size(); ++s)
+    if (!of_seed_[s].empty()) add_if_person_sized(body_of(of_seed_[s], points, choice));
+}
+
+const std::vector<Cluster>& ClusterFinder::find(std::span<const Vector3f> points, const ClusterChoice& choice) {
+  fill_cells(points, choice);
   clusters_.clear();
-  for (const std::uint32_t cell : filled_) {
-    if (head_[cell] == 0) continue;
-    Body body;
-    flood(cell, points, body);
-    if (body.points < kFewest || body.extent() > kWidest || body.bottom > kHighestBottom) continue;
-    const Vector2f away = body.middle() - sensor.head<2>();
-    const float seen_up_to = sensor_height_m + kSteepest * away.norm() - kCell;
-    if (body.top < std::min(kLowestTop, seen_up_to)) continue;
-    clusters_.push_back({.centre = body.middle() + kHalfBody * away.normalized(),
-                         .ground = ground_.height(body.middle().x(), body.middle().y()),
-                         .top = body.top,
-                         .extent = body.extent(),
-                         .points = body.points});
+  const std::size_t first_round = filled_.size();
+  for (std::size_t k = 0; k < filled_.size(); ++k) {  // it grows by what is put back
+    if (head_[filled_[k]] == 0) continue;
+    flood(filled_[k]);
+    const Body body = body_of(members_, points, choice);
+    if (k < first_round && body.extent() > kOneBody)
+      part(points, choice, body);
+    else
+      add_if_person_sized(body);
   }
   return clusters_;
 }

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "onboard/perception/people/ground_grid.hpp"
+#include "onboard/perception/people/space.hpp"
 
 namespace cairn::people {
 
@@ -17,6 +18,15 @@ struct Cluster {
   float top = 0;                                     ///< m above the ground, of the points
   float extent = 0;                                  ///< m, the larger horizontal one
   std::uint32_t points = 0;
+  float entered = 0;  ///< share of the points in places that were free before
+  float known = 0;    ///< share of the points in places where something was before
+};
+
+/// Which points make clusters.
+struct ClusterChoice {
+  std::span<const Space> spaces;           ///< of each point; empty: nothing is known of any
+  bool loose = false;                      ///< those in settled places are left out
+  std::span<const Eigen::Vector2d> seeds;  ///< where people are expected: a wide body is parted among them
 };
 
 /// A scan → clusters. Points above the ground are put into cells of 0.12 m; cells that touch belong together. Memory is
@@ -25,27 +35,44 @@ class ClusterFinder {
  public:
   explicit ClusterFinder(double farthest_m);
 
-  /// Points in odom, metres, z up. Valid until the next call.
-  const std::vector<Cluster>& find(std::span<const Eigen::Vector3f> points_odom, const Eigen::Vector3f& sensor_odom,
-                                   float sensor_height_m);
+  /// How high the points of a scan are above the ground: first of all. Points in odom, metres, z up.
+  void measure(std::span<const Eigen::Vector3f> points_odom, const Eigen::Vector3f& sensor_odom, float sensor_height_m);
+  /// The clusters of the scan that was measured. Valid until the next call.
+  const std::vector<Cluster>& find(std::span<const Eigen::Vector3f> points_odom, const ClusterChoice& choice = {});
   [[nodiscard]] const GroundGrid& ground() const { return ground_; }
   /// Of the last scan: height above the ground of each point; 0 where it is too far.
   [[nodiscard]] std::span<const float> heights() const { return heights_; }
+  /// Of the last loose choice: the points between shin and head that may be somebody's.
+  [[nodiscard]] std::span<const std::uint8_t> loose() const { return loose_; }
 
  private:
   struct Body;                           // cells that touch
   static constexpr float kCell = 0.12F;  // m
-  void fill_cells(std::span<const Eigen::Vector3f> points_odom, const Eigen::Vector3f& sensor_odom);
-  void flood(std::uint32_t first, std::span<const Eigen::Vector3f> points_odom, Body& body);
-  void visit(std::uint32_t cell, std::span<const Eigen::Vector3f> points_odom, Body& body);
+  void fill_cells(std::span<const Eigen::Vector3f> points_odom, const ClusterChoice& choice);
+  void mark_standing(std::span<const Eigen::Vector3f> points_odom, std::span<const Space> spaces);
+  [[nodiscard]] bool beside_standing(std::uint32_t cell, Space space) const;
+  void put(std::uint32_t point, std::uint32_t cell);
+  void flood(std::uint32_t first);
+  void visit(std::uint32_t cell);
+  [[nodiscard]] std::uint32_t cell_of(const Eigen::Vector3f& point) const;
+  [[nodiscard]] Body body_of(std::span<const std::uint32_t> members, std::span<const Eigen::Vector3f> points_odom,
+                             const ClusterChoice& choice) const;
+  void add_if_person_sized(const Body& body);
+  void part(std::span<const Eigen::Vector3f> points_odom, const ClusterChoice& choice, const Body& whole);
 
   float farthest_;  // m
   int side_;        // cells
   GroundGrid ground_;
+  Eigen::Vector3f sensor_ = Eigen::Vector3f::Zero();
+  float sensor_height_ = 0;
   std::vector<float> heights_;
-  std::vector<std::uint32_t> head_;  // of each cell: its last point + 1; 0: none, or visited
-  std::vector<std::uint32_t> next_;  // of each point: the one before in its cell + 1
-  std::vector<std::uint32_t> filled_, open_;
+  std::vector<std::uint8_t> loose_;
+  std::vector<std::uint32_t> head_;      // of each cell: its last point + 1; 0: none, or visited
+  std::vector<std::uint32_t> next_;      // of each point: the one before in its cell + 1
+  std::vector<std::uint32_t> standing_;  // of each cell: points that have long stood there
+  std::vector<std::uint32_t> filled_, open_, standing_cells_;
+  std::vector<std::uint32_t> members_;               // points of the body that is flooded
+  std::vector<std::vector<std::uint32_t>> of_seed_;  // reused
   std::vector<Cluster> clusters_;
 };
 

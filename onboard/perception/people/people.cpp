@@ -10,10 +10,14 @@
 namespace cairn::people {
 namespace {
 
-constexpr float kBeside = 0.4F;                  // m from where somebody is expected beside a wall
-constexpr double kOnBoard = 2.5, kSteady = 0.3;  // m from the LiDAR, and of that place
-constexpr double kKnownBefore = 0.5;             // nats a scan: a detector's boxes still outweigh it
-constexpr int kFewestBeside = 5;                 // points
+constexpr float kBeside = 0.4F;                    // m from where somebody is expected beside a wall
+constexpr double kOnBoard = 2.5, kSteady = 0.3;    // m from the LiDAR, and of that place
+constexpr double kKnownBefore = 0.5;               // nats a scan: a detector's boxes still outweigh it
+constexpr int kFewestBeside = 5;                   // points
+constexpr float kShoulder = 1.5F, kStepUp = 0.1F;  // m
+constexpr int kFewestFree = 6;                     // voxels of 117
+constexpr float kSame = 0.6F;                      // m between two clusters of one body
+constexpr double kHalf = 0.12;                     // m from the side that is seen to the middle
 
 }  // namespace
 
@@ -30,33 +34,69 @@ void People::clear() {
   mask_.clear();
 }
 
-void People::observe(const PeopleScan& scan, const Settled& settled) {
-  const auto& clusters = finder_.find(scan.points_odom, scan.sensor_odom, scan.sensor_height_m);
+void People::observe(const PeopleScan& scan, const Known& known) {
+  finder_.measure(scan.points_odom, scan.sensor_odom, scan.sensor_height_m);
+  ask_map(scan, known);
+  find_bodies(scan, tracker_.predict(scan.stamp));
   tracker_.step(
-      scan.stamp, clusters,
-      [&](const Eigen::Vector2d& at, std::span<const Eigen::Vector2d> others) {
-        return look_for(at, others, scan, settled);
+      scan.stamp, clusters_,
+      [&](const Eigen::Vector2d& at, std::span<const Eigen::Vector2d> others) { return look_for(at, others, scan); },
+      [&](const Track& track) {
+        const Step& first = track.steps().front();
+        return !carried(track, scan) && is_free(first.position, track.person().ground, known) &&
+               seen_through(first.position, track.person().ground, scan.points_odom, scan.sensor_odom);
       },
       [&](const Track& track) {
-        return !carried(track, scan) &&
-               seen_through(track.steps().front().position, track.person().ground, scan.points_odom, scan.sensor_odom);
+        return seen_through(track.person().position, track.person().ground, scan.points_odom, scan.sensor_odom);
       });
   remember(scan, tracker_.bodies());
-  doubt_furniture(scan, settled);
+  doubt_furniture(scan);
   fill_mask(scan);
+}
+
+/// Whether the map has nothing where a body would stand.
+bool People::is_free(const Eigen::Vector2d& position, float ground, const Known& known) {
+  int free = 0;
+  for (float height = kShin; height < kShoulder; height += kStepUp) {
+    for (const float x : {-kStepUp, 0.0F, kStepUp}) {
+      for (const float y : {-kStepUp, 0.0F, kStepUp}) {
+        const Space space =
+            known({static_cast<float>(position.x()) + x, static_cast<float>(position.y()) + y, ground + height});
+        if (space == Space::kSettled) return false;
+        if (space == Space::kFree) ++free;
+      }
+    }
+  }
+  return free >= kFewestFree;
+}
+
+void People::ask_map(const PeopleScan& scan, const Known& known) {
+  spaces_.assign(scan.points_odom.size(), Space::kUnknown);
+  for (std::size_t i = 0; i < spaces_.size(); ++i)
+    if (const float height = finder_.heights()[i]; height > kShin && height < kHead)
+      spaces_[i] = known(scan.points_odom[i]);
+}
+
+/// Without what has long stood there, people beside walls stand alone. With it, those are found who have long stood.
+void People::find_bodies(const PeopleScan& scan, std::span<const Eigen::Vector2d> seeds) {
+  clusters_ = finder_.find(scan.points_odom, {.spaces = spaces_, .loose = true, .seeds = seeds});
+  const std::size_t loose = clusters_.size();
+  for (const Cluster& cluster : finder_.find(scan.points_odom, {.spaces = spaces_, .loose = false, .seeds = {}})) {
+    const auto known = std::span(clusters_).first(loose);
+    if (std::ranges::none_of(known, [&](const Cluster& c) { return (c.centre - cluster.centre).norm() < kSame; }))
+      clusters_.push_back(cluster);
+  }
 }
 
 /// Somebody beside a wall or in a group has no cluster. The points that are new there are the body's.
 std::optional<Eigen::Vector2d> People::look_for(const Eigen::Vector2d& position,
-                                                std::span<const Eigen::Vector2d> others, const PeopleScan& scan,
-                                                const Settled& settled) const {
+                                                std::span<const Eigen::Vector2d> others, const PeopleScan& scan) const {
   const Eigen::Vector2f expected = position.cast<float>();
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   int count = 0;
   for (std::size_t i = 0; i < scan.points_odom.size(); ++i) {
     const Eigen::Vector3f& p = scan.points_odom[i];
-    const float height = finder_.heights()[i];
-    if (height < kShin || height > kHead || (p.head<2>() - expected).norm() > kBeside || settled(p)) continue;
+    if (finder_.loose()[i] == 0 || (p.head<2>() - expected).norm() > kBeside) continue;
     const Eigen::Vector2d at = p.head<2>().cast<double>();
     const double distance = (at - position).norm();
     if (std::ranges::any_of(others, [&](const Eigen::Vector2d& o) { return (at - o).norm() < distance; })) continue;
@@ -86,6 +126,9 @@ void People::remember(const PeopleScan& scan, std::span<const Cluster> bodies) {
   scans_.back().stamp = scan.stamp;
   scans_.back().sensor = scan.sensor_odom.head<2>().cast<double>();
   scans_.back().bodies.assign(bodies.begin(), bodies.end());
+  scans_.back().loose.clear();
+  for (std::size_t i = 0; i < spaces_.size(); ++i)
+    if (finder_.loose()[i] != 0) scans_.back().loose.push_back(scan.points_odom[i]);
 }
 
 bool People::hear(Eye eye, const Detections& boxes, Time scan, const SE3& T_odom_base) {
@@ -95,8 +138,18 @@ bool People::hear(Eye eye, const Detections& boxes, Time scan, const SE3& T_odom
   compare(eye, boxes, *remembered, T_odom_base);
   const auto verdicts = lifter->judge(boxes, remembered->bodies, T_odom_base);
   verdicts_.assign(verdicts.begin(), verdicts.end());
-  if (offset(eye).moved()) std::ranges::replace(verdicts_, Verdict::kSilence, Verdict::kNothing);
-  tracker_.hear(scan, verdicts_, eye == Eye::kThermal ? config_.thermal : config_.visible);
+  const bool moved = offset(eye).moved();
+  if (moved) std::ranges::replace(verdicts_, Verdict::kSilence, Verdict::kNothing);
+  const DetectorTrust& trust = eye == Eye::kThermal ? config_.thermal : config_.visible;
+  tracker_.hear(scan, verdicts_, trust);
+  if (moved) return true;  // its boxes point beside the people
+  auto lifted = lifter->lift(remembered->loose);
+  for (Lifted& found : lifted) {
+    found.position += kHalf * (found.position - remembered->sensor).normalized();
+    found.ground =
+        finder_.ground().height(static_cast<float>(found.position.x()), static_cast<float>(found.position.y()));
+  }
+  tracker_.hear_apart(scan, scans_.back().stamp, lifted, trust);
   return true;
 }
 
@@ -115,7 +168,7 @@ bool People::in_body(const Eigen::Vector3f& point, const Eigen::Vector2d& positi
 }
 
 /// People are never in the map, so what the map has long known is no person.
-void People::doubt_furniture(const PeopleScan& scan, const Settled& settled) {
+void People::doubt_furniture(const PeopleScan& scan) {
   furniture_.clear();
   for (const Person& person : people()) {
     const Eigen::Vector2f middle = person.position.cast<float>();
@@ -124,7 +177,7 @@ void People::doubt_furniture(const PeopleScan& scan, const Settled& settled) {
       const float height = finder_.heights()[i];
       if (height < kShin || height > kHead || (scan.points_odom[i].head<2>() - middle).norm() > kBeside) continue;
       ++all;
-      if (settled(scan.points_odom[i])) ++known;
+      if (spaces_[i] == Space::kSettled) ++known;
     }
     if (2 * known > all) furniture_.push_back(person.id);
   }
@@ -133,9 +186,10 @@ void People::doubt_furniture(const PeopleScan& scan, const Settled& settled) {
 
 void People::fill_mask(const PeopleScan& scan) {
   mask_.assign(scan.points_odom.size(), 0);
-  for (const Person& person : people())
-    for (std::size_t i = 0; i < mask_.size(); ++i)
-      if (in_body(scan.points_odom[i], person.position, person.ground)) mask_[i] = 1;
+  for (const auto& them : {people(), tracker_.newcomers()})
+    for (const Person& person : them)
+      for (std::size_t i = 0; i < mask_.size(); ++i)
+        if (in_body(scan.points_odom[i], person.position, person.ground)) mask_[i] = 1;
 }
 
 }  // namespace cairn::people

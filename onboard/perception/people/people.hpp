@@ -35,8 +35,8 @@ struct PeopleScan {
 /// the same calls give the same result. Bounded in memory.
 class People {
  public:
-  /// True: this point's voxel has long been occupied by something that stands.
-  using Settled = std::function<bool(const Eigen::Vector3f& point_odom)>;
+  /// What the map knows of a point's place.
+  using Known = std::function<Space(const Eigen::Vector3f& point_odom)>;
 
   explicit People(const PeopleConfig& config);
 
@@ -45,7 +45,7 @@ class People {
   [[nodiscard]] bool has(Eye eye) const { return lifter(eye).has_value(); }
 
   /// A scan later than all before. Afterwards mask() says which of its points are people's.
-  void observe(const PeopleScan& scan, const Settled& settled);
+  void observe(const PeopleScan& scan, const Known& known);
   /// What a detector saw in a picture, taken with base_link at `T_odom_base`. `scan`: the stamp of the scan nearest to
   /// the exposure. False: that scan is not remembered, or there is no such eye.
   bool hear(Eye eye, const Detections& boxes, Time scan, const SE3& T_odom_base);
@@ -67,16 +67,20 @@ class People {
     Time stamp{};
     Eigen::Vector2d sensor{0, 0};  // odom
     std::vector<Cluster> bodies;
+    std::vector<Eigen::Vector3f> loose;  // points that may be somebody's
   };
   static constexpr std::size_t kScans = 24;  // remembered
   [[nodiscard]] const std::optional<BoxLifter>& lifter(Eye e) const { return lifters_[static_cast<std::size_t>(e)]; }
   [[nodiscard]] std::optional<Eigen::Vector2d> look_for(const Eigen::Vector2d& position,
-                                                        std::span<const Eigen::Vector2d> others, const PeopleScan& scan,
-                                                        const Settled& settled) const;
+                                                        std::span<const Eigen::Vector2d> others,
+                                                        const PeopleScan& scan) const;
+  [[nodiscard]] static bool is_free(const Eigen::Vector2d& position, float ground, const Known& known);
+  void ask_map(const PeopleScan& scan, const Known& known);
+  void find_bodies(const PeopleScan& scan, std::span<const Eigen::Vector2d> seeds);
   void compare(Eye eye, const Detections& boxes, const Remembered& scan, const SE3& T_odom_base);
   void remember(const PeopleScan& scan, std::span<const Cluster> bodies);
   [[nodiscard]] bool carried(const Track& track, const PeopleScan& scan) const;
-  void doubt_furniture(const PeopleScan& scan, const Settled& settled);
+  void doubt_furniture(const PeopleScan& scan);
   void fill_mask(const PeopleScan& scan);
 
   PeopleConfig config_;
@@ -85,6 +89,8 @@ class People {
   std::array<std::optional<BoxLifter>, 2> lifters_;
   std::array<EyeOffset, 2> offsets_;
   std::deque<Remembered> scans_;
+  std::vector<Space> spaces_;      // of the last scan's points
+  std::vector<Cluster> clusters_;  // of the last scan
   std::vector<std::uint8_t> mask_;
   std::vector<std::uint32_t> furniture_;  // reused
   std::vector<BoxLifter::Known> known_;   // reused

@@ -7,6 +7,7 @@
 #include <deque>
 
 #include "hal/time.hpp"
+#include "onboard/perception/people/cluster_finder.hpp"
 
 namespace cairn::people {
 
@@ -42,17 +43,31 @@ class Track {
   void predict(Time stamp);
   /// A measured position, m; `sigma_m` on each axis. `body`: its number in Tracker::bodies().
   void update(const Eigen::Vector2d& position, double sigma_m, std::int32_t body);
+  /// It was lost, and is here: its velocity is not known any more.
+  void restart(const Eigen::Vector2d& position, std::int32_t body);
   /// Squared Mahalanobis distance of a position that is measured with `sigma_m`.
   [[nodiscard]] double distance2(const Eigen::Vector2d& position, double sigma_m) const;
 
   /// Adds nats for or against this being a person. It is bounded: nobody is surer than a few pictures can undo.
   void weigh(double nats);
-  /// Who stands still where no camera looks is ever less sure to be a person.
-  void doubt(double dt_s);
+  /// Who stands still where no camera looks is ever less sure to be a person: slowly where the place was free before,
+  /// soon where it was not. `body`: what is seen of it.
+  void doubt(Time stamp, const Cluster& body);
   [[nodiscard]] double evidence() const { return evidence_; }
 
   /// It has walked within the last second or two: far enough, on a line, and seen all along.
   [[nodiscard]] bool walked() const;
+  [[nodiscard]] bool walked(double length_m, double time_s) const;
+  /// That it walked counts once.
+  void walks();
+  [[nodiscard]] bool known_walker() const { return known_walker_; }
+  /// A scan looks through the place where it is expected.
+  void miss() { ++misses_; }
+  [[nodiscard]] int misses() const { return misses_; }
+  /// Its points are in places that were free. True once: when that was so in enough scans.
+  bool enters() { return ++entered_ == kEnters; }
+  [[nodiscard]] bool newcomer() const { return entered_ >= kEnters; }
+  [[nodiscard]] Duration age() const { return person_.stamp - began_; }
 
   [[nodiscard]] const std::deque<Step>& steps() const { return steps_; }
   [[nodiscard]] Time last_seen() const { return last_seen_; }
@@ -62,13 +77,18 @@ class Track {
   /// It is a person, or has been seen for a while.
   [[nodiscard]] bool known() const { return confirmed || last_seen_ - began_ > kAWhile; }
   [[nodiscard]] const Person& person() const { return person_; }
-  void sighted() { ++person_.sightings; }
+  /// A detector saw it in a picture of that time.
+  void sighted(Time stamp) {
+    ++person_.sightings;
+    sure(stamp);
+    last_sighted_ = std::max(last_sighted_, stamp);
+  }
   void name(std::uint32_t id) { person_.id = id; }
 
-  bool confirmed = false;     ///< it is a person
-  bool known_walker = false;  ///< that it walked has been weighed
-  bool ended = false;         ///< it is to go
-  bool reported = false;      ///< its beginning has been handed on
+  bool confirmed = false;  ///< it is a person
+  bool ended = false;      ///< it is to go
+  bool hidden = false;     ///< nobody knows where it is now; somebody who appears around there may be it
+  bool reported = false;   ///< its beginning has been handed on
 
  private:
   void publish();
@@ -76,8 +96,12 @@ class Track {
   Eigen::Vector4d state_;
   Eigen::Matrix4d covariance_;
   Person person_;
-  Time began_, last_seen_, last_sure_;
+  Time began_, last_seen_, last_sure_, last_sighted_{};
+  static constexpr int kEnters = 3;  // scans
   double evidence_;
+  bool known_walker_ = false;
+  int misses_ = 0;
+  int entered_ = 0;  // scans in which its points were in free places
   std::deque<Step> steps_;
 };
 

@@ -9,49 +9,87 @@
 namespace cairn::people {
 namespace {
 
-constexpr double kGate2 = 9.21;                             // χ² of two directions, 99 %
-constexpr double kFarthest = 1.2;                           // m from where a track is expected
-constexpr double kBesideSigma = 0.25;                       // m: of what look_for finds
-constexpr double kWalkEvidence = 6.5;                       // nats: walking confirms, whatever the prior says
-constexpr double kDoubt = 0;                                // nats; below, a person is none any more
+constexpr double kGate2 = 9.21;          // χ² of two directions, 99 %
+constexpr double kFarthest = 1.2;        // m from where a track is expected
+constexpr double kFarthestHidden = 1.0;  // m from where somebody hidden is expected
+constexpr double kBesideSigma = 0.25;    // m: of what look_for finds
+constexpr double kBody = 0.35;           // m; nearer together two people cannot be
+constexpr double kReach = 0.6;           // m; from the middle of two to each of them
+
+// Evidence, nats.
+constexpr double kEnterEvidence = 3;  // furniture does not come
+constexpr double kKnownDoubt = 0.3;   // in each scan, of what stood there before
+constexpr double kDoubt = 0;          // below, a person is none any more
+
+// Shares of a cluster's points, and its extent, m.
+constexpr float kEntered = 0.6F;    // of who comes into free places
+constexpr float kLongKnown = 0.5F;  // of what stood there before
+constexpr float kMostKnown = 0.3F;  // of who walks
+constexpr float kWide = 0.2F;       // edges of walls are thinner
+
+constexpr double kShortWalk = 0.45, kShortWalkTime = 0.45;  // m and s, of who came into free places
 constexpr Duration kHope = std::chrono::milliseconds(300);  // for what has just been seen first
+constexpr Duration kRemembered = std::chrono::seconds(4);   // who is hidden
+constexpr int kMisses = 3;                                  // scans that look through where somebody is expected
+constexpr Duration kWelcome = std::chrono::seconds(4);      // how long a newcomer stays out of the map unconfirmed
 constexpr Duration kUnsure = std::chrono::seconds(3);       // for who stands beside something, and no camera sees
-constexpr double kBody = 0.35;                              // m; nearer together two people cannot be
-constexpr double kReach = 0.6;                              // m; from the middle of two to each of them
-constexpr double kOneBody = 0.65;                           // m; two together are wider
 
 }  // namespace
 
-void Tracker::step(Time stamp, std::span<const Cluster> clusters, const LookFor& look_for,
-                   const SeenThrough& seen_through) {
+std::span<const Eigen::Vector2d> Tracker::predict(Time stamp) {
+  seeds_.clear();
   for (Track& track : tracks_) {
-    const double dt_s = to_seconds(stamp - track.person().stamp);
     track.predict(stamp);
-    if (!track.confirmed) continue;
-    track.doubt(dt_s);
-    judge(track);
+    if (track.known() && !track.hidden) seeds_.push_back(track.person().position);
   }
+  return seeds_;
+}
+
+void Tracker::step(Time stamp, std::span<const Cluster> clusters, const LookFor& look_for,
+                   const SeenThrough& seen_through, const SeenThrough& empty) {
   bodies_.assign(clusters.begin(), clusters.end());
   associate(clusters);
   look_beside(look_for);
-  for (Track& track : tracks_) {
-    if (!config_.movers || track.known_walker || !track.person().seen || !track.walked()) continue;
-    if (!seen_through(track)) continue;
-    track.known_walker = true;
-    track.weigh(kWalkEvidence);
-    judge(track);
-  }
+  weigh_ways(stamp, clusters, seen_through);
+  for (Track& track : tracks_)
+    if (track.confirmed && !track.hidden && !track.person().seen && empty(track)) track.miss();
   end_tracks(stamp);
   begin_tracks(stamp, clusters);
   list_people();
 }
 
+void Tracker::weigh_ways(Time stamp, std::span<const Cluster> clusters, const SeenThrough& seen_through) {
+  for (Track& track : tracks_) {
+    const auto body = static_cast<std::size_t>(track.steps().back().body);
+    if (track.person().seen && body < clusters.size()) {
+      const Cluster& seen = clusters[body];
+      weigh_places(track, seen);
+      if (walks(track, seen, seen_through)) track.walks();
+      if (track.confirmed) track.doubt(stamp, seen);
+    }
+    judge(track);
+  }
+}
+
+/// What the map knew of the places where a track is now.
+void Tracker::weigh_places(Track& track, const Cluster& seen) {
+  if (track.confirmed) return;  // what is taken back counts as free
+  if (seen.entered >= kEntered && seen.extent >= kWide && track.enters()) track.weigh(kEnterEvidence);
+  if (seen.known >= kLongKnown && !track.newcomer()) track.weigh(-kKnownDoubt);
+}
+
+bool Tracker::walks(const Track& track, const Cluster& seen, const SeenThrough& seen_through) const {
+  if (!config_.movers || track.known_walker() || seen.known > kMostKnown) return false;
+  const bool far_enough = track.newcomer() ? track.walked(kShortWalk, kShortWalkTime) : track.walked();
+  return far_enough && seen_through(track);
+}
+
 /// The nearest pair first, whether people or not: who walks past a pole must not take the pole's cluster.
 void Tracker::associate(std::span<const Cluster> clusters) {
   taken_.assign(clusters.size(), false);
-  for (std::size_t c = 0; c < clusters.size(); ++c) taken_[c] = contested(clusters[c]);
   pairs_.clear();
   for (std::uint32_t t = 0; t < tracks_.size(); ++t) {
+    if (tracks_[t].hidden) continue;
     for (std::uint32_t c = 0; c < clusters.size(); ++c) {
       const Eigen::Vector2d at = clusters[c].centre.cast<double>();
       if (taken_[c] || (at - tracks_[t].person().position).norm() > kFarthest) continue;
@@ -67,24 +105,41 @@ void Tracker::associate(std::span<const Cluster> clusters) {
     track.update(clusters[pair.cluster].centre.cast<double>(), kClusterSigma, static_cast<std::int32_t>(pair.cluster));
     track.sure(track.person().stamp);
   }
+  find_again(clusters);
 }
 
-/// Two people who stand so close that they are one cluster: it is neither's alone.
-bool Tracker::contested(const Cluster& cluster) const {
-  const auto within = std::ranges::count_if(tracks_, [&](const Track& t) {
-    return t.confirmed && (t.person().position - cluster.centre.cast<double>()).norm() < kReach;
-  });
-  return within > 1 && cluster.extent > kOneBody;
+/// Whom nobody has seen for a while may be who appears where nobody was.
+void Tracker::find_again(std::span<const Cluster> clusters) {
+  pairs_.clear();
+  for (std::uint32_t t = 0; t < tracks_.size(); ++t) {
+    if (!tracks_[t].hidden) continue;
+    for (std::uint32_t c = 0; c < clusters.size(); ++c) {
+      if (taken_[c] || clusters[c].entered < kEntered) continue;
+      const double away = (clusters[c].centre.cast<double>() - tracks_[t].person().position).norm();
+      if (away < kFarthestHidden) pairs_.push_back({away, t, c});
+    }
+  }
+  std::ranges::sort(pairs_, {}, [](const Pair& p) { return std::tuple(p.distance2, p.track, p.cluster); });
+  for (const Pair& pair : pairs_) {
+    Track& track = tracks_[pair.track];
+    if (taken_[pair.cluster] || !track.hidden) continue;
+    taken_[pair.cluster] = true;
+    track.hidden = false;
+    track.restart(clusters[pair.cluster].centre.cast<double>(), static_cast<std::int32_t>(pair.cluster));
+    track.sure(track.person().stamp);
+  }
 }
 
 /// People without a cluster: they stand beside something, or close together.
 void Tracker::look_beside(const LookFor& look_for) {
   std::vector<Eigen::Vector2d> expected;
   for (const Track& track : tracks_)
-    if (track.confirmed) expected.push_back(track.person().position);
+    if (track.confirmed && !track.hidden) expected.push_back(track.person().position);
   for (Track& track : tracks_) {
     const Person& person = track.person();
-    if (!track.confirmed || person.seen || person.stamp - track.last_sure() > kUnsure) continue;
+    if (track.hidden || !(track.confirmed || person.sightings > 0) || person.seen ||
+        person.stamp - track.last_sure() > kUnsure)
+      continue;
     std::vector<Eigen::Vector2d> others;
     std::ranges::copy_if(expected, std::back_inserter(others), [&](const Eigen::Vector2d& other) {
       return other != person.position && (other - person.position).norm() < 2 * kReach;
@@ -101,10 +156,12 @@ void Tracker::look_beside(const LookFor& look_for) {
 void Tracker::end_tracks(Time stamp) {
   const Duration patience = from_seconds(config_.patience_s);
   for (Track& track : tracks_) {
-    track.ended = stamp - track.last_seen() > (track.known() ? patience : kHope);
-    if (!track.confirmed || track.ended) continue;
+    const Duration unseen = stamp - track.last_seen();
+    track.hidden = track.confirmed && (unseen > patience || track.misses() >= kMisses);
+    track.ended = unseen > (track.hidden ? kRemembered : track.known() ? patience : kHope);
+    if (!track.confirmed || track.ended || track.hidden) continue;
     track.ended = std::ranges::any_of(tracks_, [&](const Track& t) {
-      return t.confirmed && !t.ended && t.person().id < track.person().id &&
+      return t.confirmed && !t.ended && !t.hidden && t.person().id < track.person().id &&
              (t.person().position - track.person().position).norm() < kBody;
     });
   }
@@ -115,7 +172,8 @@ void Tracker::begin_tracks(Time stamp, std::span<const Cluster> clusters) {
   for (std::size_t c = 0; c < clusters.size() && tracks_.size() < kMostTracks; ++c) {
     if (taken_[c]) continue;
     const Eigen::Vector2d at = clusters[c].centre.cast<double>();
-    tracks_.emplace_back(stamp, at, clusters[c].ground, static_cast<std::int32_t>(c));
+    Track& track = tracks_.emplace_back(stamp, at, clusters[c].ground, static_cast<std::int32_t>(c));
+    weigh_places(track, clusters[c]);
   }
 }
 
@@ -128,8 +186,7 @@ void Tracker::hear(Time stamp, std::span<const Verdict> verdicts, const Detector
     const auto body = static_cast<std::size_t>(step->body);
     if (body >= verdicts.size() || verdicts[body] == Verdict::kNothing) continue;
     const bool person = verdicts[body] == Verdict::kPerson;
-    if (person) track.sighted();
-    if (person) track.sure(stamp);
+    if (person) track.sighted(stamp);
     track.weigh(person ? seen : missed);
     judge(track);
   }
@@ -146,6 +203,31 @@ std::vector<std::pair<std::uint32_t, std::size_t>> Tracker::bodies_of_people(Tim
   return bodies;
 }
 
+void Tracker::hear_apart(Time stamp, Time now, std::span<const Lifted> lifted, const DetectorTrust& trust) {
+  const double seen = std::log(trust.recall / trust.false_share);
+  for (const Lifted& found : lifted) {
+    Track* nearest = nullptr;
+    double least = kReach;
+    for (Track& track : tracks_) {
+      const auto step = std::ranges::find(track.steps(), stamp, &Step::stamp);
+      if (step == track.steps().end()) continue;
+      const double distance = (step->position - found.position).norm();
+      if (distance >= least) continue;
+      least = distance;
+      nearest = &track;
+    }
+    if (nearest == nullptr) {
+      if (tracks_.size() >= kMostTracks) continue;
+      nearest = &tracks_.emplace_back(stamp, found.position, found.ground, -1);
+      if (now > stamp) nearest->predict(now);
+    }
+    nearest->sighted(stamp);
+    nearest->weigh(seen);
+    judge(*nearest);
+  }
+  list_people();
+}
+
 void Tracker::weigh(std::uint32_t id, double nats) {
   const auto track = std::ranges::find(tracks_, id, [](const Track& t) { return t.person().id; });
   if (track == tracks_.end()) return;
@@ -157,6 +239,7 @@ void Tracker::weigh(std::uint32_t id, double nats) {
 void Tracker::clear() {
   tracks_.clear();
   people_.clear();
+  newcomers_.clear();
 }
 
 void Tracker::judge(Track& track) {
@@ -167,15 +250,18 @@ void Tracker::judge(Track& track) {
 
 void Tracker::list_people() {
   people_.clear();
-  for (const Track& track : tracks_)
-    if (track.confirmed) people_.push_back(track.person());
+  newcomers_.clear();
+  for (const Track& track : tracks_) {
+    if (track.confirmed && !track.hidden) people_.push_back(track.person());
+    if (!track.confirmed && track.newcomer() && track.age() < kWelcome) newcomers_.push_back(track.person());
+  }
   std::ranges::sort(people_, {}, &Person::id);
 }
 
 std::vector<const Track*> Tracker::take_new() {
   std::vector<const Track*> fresh;
   for (Track& track : tracks_) {
-    if (!track.confirmed || track.reported) continue;
+    if (!track.confirmed || track.reported || track.hidden) continue;
     track.reported = true;
     fresh.push_back(&track);
   }

@@ -33,27 +33,38 @@ class Tracker {
 
   explicit Tracker(const PeopleConfig& config) : config_(config) {}
 
-  /// The clusters of a later scan.
-  void step(Time stamp, std::span<const Cluster> clusters, const LookFor& look_for, const SeenThrough& seen_through);
+  /// To the time of a later scan. Returns where those are expected whom a wide body may hold.
+  std::span<const Eigen::Vector2d> predict(Time stamp);
+  /// The clusters of the scan that predict() was called for.
+  void step(Time stamp, std::span<const Cluster> clusters, const LookFor& look_for, const SeenThrough& seen_through,
+            const SeenThrough& empty);
   /// Of the last scan: its clusters, and after them people who were found without one.
   [[nodiscard]] std::span<const Cluster> bodies() const { return bodies_; }
   /// What a detector said of the bodies of the scan at `stamp`, of the last two seconds.
   void hear(Time stamp, std::span<const Verdict> verdicts, const DetectorTrust& trust);
   /// Whose body each of bodies() of the scan at `stamp` was: a person's id and its number in bodies().
   [[nodiscard]] std::vector<std::pair<std::uint32_t, std::size_t>> bodies_of_people(Time stamp) const;
+  /// Boxes of the same picture that are of none of these bodies: where the scan has points in their direction. Somebody
+  /// begins there, or was there already.
+  void hear_apart(Time stamp, Time now, std::span<const Lifted> lifted, const DetectorTrust& trust);
   /// Evidence from elsewhere, in nats, for or against somebody; see people().
   void weigh(std::uint32_t id, double nats);
   void clear();
 
   /// The people, in the order of their ids. Valid until the next call.
   [[nodiscard]] std::span<const Person> people() const { return people_; }
+  /// Who came into places that were free, and may yet turn out to be people. They are kept out of the map for a while.
+  [[nodiscard]] std::span<const Person> newcomers() const { return newcomers_; }
   /// The tracks that have become people since the last call, with all that is known of their ways.
   [[nodiscard]] std::vector<const Track*> take_new();
 
  private:
   void associate(std::span<const Cluster> clusters);
-  [[nodiscard]] bool contested(const Cluster& cluster) const;
+  void find_again(std::span<const Cluster> clusters);
   void look_beside(const LookFor& look_for);
+  void weigh_ways(Time stamp, std::span<const Cluster> clusters, const SeenThrough& seen_through);
+  static void weigh_places(Track& track, const Cluster& seen);
+  [[nodiscard]] bool walks(const Track& track, const Cluster& seen, const SeenThrough& seen_through) const;
   void end_tracks(Time stamp);
   void begin_tracks(Time stamp, std::span<const Cluster> clusters);
   void judge(Track& track);
@@ -62,7 +73,8 @@ class Tracker {
   PeopleConfig config_;
   std::uint32_t next_id_ = 1;
   std::vector<Track> tracks_;
-  std::vector<Person> people_;
+  std::vector<Person> people_, newcomers_;
+  std::vector<Eigen::Vector2d> seeds_;
   std::vector<bool> taken_;  // clusters of the scan
   std::vector<Cluster> bodies_;
   struct Pair {

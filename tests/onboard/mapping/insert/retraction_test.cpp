@@ -92,14 +92,17 @@ TEST(Retraction, AVoxelCountsOnceAndItsLabelGoesWithIt) {
   }
 }
 
-TEST(Mapper, SettledIsWhatHasBeenSeenAgainAndAgain) {
+TEST(Mapper, StandingIsWhatHasBeenSeenAgainAndAgain) {
   Map map;
+  const Eigen::Vector3f before = 0.5F * wall()[40];  // on the ray
+  EXPECT_EQ(map.mapper.standing(wall()[40]), Standing::kUnknown);
   map.insert(wall());
-  EXPECT_FALSE(map.mapper.settled(wall()[40]));
+  EXPECT_EQ(map.mapper.standing(wall()[40]), Standing::kOccupied);
   for (int i = 0; i < 3; ++i) map.insert(wall());
-  EXPECT_TRUE(map.mapper.settled(wall()[40]));
-  EXPECT_FALSE(map.mapper.settled({2, 0, 0}));
-  EXPECT_FALSE(map.mapper.settled({std::numeric_limits<float>::quiet_NaN(), 0, 0}));
+  EXPECT_EQ(map.mapper.standing(wall()[40]), Standing::kSettled);
+  EXPECT_EQ(map.mapper.standing(before), Standing::kFree);
+  EXPECT_EQ(map.mapper.standing({2, 0, 50}), Standing::kUnknown);
+  EXPECT_EQ(map.mapper.standing({std::numeric_limits<float>::quiet_NaN(), 0, 0}), Standing::kUnknown);
 }
 
 }  // namespace

@@ -105,5 +105,24 @@ TEST_F(BoxLifterTest, BoxesThatAreNoneChangeNothing) {
   EXPECT_EQ(judge({bad, flat}, {cluster_at(5, 0)}), std::vector{kSilence});
 }
 
+TEST_F(BoxLifterTest, ABoxWithoutAClusterFindsThePointsOfItsHeight) {
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 20; ++i) {
+    const float z = 0.3F + 0.06F * static_cast<float>(i);
+    points.emplace_back(3, 0, z);     // too near for so small a box
+    points.emplace_back(6, 0.1F, z);  // the body
+    points.emplace_back(6, 1.5F, z);  // beside it
+    points.emplace_back(7, 0, z);     // what is behind
+  }
+  judge({box_at(6, 0)}, {cluster_at(6, 4)});
+  const auto lifted = lifter_.lift(points);
+  ASSERT_EQ(lifted.size(), 1U);
+  EXPECT_LT((lifted[0].position - Eigen::Vector2d(6, 0.1)).norm(), 0.05);
+  judge({box_at(6, 4)}, {cluster_at(6, 4)});
+  EXPECT_TRUE(lifter_.lift(points).empty()) << "that box has its cluster";
+  judge({box_at(6, 0)}, {});
+  EXPECT_TRUE(lifter_.lift(std::span(points).first(8)).empty()) << "two points are nobody";
+}
+
 }  // namespace
 }  // namespace cairn::people

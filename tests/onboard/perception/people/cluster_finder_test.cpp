@@ -18,7 +18,8 @@ using test::scan_of;
 
 std::vector<Cluster> clusters_of(const std::vector<Vector3f>& points, double farthest_m = 20) {
   ClusterFinder finder(farthest_m);
-  return finder.find(points, test::sensor(), static_cast<float>(test::kSensorHeight));
+  finder.measure(points, test::sensor(), static_cast<float>(test::kSensorHeight));
+  return finder.find(points);
 }
 
 TEST(ClusterFinder, FindsEverybodyWhereTheyStand) {
@@ -80,6 +81,31 @@ TEST(ClusterFinder, FindsPeopleOnARamp) {
   auto scan = scan_of({{{5, 1}}, {{-6, -2}}});
   for (Vector3f& p : scan) p.z() += 0.1F * p.x();
   EXPECT_EQ(clusters_of(scan).size(), 2U);
+}
+
+TEST(ClusterFinder, AWideBodyIsPartedAmongThoseWhoAreExpectedThere) {
+  const auto points = scan_of({{{5, 0.21}}, {{5, -0.21}}});
+  ClusterFinder finder(20);
+  finder.measure(points, test::sensor(), static_cast<float>(test::kSensorHeight));
+  ASSERT_EQ(finder.find(points).size(), 1U);
+  const std::vector<Eigen::Vector2d> seeds{{5.05, 0.3}, {4.95, -0.3}, {9, 9}};
+  const auto found = finder.find(points, {.spaces = {}, .loose = false, .seeds = seeds});
+  ASSERT_EQ(found.size(), 2U);
+  EXPECT_NEAR(std::abs(found[0].centre.y() - found[1].centre.y()), 0.42, 0.15);
+}
+
+TEST(ClusterFinder, WithoutWhatHasLongStoodThereSomebodyBesideAWallStandsAlone) {
+  const auto points = scan_of({{{12.08, 0}}});
+  std::vector<Space> spaces;
+  for (const Vector3f& p : points) spaces.push_back(p.x() > 11.98F ? Space::kSettled : Space::kFree);
+  ClusterFinder finder(20);
+  finder.measure(points, test::sensor(), static_cast<float>(test::kSensorHeight));
+  EXPECT_TRUE(finder.find(points).empty()) << "the wall and the body are one";
+  const auto found = finder.find(points, {.spaces = spaces, .loose = true, .seeds = {}});
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_LT((found[0].centre - Eigen::Vector2f(12.08F, 0)).norm(), 0.15);
+  EXPECT_GT(found[0].entered, 0.9);
+  for (std::size_t i = 0; i < points.size(); ++i) EXPECT_FALSE(spaces[i] == Space::kSettled && finder.loose()[i] != 0);
 }
 
 }  // namespace

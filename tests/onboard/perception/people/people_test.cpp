@@ -21,9 +21,14 @@ class PeopleTest : public ::testing::Test {
     for (Eigen::Vector3f& p : points_) p += driven;
     const Eigen::Vector3f sensor = test::sensor() + driven;
     people_.observe({now_, points_, sensor, static_cast<float>(test::kSensorHeight)},
-                    [this](const Eigen::Vector3f& p) { return p.x() > settled_x_; });
+                    [this](const Eigen::Vector3f& p) { return space_at(p); });
     EXPECT_EQ(people_.mask().size(), points_.size());
     return static_cast<std::size_t>(std::ranges::count(people_.mask(), 1));
+  }
+  /// Rays have gone everywhere but to the pole, and through what has long stood there.
+  [[nodiscard]] Space space_at(const Eigen::Vector3f& p) const {
+    if (p.x() > settled_x_) return Space::kSettled;
+    return (p.head<2>() - Eigen::Vector2f(4, 4)).norm() < 0.3F ? Space::kNew : elsewhere_;
   }
   /// Points of the last scan that lie on this body.
   [[nodiscard]] std::size_t points_on(const Cylinder& body) const {
@@ -33,6 +38,7 @@ class PeopleTest : public ::testing::Test {
   }
 
   float settled_x_ = 11.8F;  // m; what is farther ahead has long stood there
+  Space elsewhere_ = Space::kFree;
   PeopleConfig config_;
   People people_{config_};
   Time now_{std::chrono::seconds(5)};
@@ -52,7 +58,15 @@ TEST_F(PeopleTest, WhoWalksIsMaskedWholeAndNothingElse) {
 }
 
 TEST_F(PeopleTest, WhatStandsIsNobody) {
+  elsewhere_ = Space::kUnknown;
   for (int i = 0; i < 25; ++i) EXPECT_EQ(observe({{{6, 0}}, {{4, 4}, 0.15, 2.0}}), 0U);
+}
+
+TEST_F(PeopleTest, WhoComesIsKeptOutOfTheMapAtOnce) {
+  observe({});
+  for (int i = 0; i < 4; ++i) observe({{{6, 0}}});
+  EXPECT_EQ(observe({{{6, 0}}}), points_on({{6, 0}}));
+  EXPECT_TRUE(people_.people().empty()) << "who it is, nobody knows yet";
 }
 
 /// As a mast that the LiDAR sees.

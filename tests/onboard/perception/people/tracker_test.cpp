@@ -18,10 +18,17 @@ class TrackerTest : public ::testing::Test {
     now_ += kScan;
     clusters_.clear();
     for (const Vector2d& place : places)
-      clusters_.push_back({.centre = place.cast<float>(), .ground = 0, .top = 1.7F, .extent = 0.5F, .points = 40});
+      clusters_.push_back({.centre = place.cast<float>(),
+                           .ground = 0,
+                           .top = 1.7F,
+                           .extent = 0.5F,
+                           .points = 40,
+                           .entered = entered_,
+                           .known = known_});
+    tracker_.predict(now_);
     tracker_.step(
         now_, clusters_, [this](const Vector2d&, std::span<const Vector2d>) { return beside_; },
-        [this](const Track&) { return through_; });
+        [this](const Track&) { return through_; }, [this](const Track&) { return empty_; });
   }
   void hear(std::vector<Verdict> verdicts) { tracker_.hear(now_, verdicts, config_.visible); }
 
@@ -30,7 +37,8 @@ class TrackerTest : public ::testing::Test {
   Time now_{std::chrono::seconds(5)};
   std::vector<Cluster> clusters_;
   std::optional<Vector2d> beside_;
-  bool through_ = false;
+  bool through_ = false, empty_ = false;
+  float entered_ = 0, known_ = 0;
 };
 
 TEST_F(TrackerTest, TwoPicturesMakeAPerson) {
@@ -56,7 +64,9 @@ TEST_F(TrackerTest, SilenceUndoesAPerson) {
   EXPECT_TRUE(tracker_.people().empty());
 }
 
-TEST_F(TrackerTest, WhatNoCameraSeesStaysWhatItIs) {
+TEST_F(TrackerTest, WhoHasComeAndStandsWhereNoCameraLooksStaysAPerson) {
+  entered_ = 1;
+  for (int i = 0; i < 4; ++i) scan({{3, 0}});
   for (int i = 0; i < 3; ++i) {
     scan({{3, 0}});
     hear({Verdict::kPerson});
@@ -66,6 +76,89 @@ TEST_F(TrackerTest, WhatNoCameraSeesStaysWhatItIs) {
     hear({Verdict::kNothing});
   }
   EXPECT_EQ(tracker_.people().size(), 1U);
+}
+
+TEST_F(TrackerTest, WhatNobodySawComingIsDoubtedSoonWhereNoCameraLooks) {
+  for (int i = 0; i < 3; ++i) {
+    scan({{3, 0}});
+    hear({Verdict::kPerson});
+  }
+  for (int i = 0; i < 60; ++i) scan({{3, 0}});
+  EXPECT_TRUE(tracker_.people().empty());
+}
+
+TEST_F(TrackerTest, OnePictureIsEnoughForWhoCame) {
+  entered_ = 1;
+  for (int i = 0; i < 3; ++i) scan({{3, 0}});
+  EXPECT_EQ(tracker_.newcomers().size(), 1U) << "kept out of the map meanwhile";
+  EXPECT_TRUE(tracker_.people().empty());
+  hear({Verdict::kPerson});
+  EXPECT_EQ(tracker_.people().size(), 1U);
+  EXPECT_TRUE(tracker_.newcomers().empty());
+}
+
+TEST_F(TrackerTest, ANewcomerWhomNobodyConfirmsIsMappedInTheEnd) {
+  entered_ = 1;
+  for (int i = 0; i < 30; ++i) scan({{3, 0}});
+  EXPECT_EQ(tracker_.newcomers().size(), 1U);
+  for (int i = 0; i < 20; ++i) scan({{3, 0}});
+  EXPECT_TRUE(tracker_.newcomers().empty());
+}
+
+TEST_F(TrackerTest, WhoCameIsAPersonAfterAFewSteps) {
+  through_ = true;
+  for (int i = 0; i < 7; ++i) scan({{3 + 0.1 * i, 0}});
+  EXPECT_TRUE(tracker_.people().empty());
+  entered_ = 1;
+  for (int i = 7; i < 10; ++i) scan({{3 + 0.1 * i, 0}});
+  EXPECT_EQ(tracker_.people().size(), 1U);
+}
+
+TEST_F(TrackerTest, WhatSlidesAlongAWallIsNobody) {
+  through_ = true;
+  known_ = 0.4F;
+  for (int i = 0; i < 30; ++i) scan({{3 + 0.1 * i, 0}});
+  EXPECT_TRUE(tracker_.people().empty());
+}
+
+TEST_F(TrackerTest, WhatTheMapKnowsTakesMorePictures) {
+  known_ = 1;
+  for (int i = 0; i < 20; ++i) scan({{3, 0}});
+  for (int i = 0; i < 2; ++i) {
+    hear({Verdict::kPerson});
+    scan({{3, 0}});
+  }
+  EXPECT_TRUE(tracker_.people().empty());
+  hear({Verdict::kPerson});
+  hear({Verdict::kPerson});
+  EXPECT_EQ(tracker_.people().size(), 1U);
+}
+
+TEST_F(TrackerTest, WhereRaysGoThroughNobodyIsAndWhoAppearsNearbyIsTheSame) {
+  entered_ = 1;
+  for (int i = 0; i < 4; ++i) {
+    scan({{3, 0}});
+    hear({Verdict::kPerson});
+  }
+  empty_ = true;
+  for (int i = 0; i < 3; ++i) scan({});
+  EXPECT_TRUE(tracker_.people().empty());
+  for (int i = 0; i < 10; ++i) scan({});
+  scan({{3.5, 0.3}});
+  ASSERT_EQ(tracker_.people().size(), 1U);
+  EXPECT_EQ(tracker_.people()[0].id, 1U);
+  EXPECT_NEAR(tracker_.people()[0].position.x(), 3.5, 1e-6);
+}
+
+TEST_F(TrackerTest, BoxesWithoutAClusterMakeAPersonToo) {
+  const Lifted there{.position = {4, 1}, .ground = 0};
+  beside_ = Vector2d(4, 1);
+  for (int i = 0; i < 2; ++i) {
+    scan({});
+    tracker_.hear_apart(now_, now_, std::vector{there}, config_.visible);
+  }
+  ASSERT_EQ(tracker_.people().size(), 1U) << "both boxes are of one person";
+  EXPECT_EQ(tracker_.people()[0].sightings, 2U);
 }
 
 TEST_F(TrackerTest, WhoWalksIsAPersonAlsoInTheDark) {
