@@ -16,6 +16,7 @@ constexpr double kKnownBefore = 0.5;               // nats a scan: a detector's 
 constexpr int kFewestBeside = 5;                   // points
 constexpr float kShoulder = 1.5F, kStepUp = 0.1F;  // m
 constexpr int kFewestFree = 6;                     // voxels of 117
+constexpr float kWhole = 0.7F;                     // m; a body of which the map knows a part already
 constexpr float kSame = 0.6F;                      // m between two clusters of one body
 constexpr double kHalf = 0.12;                     // m from the side that is seen to the middle
 
@@ -82,9 +83,11 @@ void People::find_bodies(const PeopleScan& scan, std::span<const Eigen::Vector2d
   clusters_ = finder_.find(scan.points_odom, {.spaces = spaces_, .loose = true, .seeds = seeds});
   const std::size_t loose = clusters_.size();
   for (const Cluster& cluster : finder_.find(scan.points_odom, {.spaces = spaces_, .loose = false, .seeds = {}})) {
-    const auto known = std::span(clusters_).first(loose);
-    if (std::ranges::none_of(known, [&](const Cluster& c) { return (c.centre - cluster.centre).norm() < kSame; }))
-      clusters_.push_back(cluster);
+    const auto same = [&](const Cluster& c) { return (c.centre - cluster.centre).norm() < kSame; };
+    const auto parts = std::span(clusters_).first(loose);
+    const auto count = std::ranges::count_if(parts, same);
+    if (count == 0) clusters_.push_back(cluster);
+    if (count == 1 && cluster.extent < kWhole) *std::ranges::find_if(parts, same) = cluster;
   }
 }
 
