@@ -167,6 +167,17 @@ TEST_F(PerceptionTaskTest, NothingIsLabelledThatCannotBeSeen) {
   EXPECT_TRUE(reported("too dark"));
 }
 
+TEST_F(PerceptionTaskTest, AnOverexposedPictureIsAnEventAndTheNextOneIsLookedAt) {
+  judged_ = true;
+  auto packets = pictures(4);
+  std::ranges::fill(std::span(packets[0].bytes).subspan(camera::kFrameHeaderBytes), std::byte{255});
+  packets[3] = with_contrast(3, 13);
+  run(std::move(packets));
+  EXPECT_EQ(keeper_.all.size(), 1U);
+  EXPECT_EQ(figures_.refused, 1U);
+  EXPECT_TRUE(reported("overexposed"));
+}
+
 TEST_F(PerceptionTaskTest, ACameraThatIsStuckIsAnEvent) {
   judged_ = true;
   std::vector<Packet> packets;

@@ -57,6 +57,25 @@ TEST(OctoMapFile, LabelsAreTheColoursThatOctoMapWrites) {
   EXPECT_EQ(label_text_of(encode_ot(*four_labels())), four_colours());
 }
 
+TEST(OctoMapFile, OctoMapReadsAMapWithLabelsAsAColorOcTreeOfTheClassesColours) {
+  const auto tree = four_voxels<SemanticOcTree>([](SemanticNode& node, unsigned i) {
+    LabelEvidence evidence;  // as a run leaves it
+    evidence.add(i == 0 ? 13 : 8, 40);
+    if (i < 2) node.set_label_id(evidence.id());
+  });
+  std::stringstream file(label_text_of(encode_ot(*tree)));
+  const std::unique_ptr<octomap::AbstractOcTree> read(octomap::AbstractOcTree::read(file));
+  const auto* colours = dynamic_cast<const octomap::ColorOcTree*>(read.get());
+  ASSERT_NE(colours, nullptr);
+  EXPECT_EQ(colours->size(), tree->size());
+  const auto colour = [&](int i) {
+    return colours->search(octomap::OcTreeKey(static_cast<octomap::key_type>(32768 + i), 32768, 32768))->getColor();
+  };
+  EXPECT_EQ(colour(0), octomap::ColorOcTreeNode::Color(0, 0, 142));     // car
+  EXPECT_EQ(colour(1), octomap::ColorOcTreeNode::Color(107, 142, 35));  // vegetation
+  EXPECT_EQ(colour(2), octomap::ColorOcTreeNode::Color());
+}
+
 TEST(OctoMapFile, LabelsComeBackAsTheSurestGrade) {
   const auto tree = decode_ot(ot_bytes(four_colours()));
   ASSERT_TRUE(tree) << to_string(tree.error());
