@@ -7,6 +7,7 @@
 #include <string_view>
 #include <utility>
 
+#include "drivers/recording/formats/right_eye.hpp"
 #include "drivers/recording/recording_writer.hpp"
 #include "onboard/app/profile/recorded_profile.hpp"
 #include "tools/simulator/ground_truth.hpp"
@@ -20,6 +21,18 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kLidarStream = 22, kSensorStream = 24;
+
+/// The right eye beside the left one, in whose frame its mount is given.
+recording::SourceEntry right_eye(const StereoConfig& stereo) {
+  recording::SourceEntry entry;
+  entry.id = entry.frame = recording::kRightEye;
+  entry.kind = recording::kCamera;
+  entry.file = "camera_right/data.csv";
+  entry.model = "zed";
+  const SE3 T_left_right(Eigen::Quaterniond::Identity(), Eigen::Vector3d(0, -stereo.baseline_m, 0));
+  entry.base_sensor_xyz_rpy = (SE3::from_xyz_rpy(stereo.base_camera_xyz_rpy) * T_left_right).xyz_rpy();
+  return entry;
+}
 
 /// The sensors in the order of the recording's sources.
 std::vector<recording::SourceEntry> sources(const SimulationConfig& config) {
@@ -42,6 +55,7 @@ std::vector<recording::SourceEntry> sources(const SimulationConfig& config) {
   add(s.depth, recording::kDepth, "depth/data.csv", "d435", config.depth.base_camera_xyz_rpy);
   add(s.drive, recording::kDrive, "drive.log", "cia402", std::nullopt);
   add(s.gpio, recording::kGpio, "gpio.csv", "", std::nullopt);
+  if (s.camera && config.stereo.separate_eyes) list.push_back(right_eye(config.stereo));
   return list;
 }
 
@@ -93,13 +107,9 @@ class RobotRecorder {
     auto writer = recording::RecordingWriter::create(dir_, index_);
     if (!writer) return writer.error();
     for (std::size_t i = 0; i < index_.sources.size(); ++i) {
-      const Sink sink = [this, &writer, i, packet = Packet()](const Packet& p) mutable {
-        packet = p;
-        packet.source = SourceId{static_cast<std::uint16_t>(i)};
-        if (config_.stop && config_.stop())
-          return Result<void>(Error{Errc::kTruncated, "interrupted before the end", "simulate", {}, "nothing is left"});
-        return writer->write(packet);
-      };
+      if (index_.sources[i].id == recording::kRightEye) continue;  // comes with the left one
+      const bool pair = index_.sources[i].kind == recording::kCamera && config_.stereo.separate_eyes;
+      const Sink sink = pair ? eyes_to(*writer, i) : sink_to(*writer, i);
       if (auto done = record_source(index_.sources[i].kind, sink); !done) return done.error();
     }
     if (auto closed = writer->close(); !closed) return closed.error();
@@ -112,6 +122,27 @@ class RobotRecorder {
   }
 
  private:
+  Sink sink_to(recording::RecordingWriter& writer, std::size_t source) const {
+    return [this, &writer, source, packet = Packet()](const Packet& p) mutable {
+      packet = p;
+      packet.source = SourceId{static_cast<std::uint16_t>(source)};
+      if (config_.stop && config_.stop())
+        return Result<void>(Error{Errc::kTruncated, "interrupted before the end", "simulate", {}, "nothing is left"});
+      return writer.write(packet);
+    };
+  }
+
+  /// Each eye to its own source; the right one is the last of all.
+  Sink eyes_to(recording::RecordingWriter& writer, std::size_t left) const {
+    return [this, left_sink = sink_to(writer, left), right_sink = sink_to(writer, index_.sources.size() - 1),
+            eye = Packet()](const Packet& both) mutable {
+      cut_eye(both, config_.stereo.lens, 0, eye);
+      if (auto written = left_sink(eye); !written) return written;
+      cut_eye(both, config_.stereo.lens, 1, eye);
+      return right_sink(eye);
+    };
+  }
+
   Result<void> record_source(recording::SensorKind kind, const Sink& sink) {
     if (kind == recording::kVelodyne) return lidar(sink);
     if (kind == recording::kCamera) return camera(sink);

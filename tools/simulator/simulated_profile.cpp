@@ -74,7 +74,9 @@ app::RobotProfile simulated_profile(const SimulationConfig& config) {
   profile.lidar.base_xyz_rpy = numbers(config.lidar.base_sensor_xyz_rpy);
   const Lens &eye = config.stereo.lens, &thermal = config.thermal.lens, &depth = config.depth.lens;
   profile.camera.base_xyz_rpy = numbers(config.stereo.base_camera_xyz_rpy);
-  set_size(profile.camera.driver.capture, 2 * eye.width, eye.height, config.stereo.rate_hz);
+  profile.camera.driver.side_by_side = !config.stereo.separate_eyes;
+  set_size(profile.camera.driver.capture, (config.stereo.separate_eyes ? 1 : 2) * eye.width, eye.height,
+           config.stereo.rate_hz);
   set_lens(profile.camera.intrinsics, eye, config.stereo.baseline_m);
   profile.thermal.base_xyz_rpy = numbers(config.thermal.base_camera_xyz_rpy);
   profile.thermal.driver.model = "lepton3";

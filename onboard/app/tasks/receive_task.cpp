@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "drivers/recording/formats/right_eye.hpp"
 #include "onboard/app/door/fitted.hpp"
 
 namespace cairn::app {
@@ -15,10 +16,11 @@ bool ReceiveTask::add(Input& input, SourceId id, scheduler::Feed::Tap tap) {
   if (sensors_.size() == kMaxInputs) return false;
   const auto complain = [this](Time now, const Error& error) { monitor_.event(now, "input", to_string(error)); };
   const std::size_t slot = packets_slot + sensors_.size();
+  const bool right = input.entry.id == recording::kRightEye;  // is recorded, and nobody looks at it
   sensors_.push_back({{*input.source, id, slot, complain, std::move(tap)},
                       input.scans.get(),
-                      watched_as(input.entry.kind),
-                      ports_of(input.entry.kind)});
+                      right ? std::nullopt : watched_as(input.entry.kind),
+                      right ? decltype(Sensor::pictures){} : ports_of(input.entry.kind)});
   return true;
 }
 

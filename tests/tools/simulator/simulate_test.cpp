@@ -10,6 +10,7 @@
 #include <fstream>
 #include <map>
 
+#include "drivers/camera/camera.hpp"
 #include "drivers/recording/formats/recording.hpp"
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "drivers/recording/recording_reader.hpp"
@@ -163,6 +164,48 @@ TEST_F(Simulate, EverySensorsPacketsReadBackInTheOrderOfArrival) {
   }
   EXPECT_EQ(bytes("out/robot_1/lidar_labels.bin").size(), 384 * r.data_packets);
   EXPECT_EQ(files(dir / "labels").size(), r.camera_frames);
+}
+
+/// The pictures of one source, decoded.
+std::vector<Image> pictures_of(const fs::path& recorded, const std::string& id, int width, int height) {
+  auto reader = recording::RecordingReader::open(recorded).value();
+  camera::Config config;
+  config.capture.width = width;
+  config.capture.height = height;
+  auto decoder = camera::Camera::create(config).value();
+  std::vector<Image> pictures;
+  Packet packet;
+  while (reader->next(packet, Duration::zero()).value() != Poll::kEnd) {
+    if (reader->recording().sources[static_cast<std::size_t>(packet.source)].id != id) continue;
+    const auto picture = decoder.decode(packet);
+    EXPECT_TRUE(picture) << to_string(picture.error());
+    if (picture) pictures.push_back(**picture);
+  }
+  return pictures;
+}
+
+TEST_F(Simulate, SeparateEyesAreTheHalvesOfThePair) {
+  SimulationConfig pair = with_all_sensors(config("pair")), apart = with_all_sensors(config("apart"));
+  pair.sensors = apart.sensors = {false, true, false, false, false, false};
+  apart.stereo.separate_eyes = true;
+  ASSERT_TRUE(simulate(pair));
+  ASSERT_TRUE(simulate(apart));
+  const auto both = pictures_of(dir_ / "pair/robot_1", "camera", 168, 46);
+  const auto left = pictures_of(dir_ / "apart/robot_1", "camera", 84, 46);
+  const auto right = pictures_of(dir_ / "apart/robot_1", "camera_right", 84, 46);
+  ASSERT_GT(both.size(), 5U);
+  ASSERT_EQ(left.size(), both.size());
+  ASSERT_EQ(right.size(), both.size());
+  for (std::size_t i = 0; i < both.size(); ++i) {
+    const auto eyes = camera::split_side_by_side(both[i].view());
+    ASSERT_TRUE(eyes);
+    EXPECT_EQ(left[i].stamp, right[i].stamp);
+    for (int row = 0; row < 46; ++row) {
+      EXPECT_TRUE(std::ranges::equal(left[i].view().row(row), eyes->left.row(row)));
+      EXPECT_TRUE(std::ranges::equal(right[i].view().row(row), eyes->right.row(row)));
+    }
+  }
+  EXPECT_EQ(bytes("pair/robot_1/world.ot"), bytes("apart/robot_1/world.ot"));
 }
 
 TEST_F(Simulate, AllSensorsGiveTheSameBytesForAnyNumberOfThreadsAndLeaveTheLidarAlone) {

@@ -33,6 +33,7 @@ constexpr std::array kForRecordings{
     Foreign{"--motion", "the robot moves as its motors are told"},
     Foreign{"--sensors", "a live robot has lidar, drive and gpio"},
     Foreign{"--camera-rate", "a live robot has no camera"},
+    Foreign{"--separate-eyes", "a live robot has no camera"},
     Foreign{"--camera-noise", "a live robot has no camera"},
     Foreign{"--exposure", "a live robot has no camera"},
     Foreign{"--exposure-error", "a live robot has no camera"},

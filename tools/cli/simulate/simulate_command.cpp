@@ -147,6 +147,8 @@ void add_camera_options(CLI::App& sub, simulator::StereoConfig& camera, simulato
                  "pictures of the camera a second, 1/s; the trigger's pulses with them")
       ->check(CLI::Range(0.01, 120.0))
       ->capture_default_str();
+  sub.add_flag("--separate-eyes", camera.separate_eyes,
+               "records the eyes as camera and camera_right, instead of side by side in one picture");
   sub.add_option("--camera-noise", camera.noise_factor, "factor on the noise of the camera's pictures")
       ->check(CLI::Range(0.0, 20.0))
       ->capture_default_str();

@@ -89,6 +89,20 @@ void Stereo::expose_row(const Instant& instant, const SE3& T_world_eye, int eye,
   for (const Sighting& s : seen) *labels++ = static_cast<std::byte>(s.class_id());
 }
 
+void cut_eye(const Packet& both, const Lens& lens, std::size_t eye, Packet& out) {
+  const auto row_bytes = 2 * static_cast<std::size_t>(lens.width), rows = static_cast<std::size_t>(lens.height);
+  out.arrival = both.arrival;
+  out.sequence = both.sequence;
+  out.bytes.clear();
+  camera::append_header(out.bytes,
+                        {static_cast<std::uint32_t>(camera::FrameFormat::kYuyv), static_cast<std::uint32_t>(lens.width),
+                         static_cast<std::uint32_t>(lens.height), static_cast<std::uint32_t>(row_bytes), true});
+  for (std::size_t row = 0; row < rows; ++row) {
+    const std::byte* from = both.bytes.data() + camera::kFrameHeaderBytes + (2 * row + eye) * row_bytes;
+    out.bytes.insert(out.bytes.end(), from, from + row_bytes);
+  }
+}
+
 void Stereo::shoot(std::uint64_t n, Time t, Workers& workers, Packet& packet, std::vector<std::byte>& labels,
                    SeenPeople* seen) const {
   const auto width = static_cast<std::size_t>(config_.lens.width),

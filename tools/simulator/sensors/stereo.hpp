@@ -24,6 +24,7 @@ struct StereoConfig {
   double noise_factor = 1.0;        ///< both are multiplied by it
   double exposure_stops = 0.0;      ///< +1: twice the light that fits; −1: half
   double exposure_error_stops = 0;  ///< 1 σ, about, of an automatic exposure that wanders within seconds
+  bool separate_eyes = false;       ///< recorded as camera and camera_right instead of side by side
   double line_time_s = 0.0;         ///< from one row's exposure to the next one's; 0: all at once
   Vector6 base_camera_xyz_rpy = (Vector6() << 0.34, 0.06, 0.42, 0.0, 0.0, 0.0).finished();  ///< T_base_lefteye
 };
@@ -66,6 +67,9 @@ class Stereo {
   const Trajectory& trajectory_;
   std::uint64_t seed_;
 };
+
+/// One eye's half of a frame that Stereo took, as a frame of its own. Eye 0 is the left one.
+void cut_eye(const Packet& both, const Lens& lens, std::size_t eye, Packet& out);
 
 /// Linear light to an 8-bit step of sRGB's curve (IEC 61966-2-1), 0…255, not rounded.
 [[nodiscard]] float srgb(float linear);
