@@ -74,7 +74,8 @@ bool fit_pole(const Eigen::Matrix3f& covariance, float edge, const PatchCriteria
   const Eigen::Vector3f sideways = patch.centroid - up.dot(patch.centroid) * up;
   if (sideways.cwiseAbs().maxCoeff() > kCentral * edge) return false;
   if (shot_at_one_azimuth(covariance, criteria, from, patch)) return false;
-  const float angle = 0.5F * std::atan2(2 * uv, uu - vv);  // of the wider direction
+  // Of the wider direction. In double: the float version differs between machines.
+  const auto angle = static_cast<float>(0.5 * std::atan2(double{2 * uv}, double{uu - vv}));
   const float floor = criteria.noise_floor_m * criteria.noise_floor_m;
   patch.second = {std::cos(angle) * u + std::sin(angle) * v, std::max(mean + split, floor)};
   patch.normal = {std::cos(angle) * v - std::sin(angle) * u, std::max(mean - split, floor)};
