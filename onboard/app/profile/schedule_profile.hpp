@@ -48,12 +48,12 @@ struct ScheduleProfile {
                                       .rate_hz = 100,
                                       .phase_ms = 1,
                                       .deadline_ms = 60,
-                                      .soft_ms = 20,
+                                      .soft_ms = 15,
                                       .hard_ms = 60,
                                       .busy_hz = 30,
                                       .priority = 50};
   scheduler::TaskSpec stereo{
-      .name = "stereo", .rate_hz = 50, .phase_ms = 5, .deadline_ms = 250, .soft_ms = 60, .busy_hz = 5};
+      .name = "stereo", .rate_hz = 50, .phase_ms = 5, .deadline_ms = 250, .soft_ms = 50, .busy_hz = 5};
   scheduler::TaskSpec team{.name = "team", .rate_hz = 25, .phase_ms = 3, .deadline_ms = 200, .soft_ms = 4};
   scheduler::TaskSpec matching{.name = "matching", .rate_hz = 10, .phase_ms = 6, .deadline_ms = 5000};
   scheduler::TaskSpec watch{.name = "watch", .rate_hz = 20, .phase_ms = 4, .deadline_ms = 1000, .soft_ms = 0.5};

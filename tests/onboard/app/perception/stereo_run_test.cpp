@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <memory>
 #include <opencv2/imgcodecs.hpp>
 #include <string>
@@ -41,7 +42,8 @@ void write_picture(const fs::path& file, const stereo::StereoPair& pair) {
   ASSERT_TRUE(write_file_atomic(file, std::as_bytes(std::span(out))));
 }
 
-void record_flight(const fs::path& folder) {
+/// From picture `frozen_from` on, the camera repeats itself.
+void record_flight(const fs::path& folder, int frozen_from = kStereoPictures) {
   const support::World world = support::furnished_room();
   support::StereoView view(world, support::small_eyes(), 3);
   fs::create_directories(folder / "camera" / "data");
@@ -50,7 +52,8 @@ void record_flight(const fs::path& folder) {
   for (int i = 0; i < kStereoPictures; ++i) {
     const Time t = stereo_stamp(i);
     const std::string ns = std::to_string(t.time_since_epoch().count());
-    view.shoot(flight(i / 15.0) * SE3::from_xyz_rpy(kEyesMount) * cameras::T_camera_optical(), t, pair);
+    if (i <= frozen_from)
+      view.shoot(flight(i / 15.0) * SE3::from_xyz_rpy(kEyesMount) * cameras::T_camera_optical(), t, pair);
     write_picture(folder / "camera" / "data" / (ns + ".png"), pair);
     index += ns + "," + ns + ".png\n";
   }
@@ -125,6 +128,22 @@ TEST_F(StereoRun, GivesTheSameBytesForAnyNumberOfThreads) {
   ASSERT_TRUE(a);
   ASSERT_TRUE(b);
   EXPECT_EQ((*a)->report.output_sha256, (*b)->report.output_sha256);
+}
+
+/// Its pictures would show a robot that stands still.
+TEST_F(StereoRun, AFrozenCameraIsALostRobot) {
+  record_flight(*folder_ / "frozen_recording", 6);
+  RunOptions o = options("frozen");
+  o.recording = *folder_ / "frozen_recording";
+  const auto result = run(o);
+  ASSERT_TRUE(result) << to_string(result.error());
+  const report::RunReport& report = (*result)->report;
+  EXPECT_GE(report.visual_odometry->refused, static_cast<std::uint64_t>(kStereoPictures - 6 - 4));
+  EXPECT_EQ(report.visual_odometry->frames + report.visual_odometry->refused,
+            static_cast<std::uint64_t>(kStereoPictures));
+  const auto& events = (*result)->monitor.events();
+  EXPECT_TRUE(std::ranges::any_of(events, [](const Event& e) { return e.what.find("stuck") != std::string::npos; }));
+  EXPECT_EQ(report.mode, "degraded");
 }
 
 TEST_F(StereoRun, SaysWhatIsMissing) {
