@@ -7,6 +7,9 @@
 namespace cairn {
 namespace {
 
+constexpr double kMateUnsure = 0.3;   // m: where a teammate is, is known so well
+constexpr double kMateGround = 0.05;  // m above its base_link: the ground below it belongs to the map
+
 /// Of overload: the first of so many, in order.
 void keep_every(int stride, std::vector<Eigen::Vector3f>& points) {
   if (stride <= 1) return;
@@ -134,6 +137,7 @@ void Robot::begin_map(std::uint32_t epoch) {
   auto before = mapper_.begin_anew();
   map_began_.reset();
   if (people_) people_->clear();
+  mates_.clear();
   const std::uint32_t ended = std::exchange(mapped_epoch_, epoch);
   if (before->size() == 0) return;
   earlier_.push_back({.epoch = ended, .tree = std::move(before)});
@@ -152,6 +156,7 @@ Result<void> Robot::extend_map(const LocatedScan& scan, const MapShare& share) {
   points_odom_.clear();
   for (const Eigen::Vector3f& p : scan.points_base) points_odom_.emplace_back(R * p + t);
   const Eigen::Vector3f origin_odom = (T_odom_base * T_base_sensor_.translation()).cast<float>();
+  leave_mates_out(scan.stamp);
   if (people_) leave_people_out(scan, origin_odom);
   keep_every(share.every_point, points_odom_);
   const auto inserted =
@@ -162,6 +167,25 @@ Result<void> Robot::extend_map(const LocatedScan& scan, const MapShare& share) {
   if (labeller_ || depth_ || people_)
     (void)recent_.add(scan.stamp, T_odom_base, scan.twist, scan.epoch, scan.points_base);
   return {};
+}
+
+void Robot::note_mates(std::span<const Mate> mates, std::uint32_t epoch) {
+  mates_.clear();
+  if (epoch == mapped_epoch_) mates_.assign(mates.begin(), mates.end());
+}
+
+void Robot::leave_mates_out(Time stamp) {
+  for (const Mate& mate : mates_) {
+    const Duration age = std::chrono::abs(stamp - mate.stamp);
+    if (age > kMateLife || mate.radius_m <= 0) continue;
+    const Eigen::Vector2d middle = mate.position.head<2>() + to_seconds(stamp - mate.stamp) * mate.velocity;
+    const double radius = mate.radius_m + kMateUnsure;
+    std::erase_if(points_odom_, [&](const Eigen::Vector3f& p) {
+      const double height = static_cast<double>(p.z()) - mate.position.z();
+      return height > kMateGround && height < mate.height_m + kMateUnsure &&
+             (p.head<2>().cast<double>() - middle).squaredNorm() < radius * radius;
+    });
+  }
 }
 
 /// What is left in points_odom_ is what stands.
@@ -175,6 +199,14 @@ void Robot::leave_people_out(const LocatedScan& scan, const Eigen::Vector3f& ori
   for (std::size_t i = 0; i < points_odom_.size(); ++i)
     if (mask[i] == 0) points_odom_[kept++] = points_odom_[i];
   points_odom_.resize(kept);
+}
+
+/// Of a cloud without clusters: those whom scans have shown.
+void Robot::leave_known_people_out(Time stamp) {
+  for (const people::Person& person : people_->people()) {
+    const Eigen::Vector2d position = person.position + to_seconds(stamp - person.stamp) * person.velocity;
+    std::erase_if(points_odom_, [&](const Eigen::Vector3f& p) { return people_->in_body(p, position, person.ground); });
+  }
 }
 
 /// Somebody is known to be a person only after some steps; until then, the scans put a ghost into the map.
@@ -239,6 +271,8 @@ Result<bool> Robot::extend_map(const DepthCloud& cloud) {
   const Eigen::Vector3f t = (*T_odom_base)->translation().cast<float>();
   points_odom_.clear();
   for (const Eigen::Vector3f& p : cloud.points_base) points_odom_.emplace_back(R * p + t);
+  leave_mates_out(cloud.stamp);
+  if (people_) leave_known_people_out(cloud.stamp);
   const auto inserted = mapper_.insert(points_odom_, R * cloud.origin_base + t, *depth_);
   if (!inserted) return inserted.error();
   return true;

@@ -94,6 +94,14 @@ struct DepthCloud {
   std::vector<Eigen::Vector3f> points_base;               ///< in base_link at `stamp`, metres
 };
 
+/// A robot of the team that the LiDAR may see: an upright cylinder around its base_link.
+struct Mate {
+  Time stamp{};                                        ///< when it was there
+  Eigen::Vector3d position = Eigen::Vector3d::Zero();  ///< of its base_link, odom, m
+  Eigen::Vector2d velocity = Eigen::Vector2d::Zero();  ///< odom, m/s
+  double radius_m = 0, height_m = 0;                   ///< the top is above base_link
+};
+
 /// How much of a scan goes into the map; less under overload.
 struct MapShare {
   int every_point = 1;  ///< 1: all points, 2: every second one, …
@@ -160,6 +168,10 @@ class Robot {
   [[nodiscard]] std::span<const people::Person> people() const;
   /// How far the camera's boxes are beside the people, see people::EyeOffset; rad. None: too few were seen.
   [[nodiscard]] std::optional<double> eye_offset(people::Eye eye) const;
+  /// Where teammates are. Points on them stay out of the map, for kMateLife after `stamp`, and are no people. `epoch`:
+  /// of the odom that they are in; of another than the map's, nothing is noted. Of extend_map()'s thread.
+  void note_mates(std::span<const Mate> mates, std::uint32_t epoch);
+  static constexpr Duration kMateLife = std::chrono::milliseconds(700);
   [[nodiscard]] bool follows_people() const { return people_.has_value(); }
 
   /// The next scan decides whether the robot is where the previous run ended. Grant it every
@@ -208,8 +220,11 @@ class Robot {
   std::vector<Eigen::Vector3f> points_odom_;  // reused
   /// Where the robot was; nothing while the scan after `t` is still to come.
   [[nodiscard]] Result<std::optional<SE3>> T_odom_base_at(Time t) const;
+  void leave_mates_out(Time stamp);
+  void leave_known_people_out(Time stamp);
   void leave_people_out(const LocatedScan& scan, const Eigen::Vector3f& origin_odom);
   void take_back_new_people();
+  std::vector<Mate> mates_;  // of the map's epoch
   std::optional<people::People> people_;
   std::optional<labelling::PointLabeller> labeller_;
   std::optional<mapping::SensorTrust> depth_;

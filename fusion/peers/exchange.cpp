@@ -18,6 +18,12 @@ void Exchange::begin(Epoch epoch) {
   layers_.begin(epoch);
   links_.forget_in_flight(self_.id);
   self_.place.reset();
+  self_.bodies.reset();
+}
+
+void Exchange::set_bodies(Bodies bodies, Time seen) {
+  bodies.stamp = seen;
+  self_.bodies = std::move(bodies);
 }
 
 void Exchange::send(Time now, std::vector<Outgoing>& out) {
@@ -57,6 +63,7 @@ Result<void> Exchange::take(RobotId sender, Link& link, const Datagram& datagram
     layers_.hear_of(sender, datagram.hello->epoch);
   }
   if (!alike(link)) return {};
+  if (datagram.bodies) link.take(*datagram.bodies, now);
   if (!datagram.digest.layers.empty()) take(link, datagram.digest, now);
   return datagram.items ? take(link, *datagram.items) : Result<void>{};
 }

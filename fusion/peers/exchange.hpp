@@ -48,6 +48,10 @@ class Exchange {
   /// Where this robot is, to be told to others.
   void set_place(const Hello::Place& place) { self_.place = place; }
 
+  /// Where this robot is and people are around it, at `seen` of this robot's clock; told to those who hear it. The
+  /// epoch and times of `bodies` are filled in here.
+  void set_bodies(Bodies bodies, Time seen);
+
   [[nodiscard]] RobotId self() const { return self_.id; }
   /// The last one begun, or a later one. A later one begins by itself if a peer holds something of this
   /// robot that it has not published in its epoch. All that it has published is published again then.

@@ -2,6 +2,7 @@
 #include "fusion/peers/link.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace cairn::peers {
 namespace {
@@ -25,6 +26,11 @@ bool Link::take(const Hello& hello, RobotId self, Time now) {
   echo_heard = now;
   if (hello.echo && hello.echo->robot == self) clock.add(hello.echo->stamp, hello.echo->age, hello.stamp, now);
   return true;
+}
+
+void Link::take(const Bodies& heard, Time now) {
+  if (bodies && std::pair(heard.epoch, heard.stamp) <= std::pair(bodies->bodies.epoch, bodies->bodies.stamp)) return;
+  bodies = Heard{heard, now - heard.age};
 }
 
 void Link::take(const Digest& digest) {

@@ -46,9 +46,19 @@ struct Link {
   std::uint64_t unsupported = 0;      ///< of these, those of another format
   std::uint32_t voxel_um = 0;         ///< by its last hello; 0 before
   std::optional<Hello::Place> place;  ///< by its last hello, in its odom frame
+  /// Where it is, and the people around it.
+  struct Heard {
+    Bodies bodies;  ///< in its odom frame
+    Time seen{};    ///< when they were there
+  };
+  std::optional<Heard> bodies;          ///< the newest
+  Time bodies_sent = Time::min();       ///< stamp of those that were sent to it last
+  std::uint64_t sent_bodies_bytes = 0;  ///< of all that were sent to it
 
   /// Takes in the peer's hello. `self`: this robot. False if it is late: a newer hello has come before.
   bool take(const Hello& hello, RobotId self, Time now);
+  /// Takes in where it and people are, if that is newer than what is known.
+  void take(const Bodies& heard, Time now);
   /// Takes in what the peer knows.
   void take(const Digest& digest);
   /// Items in flight that the digest tells of have arrived. Those that were sent longer than `round_trip`

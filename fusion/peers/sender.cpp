@@ -17,8 +17,25 @@ constexpr double kDigestShare = 0.25;  // of the bytes, that digests take at mos
 void Sender::send(const Round& round) {
   budget_.refill(round.now);
   if (round.now >= next_announcement_) announce(round);
+  send_bodies(round);
   send_items(round);
   send_statuses(round);
+}
+
+/// They are worth nothing later: where the bytes do not last, the next ones will tell.
+void Sender::send_bodies(const Round& round) {
+  for (auto& [peer, link] : round.links.all()) {
+    if (!round.links.hears(peer, round.now)) continue;
+    const auto datagram = round.status.bodies(link.bodies_sent);
+    if (!datagram) continue;
+    auto bytes = encode(*datagram).bytes;
+    if (cost_of(bytes) > budget_.left()) continue;
+    budget_.spend(cost_of(bytes));
+    link.bodies_sent = datagram->bodies->stamp;
+    link.sent_bytes += bytes.size();
+    link.sent_bodies_bytes += bytes.size() + config_.overhead_bytes;
+    round.out.push_back({.to = peer, .bytes = std::move(bytes)});
+  }
 }
 
 void Sender::announce(const Round& round) {

@@ -35,12 +35,14 @@ class Sender {
     const InterestOf& interest_of;
     std::vector<Outgoing>& out;  ///< datagrams are appended
   };
-  /// Sends an announcement if one is due, then items that peers lack while the bytes last, then the
-  /// statuses that are due and went along with no items. Announcements and statuses are sent in any case.
+  /// Sends an announcement if one is due, then where robot and people are, then items that peers lack while the bytes
+  /// last, then the statuses that are due and went along with no items. Announcements and statuses are sent in any
+  /// case.
   void send(const Round& round);
 
  private:
   void announce(const Round& round);
+  void send_bodies(const Round& round);
   void send_items(const Round& round);
   void send_statuses(const Round& round);
   void send_layer(const Round& round, const Delivery& delivery, Link& link);

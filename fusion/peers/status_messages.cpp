@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fusion/peers/status_messages.hpp"
 
+#include <algorithm>
+
 #include "fusion/peers/datagrams/datagram_part.hpp"
 
 namespace cairn::peers {
@@ -25,6 +27,14 @@ Datagram StatusMessages::companion(RobotId peer, const Link& link) const {
   Datagram digest = alone;
   digest.digest = datagram.digest;
   return encode(digest).bytes.size() <= kHeaderBytes + kMaxRangeBytes ? datagram : alone;
+}
+
+std::optional<Datagram> StatusMessages::bodies(Time told) const {
+  if (!self_.bodies || self_.bodies->stamp <= told || now_ - self_.bodies->stamp > Bodies::kLife) return std::nullopt;
+  Datagram datagram{.sender = self_.id, .hello = {}, .digest = {}, .items = {}, .bodies = self_.bodies};
+  datagram.bodies->epoch = layers_.own().epoch;
+  datagram.bodies->age = std::max(Duration{}, now_ - self_.bodies->stamp);
+  return datagram;
 }
 
 /// The peer can tell the difference of the clocks from it, if it was heard.

@@ -18,6 +18,7 @@ struct Identity {
   RobotId id = 0;
   std::string name;                     ///< for people
   std::optional<Hello::Place> place{};  ///< where it is, in its odom frame
+  std::optional<Bodies> bodies{};       ///< the same, and people around it; `age` is not kept here
 };
 
 /// The messages by which a robot tells that it is there (hello), and what it knows of each robot (digest).
@@ -35,6 +36,8 @@ class StatusMessages {
   /// What goes along with items: a status that is due soon, or else a digest of the robots with news. It
   /// has only the sender if that would take much of the items' room.
   [[nodiscard]] Datagram companion(RobotId peer, const Link& link) const;
+  /// Where the robot is and people are; none: nothing newer than `told`, or what is known is too old.
+  [[nodiscard]] std::optional<Datagram> bodies(Time told) const;
   [[nodiscard]] RobotId sender() const { return self_.id; }
 
  private:

@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "fusion/merging/team_map.hpp"
@@ -17,6 +18,7 @@
 #include "fusion/team/comparisons/team_view.hpp"
 #include "fusion/team/graph/published_claims.hpp"
 #include "fusion/team/graph/team_graph.hpp"
+#include "fusion/team/peer_bodies.hpp"
 #include "fusion/team/peer_standing.hpp"
 #include "fusion/team/surveyed_poses.hpp"
 #include "fusion/team/tiles/team_tiles.hpp"
@@ -63,6 +65,12 @@ class Team {
   /// Where the robot is. Peers are told, and the team's map is brought up to date there first. The path
   /// from one place to the next is what odometry may drift along.
   void be_at(const UncertainPose& T_odom_base);
+  /// Where the robot is and people are around it, in its odom frame at `seen`. Peers are told at once.
+  void show(peers::Bodies bodies, Time seen) { exchange_.set_bodies(std::move(bodies), seen); }
+  /// See bodies_of_peers().
+  [[nodiscard]] std::vector<PeerBodies> peer_bodies(Time now) const {
+    return bodies_of_peers(exchange_, poses_.T_team_odom, now);
+  }
   /// A tile of the robot's own map has changed. It is published as a part of the present submap.
   void observe(mapping::TileKey tile, const mapping::TileState& state, Time now) {
     own_tiles_.observe(tile, state, now, own_submaps_.current());

@@ -44,6 +44,7 @@ void encode(const PeopleMessage& message, std::vector<std::byte>& out) {
   append_time(out, message.stamp);
   append_le(out, message.epoch);
   append_le(out, static_cast<std::uint32_t>(count));
+  append_le(out, message.robot);
   for (std::size_t i = 0; i < count; ++i) append(message.people[i], out);
 }
 
@@ -53,6 +54,7 @@ Result<PeopleMessage> decode_people(std::span<const std::byte> body) {
   message.stamp = in.time();
   message.epoch = in.number<std::uint32_t>();
   const auto count = in.up_to(static_cast<std::uint32_t>(PeopleMessage::kMost));
+  message.robot = in.number<std::uint64_t>();
   for (std::uint32_t i = 0; i < count && in.good(); ++i) message.people.push_back(read_person(in));
   if (!in.complete()) return in.error("not a list of people");
   return message;

@@ -10,7 +10,9 @@
 
 namespace cairn::clients {
 
-/// The people around the robot, as one scan shows them. A message without anybody says that nobody is known.
+/// The people around a robot, as one scan shows them. A message without anybody says that nobody is known. Peers tell
+/// of theirs some two times a second; their places are in the odom frame of the robot that is asked, predicted to
+/// `stamp`.
 struct PeopleMessage {
   static constexpr RecordKind kKind = RecordKind::kPeople;
   static constexpr std::size_t kMost = 256;  ///< people
@@ -26,12 +28,13 @@ struct PeopleMessage {
   };
   Time stamp{};             ///< robot time: of the scan's end
   std::uint32_t epoch = 0;  ///< see PoseMessage
+  std::uint64_t robot = 0;  ///< the peer who follows them; 0: the robot that is asked
   std::vector<Person> people;
 };
 
-/// Appends the body. It is: stamp (8), epoch (4), count (4), then for each person id (4), sightings (4), flags (4; bit
-/// 0 seen), zero (4), x y z (8 each), vx vy (8 each), variances of x, of x and y, of y (8 each). People beyond kMost
-/// are left out.
+/// Appends the body. It is: stamp (8), epoch (4), count (4), robot (8), then for each person id (4), sightings (4),
+/// flags (4; bit 0 seen), zero (4), x y z (8 each), vx vy (8 each), variances of x, of x and y, of y (8 each). People
+/// beyond kMost are left out.
 void encode(const PeopleMessage& message, std::vector<std::byte>& out);
 /// Error kMalformed.
 [[nodiscard]] Result<PeopleMessage> decode_people(std::span<const std::byte> body);

@@ -16,8 +16,9 @@ enum class Stream : std::uint32_t {
   kScan = 16,
   kEvents = 32,
   kPeople = 64,
+  kTeamPeople = 128,  ///< those whom peers follow
 };
-inline constexpr std::uint32_t kAllStreams = 127;
+inline constexpr std::uint32_t kAllStreams = 255;
 
 /// What a client of robot.sock wants from now on. A second one replaces the first.
 struct SubscribeMessage {

@@ -195,6 +195,12 @@ Result<Datagram> read_parts(ByteReader& in, std::uint8_t parts, RobotId sender) 
     if (!items) return items.error();
     datagram.items = std::move(*items);
   }
+  if (parts & kBodiesPart) {
+    if (datagram.items) return Error{Errc::kMalformed, "people together with items", {}, 1};
+    auto bodies = read_bodies(in);
+    if (!bodies) return bodies.error();
+    datagram.bodies = std::move(*bodies);
+  }
   if (in.remaining() != 0) return Error{Errc::kMalformed, "bytes after the end of the datagram", {}, in.offset()};
   return datagram;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "fusion/peers/items/bodies.hpp"
 #include "fusion/peers/items/holding.hpp"
 #include "fusion/peers/items/item.hpp"
 #include "fusion/peers/items/version_set.hpp"
@@ -22,7 +23,7 @@
 namespace cairn::peers {
 
 inline constexpr std::size_t kMaxDatagram = 1200;
-inline constexpr std::uint8_t kFormat = 3;
+inline constexpr std::uint8_t kFormat = 4;
 
 /// "I am here." It is also sent to robots that were never heard of.
 struct Hello {
@@ -77,6 +78,7 @@ struct Datagram {
   std::optional<Hello> hello;
   Digest digest;  ///< there is none if it has no layers
   std::optional<Items> items;
+  std::optional<Bodies> bodies{};  ///< never together with items: they are left out then
 };
 
 /// The bytes of a datagram, and how much of the input it holds.

@@ -146,15 +146,18 @@ EncodedDatagram encode(const Datagram& datagram) {
   EncodedDatagram encoded;
   std::vector<std::byte>& out = encoded.bytes;
   out.reserve(kMaxDatagram);
+  std::vector<std::byte> bodies;
+  if (datagram.bodies && !datagram.items) append_bodies(bodies, *datagram.bodies);
   append_le(out, kFormat);
   append_le(out, static_cast<std::uint8_t>((datagram.hello ? kHelloPart : 0) |
                                            (datagram.digest.layers.empty() ? 0 : kDigestPart) |
-                                           (datagram.items ? kItemsPart : 0)));
+                                           (datagram.items ? kItemsPart : 0) | (bodies.empty() ? 0 : kBodiesPart)));
   append_le(out, datagram.sender);
   if (datagram.hello) append_hello(out, *datagram.hello);
   if (!datagram.digest.layers.empty())
-    append_digest(out, datagram.digest, datagram.items ? out.size() + kMaxRangeBytes : kMaxDatagram);
+    append_digest(out, datagram.digest, datagram.items ? out.size() + kMaxRangeBytes : kMaxDatagram - bodies.size());
   if (datagram.items) encoded.updates = append_items(out, *datagram.items);
+  out.insert(out.end(), bodies.begin(), bodies.end());
   return encoded;
 }
 

@@ -42,6 +42,10 @@ void declare(config::Section& s, TeamProfile& p) {
             "sent to all peers together, with all overhead; cairn-peers has a cap of its own below");
   s.number("match_s", p.match_s, {0.1, 60}, "s",
            "time limit of one comparison of two maps; no other task waits for it");
+  s.number(
+      "body_radius_m", p.body_radius_m, {0, 10}, "m",
+      "of the upright cylinder around the robot: teammates keep its points out of their maps; 0: they are not told");
+  s.number("body_height_m", p.body_height_m, {0, 10}, "m", "of the cylinder's top, above base_link");
   s.group("deployment", p.deployment,
           "where the robot is put down, in a metric frame that its team shares: a guess that the maps must confirm; if "
           "it is good to a voxel and half a degree, maps are merged before they overlap");

@@ -33,6 +33,8 @@ struct TeamProfile {
   double submap_m = 300;                         ///< of the path through one submap
   double drift_percent = 1;                      ///< of the path, that odometry may be off at its end, per axis,
   double drift_deg_per_m = 0.02;                 ///< and turned
+  double body_radius_m = 0.6;                    ///< of the upright cylinder around the robot
+  double body_height_m = 0.9;                    ///< of its top, above base_link
   DeploymentProfile deployment;
 };
 

@@ -106,7 +106,9 @@ Result<void> LiveRun::open_streams() {
   tasks_.drive.publish_to(outlets_->drive);
   tasks_.mapping.serve(outlets_->own);
   tasks_.mapping.tell_people(outlets_->people);
-  if (tasks_.team) tasks_.team->team().serve(outlets_->team, outlets_->T_team_odom);
+  if (!tasks_.team) return {};
+  tasks_.team->team().serve(outlets_->team, outlets_->T_team_odom);
+  tasks_.team->team().tell_people(outlets_->team_people);
   return {};
 }
 

@@ -4,7 +4,7 @@
 namespace cairn::app {
 
 clients::PeopleMessage message_of(const PeopleNews& news) {
-  clients::PeopleMessage message{.stamp = news.stamp, .epoch = news.epoch, .people = {}};
+  clients::PeopleMessage message{.stamp = news.stamp, .epoch = news.epoch, .robot = news.robot, .people = {}};
   for (const people::Person& person : news.people) {
     auto& told = message.people.emplace_back();
     told.id = person.id;

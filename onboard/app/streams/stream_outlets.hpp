@@ -23,8 +23,9 @@ struct PoseNews {
   odometry::MotionNoise noise;    ///< that odometry expects of the next step
 };
 
-/// The people around the robot, after a scan.
+/// The people around a robot, after a scan.
 struct PeopleNews {
+  std::uint64_t robot = 0;  ///< the peer who follows them; 0: this robot
   Time stamp{};
   std::uint32_t epoch = 0;
   std::vector<people::Person> people;
@@ -44,6 +45,7 @@ struct StreamOutlets {
   SpscQueue<PoseNews> poses{64};                  ///< from odometry, one for each scan
   std::atomic<bool> scans_wanted{false};          ///< a client wants scans
   SpscQueue<PeopleNews> people{16};               ///< from mapping, one for each scan while people are followed
+  SpscQueue<PeopleNews> team_people{32};          ///< from the team's task, whenever a peer said something
   SpscQueue<LocatedScan> scans{4};                ///< from odometry, while they are wanted
   TileOutlet own;                                 ///< from mapping
   TileOutlet team;                                ///< from the team's task

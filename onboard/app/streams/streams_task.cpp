@@ -66,6 +66,8 @@ void StreamsTask::send_poses() {
 void StreamsTask::send_people() {
   for (; const PeopleNews* news = outlets_.people.front(); outlets_.people.pop())
     hub_.send_all(Stream::kPeople, message_of(*news));
+  for (; const PeopleNews* news = outlets_.team_people.front(); outlets_.team_people.pop())
+    hub_.send_all(Stream::kTeamPeople, message_of(*news));
 }
 
 void StreamsTask::send_predictions(Time now) {

@@ -31,6 +31,7 @@ MappingTask::MappingTask(const safety::OverloadConfig& overload, Duration deadli
       box_joiner_(robot, monitor) {}
 
 void MappingTask::tick(Tick& tick) {
+  while (const Mates* news = mates.take(tick)) robot_.note_mates(news->mates, news->epoch);
   if (copier_ && motions.size() == 0) copier_->idle(tick.release(), robot_.map());
   while (const ArrivedMotion* motion = motions.take(tick)) {
     extend(*motion, tick);
@@ -124,7 +125,7 @@ void MappingTask::hand_to_clients(std::size_t most) {
 
 /// Scans change the same tiles again and again. Reading them with each scan would be a quarter of the work in a forest.
 void MappingTask::note_changes(const LocatedScan& scan, Tick& tick) {
-  changes_ = {scan.epoch, scan.T_odom_base};
+  changes_ = {scan.epoch, scan.T_odom_base, scan.twist, scan.stamp};
   mapped_ = scan.stamp;
   owed_changes_ = false;
   if (scan.stamp < next_batch_ && scan.stamp >= next_batch_ - kBatchPeriod) return;
@@ -139,6 +140,9 @@ void MappingTask::hand_on_tiles(Tick& tick) {
   if (out == nullptr) return;
   out->epoch = changes_->epoch;
   out->T_odom_base = changes_->T_odom_base;
+  out->twist = changes_->twist;
+  out->stamp = changes_->stamp;
+  out->people.assign(robot_.people().begin(), robot_.people().end());
   out->tiles.clear();
   const auto add = [&](mapping::TileKey tile) {
     out->tiles.emplace_back(tile, mapping::read_tile(robot_.map(), tile));

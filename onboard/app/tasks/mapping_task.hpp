@@ -33,6 +33,7 @@ class MappingTask final : public scheduler::Task {
   scheduler::InputPort<ArrivedCloud> clouds{*this, "clouds"};
   scheduler::InputPort<ArrivedBoxes> boxes{*this, "boxes"};                  ///< of the colour camera
   scheduler::InputPort<ArrivedBoxes> thermal_boxes{*this, "thermal_boxes"};  ///< of the thermal camera
+  scheduler::InputPort<Mates> mates{*this, "mates"};                         ///< where teammates are
 
   /// All must outlive the task. `deadline`: from the last byte of a scan until the scan is in the map.
   MappingTask(const safety::OverloadConfig& overload, Duration deadline, Robot& robot, Monitor& monitor);
@@ -96,6 +97,8 @@ class MappingTask final : public scheduler::Task {
   struct Changes {
     std::uint32_t epoch;
     UncertainPose T_odom_base;
+    Vector6 twist;
+    Time stamp;
   };
   std::optional<Changes> changes_;  // not handed on yet
   Time next_batch_{};

@@ -68,7 +68,7 @@ RobotTasks::RobotTasks(std::span<const recording::SourceEntry> sources, const Ro
   if (has_kind(sources, recording::kDepth) && profile.depth.map.rate_hz > 0)
     add_depth(profile, options.live(), monitor);
   if (has_kind(sources, recording::kPeers)) {
-    team.emplace(graph, profile, mapping.tiles, monitor);
+    team.emplace(graph, profile, mapping.tiles, mapping.mates, monitor);
     if (previous.resumed) team->team().go_on();
     mapping.share_resumed_tiles();
   }

@@ -43,6 +43,7 @@ report::PeerStats stats_of(const TeamTask& task, peers::RobotId robot) {
   report::PeerStats stats;
   if (const auto link = team.exchange().links().find(robot); link != team.exchange().links().end()) {
     stats.tx_bytes = link->second.sent_bytes;
+    stats.people_tx_bytes = link->second.sent_bodies_bytes;
     stats.rx_bytes = link->second.received_bytes;
   }
   if (const auto lag = task.lags().find(robot); lag != task.lags().end() && lag->second.count() > 0)

@@ -22,6 +22,39 @@ constexpr int kSliceTiles = 100;
 // For clients. A tile takes as long as it takes to fuse it.
 constexpr std::size_t kTeamTilesInATick = 32;
 
+/// What peers are told: where the robot is, and people around it.
+peers::Bodies bodies_of(const TileBatch& batch, const TeamProfile& profile) {
+  const SE3& T = batch.T_odom_base.mean;
+  peers::Bodies bodies;
+  bodies.robot = {.position_m = T.translation(),
+                  .velocity_m_s = (T.rotation() * batch.twist.head<3>()).head<2>(),
+                  .radius_m = profile.body_radius_m,
+                  .height_m = profile.body_height_m};
+  for (const people::Person& p : batch.people) {
+    peers::Bodies::Person& told = bodies.people.emplace_back();
+    told.id = p.id;
+    told.position_m << p.position, static_cast<double>(p.ground);
+    told.velocity_m_s = p.velocity;
+    told.covariance = p.covariance;
+  }
+  return bodies;
+}
+
+PeopleNews news_of(const team::PeerBodies& peer, std::uint32_t epoch, Time now) {
+  PeopleNews news{.robot = peer.robot, .stamp = now, .epoch = epoch, .people = {}};
+  for (const peers::Bodies::Person& p : peer.people) {
+    people::Person& told = news.people.emplace_back();
+    told.id = p.id;
+    told.stamp = now;
+    told.position = p.position_m.head<2>();
+    told.ground = static_cast<float>(p.position_m.z());
+    told.velocity = p.velocity_m_s;
+    told.covariance = p.covariance;
+    told.seen = true;
+  }
+  return news;
+}
+
 }  // namespace
 
 TeamTask::TeamTask(const TeamProfile& profile, std::string name, double resolution_m, Monitor& monitor)
@@ -95,6 +128,7 @@ void TeamTask::observe(Tick& tick) {
     if (!team_) continue;
     if (std::exchange(epoch_, batch->epoch) != batch->epoch) team_->begin(after(team_->exchange().epoch()));
     team_->be_at(batch->T_odom_base);
+    team_->show(bodies_of(*batch, profile_), batch->stamp);
     for (const auto& [tile, state] : batch->tiles) team_->observe(tile, state, tick.release());
   }
 }
@@ -112,8 +146,37 @@ void TeamTask::speak(Tick& tick) {
   if (port_ != nullptr)
     for (const peers::Outgoing& datagram : out_) port_->send(datagram.to, datagram.bytes);
   hand_out_a_job(tick);
+  pass_on_bodies(tick);
   note_lags(now);
   if (last_published_ == Time::min() || now >= last_published_ + kPublishPeriod) publish_peers(now);
+}
+
+/// Where teammates and their people are. Mapping is told with every step, because it predicts no farther than that.
+void TeamTask::pass_on_bodies(Tick& tick) {
+  const Time now = tick.release();
+  const auto peers = team_->peer_bodies(now);
+  if (people_outlet_ != nullptr)
+    for (const team::PeerBodies& peer : peers) tell_clients(peer, now);
+  Mates* out = peers.empty() ? nullptr : mates.back(tick);
+  if (out == nullptr) return;
+  out->epoch = epoch_;
+  out->mates.clear();
+  for (const team::PeerBodies& peer : peers)
+    out->mates.push_back({.stamp = now,
+                          .position = peer.body.position_m,
+                          .velocity = peer.body.velocity_m_s,
+                          .radius_m = peer.body.radius_m,
+                          .height_m = peer.body.height_m});
+  mates.push(tick);
+}
+
+void TeamTask::tell_clients(const team::PeerBodies& peer, Time now) {
+  const Time seen = now - peer.age;
+  if (std::exchange(people_told_[peer.robot], seen) == seen) return;
+  PeopleNews* out = people_outlet_->back();
+  if (out == nullptr) return;
+  *out = news_of(peer, epoch_, now);
+  people_outlet_->push();
 }
 
 void TeamTask::hand_out_a_job(Tick& tick) {

@@ -12,6 +12,7 @@
 #include "hal/monitor.hpp"
 #include "onboard/app/live/live_view.hpp"
 #include "onboard/app/profile/team_profile.hpp"
+#include "onboard/app/streams/stream_outlets.hpp"
 #include "onboard/app/streams/tile_outlet.hpp"
 #include "onboard/app/team/team_messages.hpp"
 #include "onboard/scheduler/feed.hpp"
@@ -29,6 +30,7 @@ class TeamTask final : public scheduler::Task {
   const std::size_t fuse_slot = take_slots();       ///< tiles fused
   scheduler::OutputPort<team::MatchJob> jobs{*this, "jobs"};
   scheduler::InputPort<team::MatchJob> results{*this, "results"};
+  scheduler::OutputPort<Mates> mates{*this, "mates"};
 
   /// `monitor` must outlive the task. `name` and `resolution_m` are those of the robot.
   TeamTask(const TeamProfile& profile, std::string name, double resolution_m, Monitor& monitor);
@@ -42,6 +44,9 @@ class TeamTask final : public scheduler::Task {
     outlet_ = &outlet;
     pose_outlet_ = &T_team_odom;
   }
+  /// Live: what peers say of people goes to `outlet`, in this robot's odom. What finds no room is left out. To be
+  /// called before the run; `outlet` must outlive the task.
+  void tell_people(SpscQueue<PeopleNews>& outlet) { people_outlet_ = &outlet; }
   /// After the run: `outlet` gets what is left, as far as it has room. True: it has it all.
   bool serve_rest();
 
@@ -71,6 +76,8 @@ class TeamTask final : public scheduler::Task {
   void note_lags(Time now);
   void publish_peers(Time now);
   void hand_to_clients(std::size_t most);
+  void pass_on_bodies(scheduler::Tick& tick);
+  void tell_clients(const team::PeerBodies& peer, Time now);
 
   TeamProfile profile_;
   std::string name_;
@@ -94,6 +101,8 @@ class TeamTask final : public scheduler::Task {
   LatestValue<std::vector<LiveView::Peer>> view_;
   TileOutlet* outlet_ = nullptr;
   LatestValue<std::optional<SE3>>* pose_outlet_ = nullptr;
+  SpscQueue<PeopleNews>* people_outlet_ = nullptr;
+  std::map<peers::RobotId, Time> people_told_;  // when what clients were told was so
 };
 
 /// Compares maps, one pair at a time, at the lowest priority.

@@ -10,11 +10,13 @@ namespace {
 constexpr std::size_t kWaitingBatches = 4;
 // One is out at a time; its place may be given back a little after its result is there.
 constexpr std::size_t kWaitingJobs = 2;
+// Ten come in a second, and mapping takes them with each scan.
+constexpr std::size_t kWaitingMates = 16;
 
 }  // namespace
 
 TeamTasks::TeamTasks(scheduler::TaskGraph& graph, const RobotProfile& profile, scheduler::OutputPort<TileBatch>& tiles,
-                     Monitor& monitor)
+                     scheduler::InputPort<Mates>& mates, Monitor& monitor)
     : team_(profile.team, profile.name, profile.mapping.resolution_m, monitor),
       matching_(from_seconds(profile.team.match_s), monitor) {
   graph.add(profile.schedule.team, team_, scheduler::TaskRole::kInput);
@@ -23,6 +25,7 @@ TeamTasks::TeamTasks(scheduler::TaskGraph& graph, const RobotProfile& profile, s
   graph.connect(team_.jobs, matching_.jobs, {.capacity = kWaitingJobs, .reserve = kWaitingJobs});
   graph.connect(matching_.results, team_.results,
                 {.capacity = kWaitingJobs, .reserve = kWaitingJobs, .lag = from_seconds(profile.team.match_s)});
+  graph.connect(team_.mates, mates, {.capacity = kWaitingMates, .lag = profile.schedule.team.deadline()});
 }
 
 }  // namespace cairn::app

@@ -11,10 +11,10 @@ struct RobotProfile;
 /// The two tasks of a robot's part in its team.
 class TeamTasks {
  public:
-  /// Adds the tasks to the graph, after the task that hands over tiles, and connects all three. All must outlive the
-  /// tasks.
+  /// Adds the tasks to the graph, after the task that hands over tiles and takes teammates, and connects all three. All
+  /// must outlive the tasks.
   TeamTasks(scheduler::TaskGraph& graph, const RobotProfile& profile, scheduler::OutputPort<TileBatch>& tiles,
-            Monitor& monitor);
+            scheduler::InputPort<Mates>& mates, Monitor& monitor);
 
   [[nodiscard]] TeamTask& team() { return team_; }
   [[nodiscard]] const TeamTask& team() const { return team_; }

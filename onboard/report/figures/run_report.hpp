@@ -107,6 +107,7 @@ struct PeerStats {
   std::string state;                     ///< why it is accepted or not, as a word that scripts may rely on: "no_link"
   std::string reason;                    ///< the same for people, with figures
   bool deployment_contradicted = false;  ///< the deployments of the two do not fit to their maps
+  std::uint64_t people_tx_bytes = 0;     ///< of tx_bytes, those of places of robot and people; with all overhead
 };
 
 /// The team's map, as this robot has it.

@@ -116,6 +116,7 @@ Json peers_json(const RunReport& report) {
   Json peers = Json::object();
   for (const auto& [name, p] : report.peers)
     peers[name] = {{"tx_bytes", p.tx_bytes},
+                   {"people_tx_bytes", p.people_tx_bytes},
                    {"rx_bytes", p.rx_bytes},
                    {"tiles", p.tiles},
                    {"age_p99_s", or_null(p.age_p99_s)},

@@ -64,6 +64,72 @@ TEST(Exchange, ANewEpochVoidsWhatWasSaid) {
   EXPECT_EQ(b.layers().at(1).epoch, 8U);
 }
 
+Bodies one_person(double x) {
+  Bodies bodies;
+  bodies.people.push_back({.id = 1, .position_m = {x, 0, 0}});
+  return bodies;
+}
+
+TEST(Exchange, TellsWherePeopleAreOnceAndOnlyTheNewest) {
+  Exchange a(1, "one", 5), b(2, "two", 6);
+  Time now{};
+  talk(a, b, now, seconds(2));
+  const std::uint64_t before = a.links().at(2).sent_bodies_bytes;
+  a.set_bodies(one_person(3), now);
+  talk(a, b, now, milliseconds(500));
+  ASSERT_TRUE(b.links().at(1).bodies);
+  EXPECT_EQ(b.links().at(1).bodies->bodies.epoch, 5U);
+  EXPECT_EQ(b.links().at(1).bodies->bodies.people[0].position_m.x(), 3);
+  const std::uint64_t once = a.links().at(2).sent_bodies_bytes - before;
+  talk(a, b, now, seconds(2));
+  EXPECT_EQ(a.links().at(2).sent_bodies_bytes - before, once) << "nothing is sent twice";
+  EXPECT_LT(once, 200U);
+}
+
+TEST(Exchange, WhatIsOldOrLateIsNotTold) {
+  Exchange a(1, "one", 5), b(2, "two", 6);
+  Time now{seconds(100)};
+  talk(a, b, now, seconds(2));
+  a.set_bodies(one_person(1), now - Bodies::kLife - milliseconds(1));
+  talk(a, b, now, milliseconds(300));
+  EXPECT_FALSE(b.links().at(1).bodies);
+  Link link;
+  Bodies newer = one_person(2), late = one_person(1);
+  newer.stamp = now;
+  newer.age = milliseconds(200);
+  late.stamp = now - milliseconds(1);
+  link.take(newer, now);
+  link.take(late, now);
+  EXPECT_EQ(link.bodies->bodies.people[0].position_m.x(), 2);
+  EXPECT_EQ(link.bodies->seen, now - milliseconds(200));
+}
+
+/// Ten minutes with eight people, to three peers.
+TEST(Exchange, PeopleOfAMissionTakeLessThanAMegabyte) {
+  Exchange a(1, "one", 5);
+  std::vector<Exchange> peers;
+  for (RobotId id = 2; id <= 4; ++id) peers.emplace_back(id, "peer", 6);
+  Bodies bodies;
+  for (std::uint32_t id = 1; id <= 8; ++id) bodies.people.push_back({.id = id, .position_m = {12.34, -5.67, 0.02}});
+  Time now{};
+  for (int step = 0; step < 6000; ++step, now += milliseconds(100)) {
+    if (step % 5 == 0) a.set_bodies(bodies, now);
+    std::vector<Outgoing> out;
+    a.send(now, out);
+    if (step % 10 != 0) continue;
+    for (Exchange& peer : peers) {
+      out.clear();
+      peer.send(now, out);
+      for (const Outgoing& datagram : out) EXPECT_TRUE(a.receive(datagram.bytes, now));
+    }
+  }
+  std::uint64_t bytes = 0;
+  for (const auto& [robot, link] : a.links()) bytes += link.sent_bodies_bytes;
+  std::cout << "human states: " << bytes << " bytes\n";
+  EXPECT_GT(bytes, 3 * 1000 * 150U);
+  EXPECT_LT(bytes, 1'000'000U);
+}
+
 TEST(Exchange, NeverSendsMoreThanItMayInALongTime) {
   ExchangeConfig config;
   config.bytes_per_second = 4000;

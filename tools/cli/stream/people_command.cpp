@@ -24,7 +24,7 @@ constexpr Duration kWaitForPeople = std::chrono::seconds(5);
 
 struct PeopleArguments {
   std::filesystem::path socket;
-  bool json = false;
+  bool json = false, team = false;
   std::optional<double> seconds;
 };
 
@@ -40,13 +40,16 @@ nlohmann::ordered_json json_of(const PeopleMessage::Person& p) {
 std::string json_of(const PeopleMessage& message) {
   nlohmann::ordered_json people = nlohmann::ordered_json::array();
   for (const PeopleMessage::Person& person : message.people) people.push_back(json_of(person));
-  return nlohmann::ordered_json{
-      {"stamp_ns", message.stamp.time_since_epoch().count()}, {"epoch", message.epoch}, {"people", people}}
+  return nlohmann::ordered_json{{"stamp_ns", message.stamp.time_since_epoch().count()},
+                                {"epoch", message.epoch},
+                                {"robot", message.robot},
+                                {"people", people}}
       .dump();
 }
 
 std::string text_of(const PeopleMessage& message) {
-  std::string text = fmt::format("{:.3f} s  {} people", to_seconds(message.stamp), message.people.size());
+  const std::string whose = message.robot == 0 ? "" : fmt::format("robot {}: ", message.robot);
+  std::string text = fmt::format("{:.3f} s  {}{} people", to_seconds(message.stamp), whose, message.people.size());
   for (const PeopleMessage::Person& p : message.people)
     text += fmt::format("  #{} at {:.2f} {:.2f} m, {:.1f} m/s{}", p.id, p.position_odom.x(), p.position_odom.y(),
                         p.velocity_odom.norm(), p.seen ? "" : " (hidden)");
@@ -85,6 +88,7 @@ class PeoplePrinter {
 int show_people(const PeopleArguments& a) {
   client::SubscribeMessage wants;
   wants.add(clients::Stream::kPeople);
+  if (a.team) wants.add(clients::Stream::kTeamPeople);
   PeoplePrinter printer(a);
   const auto read = read_core(
       a.socket, wants, [&](client::StreamMessage& message) { return printer.take(message); },
@@ -105,6 +109,8 @@ void add_people_command(app::Commands& commands) {
   auto a = std::make_shared<PeopleArguments>();
   sub->add_option("--socket", a->socket, "socket of the core: robot.sock in the folder of its --sockets")
       ->default_val(client::kRobotSocket);
+  sub->add_flag("--team", a->team,
+                "also those whom other robots of the team follow, where they are in this robot's odom");
   sub->add_flag("--json", a->json, "one JSON object a line");
   sub->add_option("--seconds", a->seconds, "end after so many seconds; without it: at Ctrl-C")->check(app::above_zero);
   sub->callback([&commands, a] { commands.job = [a] { return show_people(*a); }; });

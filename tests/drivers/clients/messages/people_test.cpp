@@ -9,7 +9,7 @@ namespace cairn::clients {
 namespace {
 
 PeopleMessage two_people() {
-  PeopleMessage message{.stamp = Time{Duration{7}}, .epoch = 3, .people = {}};
+  PeopleMessage message{.stamp = Time{Duration{7}}, .epoch = 3, .robot = 2, .people = {}};
   message.people.resize(2);
   message.people[0] = {.id = 4, .sightings = 9, .seen = true, .position_odom = {1, -2, 0.1}, .velocity_odom = {1.2, 0}};
   message.people[0].covariance << 0.04, 0.01, 0.01, 0.09;
@@ -23,6 +23,7 @@ TEST(PeopleMessage, ComesBackAsItWasSent) {
   ASSERT_TRUE(got) << to_string(got.error());
   EXPECT_EQ(got->stamp, sent.stamp);
   EXPECT_EQ(got->epoch, 3U);
+  EXPECT_EQ(got->robot, 2U);
   ASSERT_EQ(got->people.size(), 2U);
   EXPECT_EQ(got->people[0].id, 4U);
   EXPECT_EQ(got->people[0].sightings, 9U);

@@ -42,7 +42,7 @@ TEST(SubscribeMessage, RefusesRatesThatCannotBe) {
 
 TEST(SubscribeMessage, RefusesStreamsThatDoNotExist) {
   SubscribeMessage message;
-  message.streams = 128;
+  message.streams = 256;
   EXPECT_FALSE(decode_subscribe(test::body_of(message)));
 }
 

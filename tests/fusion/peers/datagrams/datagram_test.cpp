@@ -124,6 +124,23 @@ TEST(Datagram, PartsTravelTogether) {
   EXPECT_FALSE(decode_datagram(encode(Datagram{4, {}, {}, {}}).bytes).has_value()) << "a datagram of nothing";
 }
 
+TEST(Datagram, PeopleTravelWithAStatusAndNeverWithItems) {
+  std::mt19937 random(5);
+  const Said said = random_items(random, 3);
+  Bodies bodies{.epoch = 7, .stamp = {}, .age = {}, .robot = {}, .people = {}};
+  for (std::uint32_t id = 1; id <= Bodies::kMost; ++id) bodies.people.push_back({.id = id});
+  Datagram datagram{
+      4, Hello{7, 123, Time{}, std::string(24, 'x'), Hello::Echo{2, Time{}, Duration{7}}}, {}, {}, bodies};
+  for (RobotId robot = 1; robot <= 40; ++robot) datagram.digest.layers.push_back({robot, 1, false, superseded(random)});
+  const auto bytes = encode(datagram).bytes;
+  EXPECT_LE(bytes.size(), kMaxDatagram);
+  ASSERT_TRUE(decoded(bytes).bodies);
+  EXPECT_EQ(decoded(bytes).bodies->people.size(), Bodies::kMost);
+  EXPECT_EQ(encode(decoded(bytes)).bytes, bytes);
+  datagram.items = Items{2, 11, {}, said.updates};
+  EXPECT_FALSE(decoded(encode(datagram).bytes).bodies);
+}
+
 TEST(Datagram, ADigestLeavesRoomForItems) {
   std::mt19937 random(5);
   const Said said = random_items(random, 40);

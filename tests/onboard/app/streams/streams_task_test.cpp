@@ -51,6 +51,22 @@ TEST_F(StreamsTaskTest, PeopleAreToldToThoseWhoAsk) {
   EXPECT_TRUE(read<clients::PeopleMessage>(states).empty());
 }
 
+TEST_F(StreamsTaskTest, PeopleOfPeersAreAStreamOfTheirOwn) {
+  RobotStream team = connect(wanted({Stream::kTeamPeople})), own = connect(wanted({Stream::kPeople}));
+  run();
+  PeopleNews* news = outlets_.team_people.back();
+  ASSERT_NE(news, nullptr);
+  news->robot = 2;
+  news->people.resize(3);
+  outlets_.team_people.push();
+  run();
+  const auto got = read<clients::PeopleMessage>(team);
+  ASSERT_EQ(got.size(), 1U);
+  EXPECT_EQ(got[0].robot, 2U);
+  EXPECT_EQ(got[0].people.size(), 3U);
+  EXPECT_TRUE(read<clients::PeopleMessage>(own).empty());
+}
+
 TEST_F(StreamsTaskTest, TheStateComesAtOnceWithEveryChangeAndOnceASecond) {
   RobotStream states = connect(wanted({Stream::kState}));
   run();

@@ -22,6 +22,15 @@ void one_walks(app::StreamOutlets& outlets, int tick) {
   news->people[0].velocity = {0, 1.5};
   outlets.people.push();
 }
+void a_peer_sees_one(app::StreamOutlets& outlets, int /*tick*/) {
+  app::PeopleNews* news = outlets.team_people.back();
+  if (news == nullptr) return;
+  news->robot = 2;
+  news->people.resize(1);
+  news->people[0].id = 7;
+  news->people[0].seen = true;
+  outlets.team_people.push();
+}
 void nobody_speaks(app::StreamOutlets& /*outlets*/, int /*tick*/) {}
 
 TEST(PeopleCommand, PrintsALineForEachScan) {
@@ -41,6 +50,13 @@ TEST(PeopleCommand, JsonSaysTheSame) {
   EXPECT_EQ(json["people"][0]["id"], 3);
   EXPECT_EQ(json["people"][0]["velocity"], (std::vector<double>{0, 1.5}));
   EXPECT_EQ(json["people"][0]["seen"], false);
+}
+
+TEST(PeopleCommand, ThoseOfPeersAreNamedByRobot) {
+  const Outcome o =
+      test::run_beside_core(add_people_command, {"people", "--team", "--seconds", "0.2"}, a_peer_sees_one);
+  EXPECT_EQ(o.exit_code, app::kDone) << o.err;
+  EXPECT_THAT(o.out, HasSubstr("robot 2: 1 people  #7 at 0.00 0.00 m"));
 }
 
 TEST(PeopleCommand, SaysThatNobodyIsFollowed) {
