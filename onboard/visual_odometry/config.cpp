@@ -21,7 +21,6 @@ void declare(config::Section& s, VisualOdometryConfig& c) {
   s.number("landmark_correlation", c.landmark_correlation, {0, 1000}, "",
            "the same for the landmarks that one keyframe adds: they err in common");
   s.integer("max_iterations", c.max_iterations, {1, 50}, "", "cap per picture; the budget may grant fewer");
-  s.integer("keyframes", c.keyframes, {2, 20}, "", "that are adjusted together");
   s.number("keyframe_share", c.keyframe_share, {0.1, 1}, "",
            "with fewer landmarks of the last keyframe in view, a new one begins");
   s.number("keyframe_m", c.keyframe_m, {0.01, 10}, "m", "a longer way from the last keyframe begins a new one");

@@ -28,7 +28,6 @@ struct VisualOdometryConfig {
   int max_iterations = 8;  ///< steps per frame; the budget may grant fewer
 
   // Keyframes and landmarks
-  int keyframes = 8;            ///< that are adjusted together
   double keyframe_share = 0.7;  ///< of the landmarks of the last keyframe; with fewer in view a new one begins
   double keyframe_m = 0.3;      ///< m. A longer way from the last keyframe begins a new one.
   double keyframe_rad = 0.2;    ///< rad. A larger turn begins a new one.

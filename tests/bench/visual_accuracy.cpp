@@ -16,6 +16,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hal/clock.hpp"
@@ -127,18 +128,37 @@ Image decoded(const fs::path& file, std::int64_t ns, bool dark) {
   return image;
 }
 
-void run(const fs::path& recording, const Settings& settings) {
+/// What a recording's profile says of its stereo camera.
+struct Eyes {
+  stereo::Rectifier rectifier;
+  SE3 T_base_eye;
+};
+
+Result<Eyes> eyes_of(const fs::path& recording) {
   const auto chosen = app::choose_profile({}, recording);
-  if (!chosen) return (void)std::printf("%s\n", to_string(chosen.error()).c_str());
+  if (!chosen) return chosen.error();
   const app::CameraProfile& camera = chosen->profile.camera;
   const app::PictureSize size = picture_size(camera);
   const auto model = camera.intrinsics.model(size.width, size.height);
-  if (!model) return (void)std::printf("%s\n", to_string(model.error()).c_str());
-  const auto rectifier = stereo::Rectifier::create(*model, camera.intrinsics.baseline_m);
-  if (!rectifier) return (void)std::printf("%s\n", to_string(rectifier.error()).c_str());
-  const SE3 T_base_eye =
-      SE3::from_xyz_rpy(Eigen::Map<const Vector6>(camera.base_xyz_rpy.data())) * cameras::T_camera_optical();
-  StereoOdometry odometry(settings.odometry, rectifier->geometry(), T_base_eye);
+  if (!model) return model.error();
+  auto rectifier = stereo::Rectifier::create(*model, camera.intrinsics.baseline_m);
+  if (!rectifier) return rectifier.error();
+  const SE3 T_base_camera = SE3::from_xyz_rpy(Eigen::Map<const Vector6>(camera.base_xyz_rpy.data()));
+  return Eyes{std::move(*rectifier), T_base_camera * cameras::T_camera_optical()};
+}
+
+void trace(double s, const VisualUpdate& u, const Figures& f) {
+  std::printf(
+      "%.2f s followed %d inliers %d rms %.2f it %d kf %d lost %d err %.3f %.3f %.3f r %.4f %.4f %.4f sig %.3f %.3f "
+      "%.3f speed %.2f\n",
+      s, u.followed, u.inliers, u.rms_px, u.iterations, u.keyframe, u.lost, f.error[0], f.error[1], f.error[2],
+      f.error[3], f.error[4], f.error[5], f.sigma[0], f.sigma[1], f.sigma[2], u.twist.head<3>().norm());
+}
+
+void run(const fs::path& recording, const Settings& settings) {
+  const auto eyes = eyes_of(recording);
+  if (!eyes) return (void)std::printf("%s\n", to_string(eyes.error()).c_str());
+  StereoOdometry odometry(settings.odometry, eyes->rectifier.geometry(), eyes->T_base_eye);
   const Truth truth = load_truth(recording / "ground_truth.tum");
   const auto pictures = pictures_of(recording);
   const SE3 T_start = truth.at(pictures.front().first);
@@ -151,21 +171,15 @@ void run(const fs::path& recording, const Settings& settings) {
     const bool dark = s >= settings.dark_from_s && s < settings.dark_from_s + settings.dark_for_s;
     const Image image = decoded(file, ns, dark);
     const Duration begin = thread_cpu_time();
-    if (const auto done = rectifier->rectify(image, pair); !done) return;
-    Budget budget = Budget::steps(settings.odometry.max_iterations * 2);
+    if (const auto done = eyes->rectifier.rectify(image, pair); !done) return;
+    Budget budget = Budget::steps(most_steps(settings.odometry));
     const auto u = odometry.update(pair, budget);
     figures.cpu_ms.push_back(to_milliseconds(thread_cpu_time() - begin));
     if (!u) return (void)std::printf("%s\n", to_string(u.error()).c_str());
     const SE3 now = T_start.inverse() * truth.at(ns);
     if (i > 0) account(figures, *u, now, before);
     before = now;
-    if (std::getenv("TRACE") != nullptr)
-      std::printf(
-          "%.2f s followed %d inliers %d rms %.2f it %d kf %d lost %d err %.3f %.3f %.3f r %.4f %.4f %.4f sig "
-          "%.3f %.3f %.3f speed %.2f landmarks %zu\n",
-          s, u->followed, u->inliers, u->rms_px, u->iterations, u->keyframe, u->lost, figures.error[0],
-          figures.error[1], figures.error[2], figures.error[3], figures.error[4], figures.error[5], figures.sigma[0],
-          figures.sigma[1], figures.sigma[2], u->twist.head<3>().norm(), odometry.landmarks());
+    if (std::getenv("TRACE") != nullptr) trace(s, *u, figures);
   }
   print(recording.parent_path().filename().string(), figures);
 }
