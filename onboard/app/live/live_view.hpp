@@ -12,6 +12,12 @@
 
 namespace cairn::app {
 
+/// The people around a robot that follows them. Not within LiveView, where clang 14 does not yet see the defaults.
+struct LivePeople {
+  std::uint64_t now = 0, tracks = 0;  ///< at the last scan; different ones since the start
+  double nearest_m = -1;              ///< of those at the last scan; negative: there is nobody
+};
+
 /// What `cairn top` shows of a running core: one line of JSON a second, on a local socket. Both sides cut text at
 /// kMaxText bytes and lists at kMaxItems.
 struct LiveView {
@@ -42,11 +48,7 @@ struct LiveView {
     double clock_offset_s = 0;             ///< its clock minus this robot's; 0: not known
     bool deployment_contradicted = false;  ///< the deployments of the two do not fit to their maps
   };
-  /// The people around a robot that follows them.
-  struct People {
-    std::uint64_t now = 0, tracks = 0;  ///< at the last scan; different ones since the start
-    double nearest_m = -1;              ///< of those at the last scan; negative: there is nobody
-  };
+  using People = LivePeople;
   std::string robot;
   double t_s = 0;  ///< robot time
   std::string mode, cause, shed;
