@@ -31,7 +31,7 @@ case ${1:-} in
   --fuzz)
     preset=fuzz groups+=(ci) targets=(--target fuzzers) && shift
     only hal velodyne camera thermal depth recording drive gpio networks cameras labelling alignment people \
-      picture_health peer_link peer_process peers mapping generations live scheduler cli_evaluate
+      picture_health stereo peer_link peer_process peers mapping generations live scheduler cli_evaluate
     ;;
   --cross)
     # qemu-user knows neither the kernel's receive stamps nor its drop counts, without which no UDP port is opened.
