@@ -33,8 +33,8 @@ MotionFilter::Uncertainty at_the_start(const VisualOdometryConfig& c) {
 
 }  // namespace
 
-/// Two alignments: from the prediction, and from the landmarks' consent.
-int most_steps(const VisualOdometryConfig& config) { return 2 * config.max_iterations; }
+/// Three alignments: from the prediction, from the landmarks' consent, and to a keyframe that looks alike.
+int most_steps(const VisualOdometryConfig& config) { return 3 * config.max_iterations; }
 
 StereoOdometry::StereoOdometry(const VisualOdometryConfig& config, const stereo::StereoGeometry& geometry,
                                const SE3& T_base_eye)
@@ -61,18 +61,17 @@ Result<VisualUpdate> StereoOdometry::update(const stereo::StereoPair& pair, Budg
   if (followed) follow(fit, dt_s);
   const auto found = followed ? std::nullopt : find_again(pair, dt_s, budget);
   if (found) return_to(fit = *found);
-  lost_ = !followed && !found;
-  if (lost_) lose(dt_s);
-  const bool anew = lost_ && gives_up(dt_s);
-  if (lost_ && !anew) tracker_.reject();
+  const bool lost = !followed && !found;
+  if (lost) lose(dt_s);
+  const bool anew = lost && gives_up(dt_s);
+  if (lost && !anew) tracker_.reject();
   if (anew) begin_map(pair.left);
-  if (!lost_ || anew) last_followed_ = pair.stamp;
+  if (!lost || anew) last_followed_ = pair.stamp;
   const bool keyframe = found || (followed && wants_keyframe(fit.inliers));
   if (keyframe) make_keyframe(pair.left);
   VisualUpdate update = report(pair.stamp);
-  update.lost = lost_;
+  update.lost = lost;
   update.reinitialised = update.apart = anew;
-  if (anew) lost_ = false;
   update.keyframe = keyframe || anew;
   update.iterations = fit.iterations;
   update.followed = static_cast<int>(matches_.size());

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
 #include <optional>
 #include <vector>
 
@@ -50,8 +49,6 @@ class StereoOdometry final : public odometry::MotionSource {
   [[nodiscard]] const odometry::MotionFilter& motion() const override { return filter_; }
   [[nodiscard]] odometry::MotionNoise expected_noise() const override { return prior_.usual(true); }
 
-  [[nodiscard]] std::size_t landmarks() const { return map_.size(); }
-
  private:
   [[nodiscard]] VisualUpdate begin(const stereo::StereoPair& pair);
   void track(const stereo::StereoPair& pair);
@@ -82,7 +79,6 @@ class StereoOdometry final : public odometry::MotionSource {
   std::vector<Match> matches_;
   std::vector<Feature> corners_;  // of the last pair that was lost at first
   std::optional<Time> last_;
-  bool lost_ = false;
   Matrix6 keyframe_error_ = Matrix6::Zero();  // of the next keyframe's landmarks in common, a right perturbation
   Time last_followed_{};
   SE3 T_odom_previous_, T_odom_keyframe_;
