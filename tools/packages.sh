@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # The only list of Debian 12 packages. Installs the missing packages of the named groups:
-#   tools/packages.sh GROUP…          build test ci cross fresh bench vm protocol docs foreign_dds training
+#   tools/packages.sh GROUP…          build test ci cross fresh bench vm protocol docs foreign_dds python training
 #   tools/packages.sh --list GROUP…   only prints the packages
 # If no package is missing, it changes nothing. If one is missing, it needs root or sudo. It never asks.
 set -euo pipefail
@@ -26,6 +26,8 @@ declare -rA packages=(
   [vm]="qemu-system-x86 cpio kmod xz-utils make gcc-12 libelf1 iproute2"
   # tools/ci/api_reference.sh, and smaller pictures for tools/pictures.sh
   [docs]="doxygen pngquant"
+  # the Python module (tools/python) for Debian's own Python
+  [python]="pybind11-dev python3-dev python3-numpy"
   # tools/training: what trains the networks of config/models
   [training]="python3-torch python3-onnx python3-numpy python3-opencv python3-protobuf"
   # for another architecture, into a sysroot: Debian has no Embree for arm64, so the simulator is left out there

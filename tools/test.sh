@@ -13,7 +13,7 @@
 #   Further arguments go to ctest: -R mapping runs the tests of one room.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-preset=dev groups=(build test) targets=() select=() without=(-LE '^slow$')
+preset=dev groups=(build test python) targets=() select=() without=(-LE '^slow$')
 
 # only ROOM…: builds and runs these test programs alone.
 only() {

@@ -9,7 +9,7 @@ project=$PWD
 [[ -f build/release/bin/cairn ]] || { echo "check_sdk.sh: no build/release/bin/cairn: run tools/build.sh first" >&2; exit 2; }
 place=$(mktemp -d --tmpdir cairn-sdk.XXXXXX)
 trap 'rm -rf "$place"' EXIT
-for component in core tools dev; do
+for component in core tools dev python; do
   cmake --install build/release --prefix "$place/usr" --component "$component" >/dev/null
 done
 cp -r examples "$place/examples"
@@ -29,6 +29,7 @@ odometry_from_pcap sim/robot_1/lidar.pcap | tail -n 1
 map_from_scans sim/robot_1 one.cairn
 map_from_scans sim/robot_2 two.cairn
 match_two_maps one.cairn one.cairn both.cairn
+PYTHONPATH=$place/usr/lib/python3/dist-packages /usr/bin/python3 -B examples/read_team_map.py both.cairn | head -n 1
 own_sensor_driver .
 for client in follow_pose drive_square; do
   libraries=$(ldd "built/$client")

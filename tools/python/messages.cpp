@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <pybind11/eigen.h>
+#include <pybind11/stl.h>
+
+#include "onboard/client/robot_stream.hpp"
+#include "tools/python/arrays.hpp"
+#include "tools/python/map_changed.hpp"
+
+namespace cairn::python {
+namespace {
+
+using client::EventMessage;
+using client::HelloMessage;
+using client::PeopleMessage;
+using client::PoseMessage;
+using client::ScanMessage;
+using client::StateMessage;
+using Person = PeopleMessage::Person;
+
+constexpr const char* kStamp = "robot time; with Hello.realtime_offset_ns added it is UTC";
+constexpr const char* kEpoch = "counts maps: poses of two epochs must not be compared";
+
+/// The stamp of a message.
+template <class Message>
+std::int64_t stamp_of(const Message& message) {
+  return nanoseconds(message.stamp);
+}
+
+void add_hello(py::module_& module) {
+  py::class_<HelloMessage>(module, "Hello", "The first message of a core: who it is.")
+      .def_readonly("robot", &HelloMessage::robot)
+      .def_readonly("robot_id", &HelloMessage::robot_id, "in its team; 0: it is in none")
+      .def_readonly("resolution_m", &HelloMessage::resolution_m, "edge of a voxel of its maps")
+      .def_property_readonly("realtime_offset_ns", [](const HelloMessage& m) { return m.realtime_offset.count(); })
+      .def_property_readonly(
+          "T_base_sensor",
+          [](const HelloMessage& m) {
+            py::dict poses;
+            for (const auto& sensor : m.sensors) poses[py::str(sensor.name)] = sensor.T_base_sensor.matrix();
+            return poses;
+          },
+          "pose of each sensor in base_link by name, shape (4, 4), m");
+}
+
+void add_pose(py::module_& module) {
+  py::class_<PoseMessage>(module, "Pose", "Where the robot is.")
+      .def_property_readonly("stamp_ns", &stamp_of<PoseMessage>, kStamp)
+      .def_property_readonly(
+          "xyz", [](const PoseMessage& m) { return m.T_odom_base.mean.translation(); }, "in odom, m")
+      .def_property_readonly(
+          "quaternion_xyzw",
+          [](const PoseMessage& m) -> Eigen::Vector4d { return m.T_odom_base.mean.quaternion().coeffs(); })
+      .def_property_readonly(
+          "T_odom_base", [](const PoseMessage& m) { return m.T_odom_base.mean.matrix(); }, "(4, 4)")
+      .def_property_readonly(
+          "covariance", [](const PoseMessage& m) { return m.T_odom_base.covariance; },
+          "of x, y, z, and about x, y, z, in base_link; m, rad; shape (6, 6)")
+      .def_property_readonly(
+          "twist", [](const PoseMessage& m) { return m.twist; },
+          "of base_link in base_link: m/s, then rad/s; shape (6,)")
+      .def_readonly("epoch", &PoseMessage::epoch, kEpoch)
+      .def_readonly("predicted", &PoseMessage::predicted, "not of a scan: the last one, moved on")
+      .def_readonly("lost", &PoseMessage::lost, "the last scan did not fit: the pose says little")
+      .def_readonly("degenerate_directions", &PoseMessage::degenerate_directions, "that the last scan left open");
+}
+
+void add_state(py::module_& module) {
+  py::class_<StateMessage>(module, "State", "How the robot is: sent with every change, and once a second.")
+      .def_property_readonly("stamp_ns", &stamp_of<StateMessage>, kStamp)
+      .def_property_readonly(
+          "mode", [](const StateMessage& m) { return std::string(to_string(m.mode)); },
+          "normal, degraded, hold or stop")
+      .def_readonly("cause", &StateMessage::cause, "code of the fault that the mode has; empty: none")
+      .def_readonly("faults", &StateMessage::faults, "codes of what is wrong now, as in docs/faults.md")
+      .def_readonly("shed", &StateMessage::shed, "work that is left out under overload")
+      .def_readonly("scans", &StateMessage::scans, "so far")
+      .def_property_readonly(
+          "T_team_odom",
+          [](const StateMessage& m) -> std::optional<Eigen::Matrix4d> {
+            if (!m.T_team_odom) return std::nullopt;
+            return m.T_team_odom->matrix();
+          },
+          "where odom lies in the frame of the team, shape (4, 4); None: not known");
+}
+
+void add_scan(py::module_& module) {
+  py::class_<ScanMessage>(module, "Scan", "A scan that has been located.")
+      .def_property_readonly("stamp_ns", &stamp_of<ScanMessage>, kStamp)
+      .def_property_readonly(
+          "T_odom_base", [](const ScanMessage& m) { return m.T_odom_base.matrix(); }, "(4, 4)")
+      .def_property_readonly(
+          "xyz", [](const ScanMessage& m) { return to_array(m.points_base); },
+          "deskewed points in base_link, m; float32, shape (N, 3)")
+      .def_readonly("epoch", &ScanMessage::epoch, kEpoch)
+      .def_readonly("lost", &ScanMessage::lost, "the pose is only a prediction");
+}
+
+void add_people(py::module_& module) {
+  py::class_<Person>(module, "Person", "Somebody whom a robot follows.")
+      .def_readonly("id", &Person::id)
+      .def_readonly("sightings", &Person::sightings, "pictures in which a detector saw this person")
+      .def_readonly("seen", &Person::seen, "in this scan; otherwise the place is predicted")
+      .def_property_readonly(
+          "xyz", [](const Person& p) { return p.position_odom; }, "on the ground, in odom, m")
+      .def_property_readonly(
+          "velocity", [](const Person& p) { return p.velocity_odom; }, "x and y in odom, m/s")
+      .def_property_readonly(
+          "covariance", [](const Person& p) { return p.covariance; }, "of x and y, m^2");
+  py::class_<PeopleMessage>(module, "People", "The people around a robot, as one scan shows them.")
+      .def_property_readonly("stamp_ns", &stamp_of<PeopleMessage>, kStamp)
+      .def_readonly("robot", &PeopleMessage::robot, "the teammate who follows them; 0: this robot")
+      .def_readonly("epoch", &PeopleMessage::epoch, kEpoch)
+      .def_readonly("people", &PeopleMessage::people, "list of Person");
+}
+
+void add_news(py::module_& module) {
+  py::class_<EventMessage>(module, "Event", "Something that happened, and how often so far.")
+      .def_property_readonly("stamp_ns", &stamp_of<EventMessage>, kStamp)
+      .def_readonly("count", &EventMessage::count)
+      .def_readonly("stage", &EventMessage::stage)
+      .def_readonly("what", &EventMessage::what);
+  py::class_<MapChanged>(module, "MapChanged", "A part of a map has come; Robot.own_map or Robot.team_map has it.")
+      .def_readonly("map", &MapChanged::map, "own or team")
+      .def_readonly("tiles", &MapChanged::tiles, "how many tiles came")
+      .def_readonly("caught_up", &MapChanged::caught_up, "there is nothing newer");
+  py::class_<client::CoreGone>(module, "CoreGone", "The core has ended. The next message is of the core that follows.");
+}
+
+}  // namespace
+
+void add_messages(py::module_& module) {
+  add_hello(module);
+  add_pose(module);
+  add_state(module);
+  add_scan(module);
+  add_people(module);
+  add_news(module);
+}
+
+}  // namespace cairn::python
