@@ -128,6 +128,7 @@ const TrackPoint& Robot::place(const odometry::MotionUpdate& motion, bool resumi
                     .twist = motion.twist,
                     .epoch = epoch_,
                     .degenerate_directions = motion.degenerate_directions,
+                    .by_wheels = motion.by_wheels,
                     .iterations = motion.iterations,
                     .lost = motion.lost});
   return track_.back();

@@ -45,6 +45,7 @@ report::OdometryStats odometry_stats(const std::vector<TrackPoint>& track) {
   Time before = track.empty() ? Time{} : track.front().stamp;
   for (const TrackPoint& p : track) {
     stats.degenerate_scans += p.degenerate_directions > 0 ? 1U : 0U;
+    stats.wheel_scans += p.by_wheels ? 1U : 0U;
     stats.lost_scans += p.lost ? 1U : 0U;
     stats.lost_s += p.lost ? to_seconds(p.stamp - before) : 0;
     iterations += p.iterations;

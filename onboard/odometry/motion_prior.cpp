@@ -11,13 +11,31 @@ namespace {
 // MotionFilter::predict().
 double acceleration_for(double deviation, double dt_s) { return std::sqrt(3.0) * deviation / (dt_s * dt_s); }
 
+// s. A twist that no scan has confirmed is believed for so long, on average: a robot that was lost
+// while it turned has often ended the turn.
+constexpr double kTwistBelieved_s = 0.2;
+
+/// Of a steady motion over `dt_s` seconds, the share that is left when belief in the twist fades.
+double believed_share(double dt_s) { return kTwistBelieved_s / dt_s * (1 - std::exp(-dt_s / kTwistBelieved_s)); }
+
 }  // namespace
 
 MotionPrior::MotionPrior(const OdometryConfig& config)
     : linear_(config.linear_acceleration),
       angular_(config.angular_acceleration),
       settling_factor_(config.settling_noise_factor),
+      initial_m_s_(config.initial_speed),
+      initial_rad_s_(config.initial_angular_speed),
       config_(config.agility) {}
+
+MotionFilter::Uncertainty MotionPrior::at_the_start() const {
+  Vector6 speed;
+  speed << Eigen::Vector3d::Constant(initial_m_s_), Eigen::Vector3d::Constant(initial_rad_s_);
+  MotionFilter::Uncertainty uncertainty;
+  uncertainty.local.bottomRightCorner<6, 6>() = speed.cwiseAbs2().asDiagonal();
+  uncertainty.total = uncertainty.local;
+  return uncertainty;
+}
 
 MotionNoise MotionPrior::usual(bool settled) const {
   const double factor = settled ? 1.0 : settling_factor_;
@@ -35,6 +53,14 @@ MotionNoise MotionPrior::anything(double dt_s) const {
   MotionNoise noise;
   noise.acceleration << Eigen::Vector3d::Constant(moved), tilted, tilted, turned;
   return noise;
+}
+
+MotionFilter MotionPrior::moved_anyhow(MotionFilter followed, double dt_s, bool lost) const {
+  Vector6 kept = Vector6::Constant(lost ? believed_share(dt_s) : 1.0);
+  kept.segment<2>(3).setZero();
+  followed.doubt_twist(kept);
+  followed.predict(dt_s, anything(dt_s));
+  return followed;
 }
 
 void MotionPrior::learn(const Vector6& change, double dt_s) {

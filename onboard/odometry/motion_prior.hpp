@@ -14,10 +14,15 @@ class MotionPrior {
  public:
   explicit MotionPrior(const OdometryConfig& config);
 
+  /// At rest in odom, exactly; how fast is unknown.
+  [[nodiscard]] MotionFilter::Uncertainty at_the_start() const;
   /// Of the next step. `settled`: see LocalMap::settled().
   [[nodiscard]] MotionNoise usual(bool settled) const;
   /// Of whatever a robot may have done in the last `dt_s` seconds (> 0).
   [[nodiscard]] MotionNoise anything(double dt_s) const;
+  /// The filter of the last scan that was followed, `dt_s` seconds (> 0) later, expecting anything. A robot that tilts
+  /// does not go on tilting. One that was `lost` since may not go on moving, either.
+  [[nodiscard]] MotionFilter moved_anyhow(MotionFilter followed, double dt_s, bool lost) const;
   /// The twist has changed by so much in `dt_s` seconds (> 0), as a scan showed.
   void learn(const Vector6& change, double dt_s);
   /// Forgets what was learnt.
@@ -25,6 +30,7 @@ class MotionPrior {
 
  private:
   double linear_, angular_, settling_factor_;
+  double initial_m_s_, initial_rad_s_;
   AgilityConfig config_;
   Eigen::Vector3d seen_ = Eigen::Vector3d::Zero();  // m/s² of all axes, rad/s² of tilting, of turning
 };

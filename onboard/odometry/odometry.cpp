@@ -8,34 +8,20 @@
 namespace cairn::odometry {
 namespace {
 
-/// At rest in odom, exactly; how fast is unknown.
-MotionFilter::Uncertainty at_the_start(const OdometryConfig& c) {
-  Vector6 speed;
-  speed << Eigen::Vector3d::Constant(c.initial_speed), Eigen::Vector3d::Constant(c.initial_angular_speed);
-  MotionFilter::Uncertainty uncertainty;
-  uncertainty.local.bottomRightCorner<6, 6>() = speed.cwiseAbs2().asDiagonal();
-  uncertainty.total = uncertainty.local;
-  return uncertainty;
-}
-
-// s. A twist that no scan has confirmed is believed for so long, on average: a robot that was lost
-// while it turned has often ended the turn.
-constexpr double kTwistBelieved_s = 0.2;
-
 // A new map that begins at a pose with a larger standard deviation is not added to the one before. Chosen by hand.
 constexpr double kConnected_m = 0.3, kConnected_rad = 0.06;
+
+// As many times the points must face a direction in a young map, where wheels may tell: its normals are wrong yet.
+constexpr double kYoungMapCaution = 5;
 
 // Chosen by hand: starts in turns of 120°/s end with the right twist (test BeginsInAFastTurn).
 constexpr int kStraightenings = 3;
 constexpr double kStraightGate_m = 0.5;
 
-/// Of a steady motion over `dt_s` seconds, the share that is left when belief in the twist fades.
-double believed_share(double dt_s) { return kTwistBelieved_s / dt_s * (1 - std::exp(-dt_s / kTwistBelieved_s)); }
-
 }  // namespace
 
 int most_steps(const OdometryConfig& config) {
-  return (2 + kStraightenings) * config.max_iterations + SecondLook::kTrialSteps;
+  return (4 + kStraightenings) * config.max_iterations + SecondLook::kTrialSteps;
 }
 
 LidarOdometry::LidarOdometry(const OdometryConfig& config, const SE3& T_base_lidar, Workers& workers)
@@ -100,7 +86,7 @@ bool LidarOdometry::follow(const Fit& fit, const SE3& motion, double dt_s) {
 
 /// The prediction stands. True if the scan shall begin a new map.
 bool LidarOdometry::lose(Track track, double dt_s) {
-  filter_ = bridged(dt_s) ? moved_as_wheels_say(dt_s) : anything_since_followed(dt_s);
+  filter_ = bridged(dt_s) ? wheels_.move(followed_, dt_s) : prior_.moved_anyhow(followed_, dt_s, tracking_.lost());
   apart_ = track == Track::kReinitialised && placed_badly();
   if (track == Track::kReinitialised) reinitialise();
   return track == Track::kReinitialised;
@@ -108,33 +94,54 @@ bool LidarOdometry::lose(Track track, double dt_s) {
 
 /// Predicts, and registers the scan; once more, and farther around, if that leaves doubts.
 Fit LidarOdometry::align(const Selection& selected, double dt_s, Budget& budget) {
-  if (bridged(dt_s)) {
-    filter_ = moved_as_wheels_say(dt_s);
-  } else {
-    filter_ = followed_;
-    filter_.predict(dt_s, prior_.usual(map_.settled()));
+  auto by_wheels = bridged(dt_s) ? std::nullopt : wheel_aid_.open_motion(wheels_);
+  const auto fit = [&] {
+    predict(dt_s, by_wheels ? &*by_wheels : nullptr);
+    auto effort = Registration::effort_for(filter_);
+    if (!map_.settled() && wheels_.measured()) effort.share = kYoungMapCaution;
+    return registration_.align(selected, map_.patches(), filter_, start_hypothesis(selected, dt_s), budget, effort);
+  };
+  Fit first = fit();
+  if (!by_wheels && !bridged(dt_s) && wheel_aid_.open_motion(wheels_, first.degeneracy)) {
+    by_wheels = wheel_aid_.open_motion(wheels_, first.degeneracy);
+    first = fit();
   }
-  const MotionState start = start_hypothesis(selected, dt_s);
-  const Fit first = registration_.align(selected, map_.patches(), filter_, start, budget);
+  if (by_wheels && !second_look_.doubtful(first) &&
+      WheelAid::slipped(wheels_, filter_.motion_to(first.state.T_odom_base))) {
+    by_wheels.reset();
+    first = fit();
+  }
+  by_wheels_ = by_wheels.has_value();
   if (relocaliser_.pending() || !second_look_.needed(first, dt_s)) return first;
-  return look_farther(selected, first, dt_s, budget).value_or(first);
+  return look_farther(selected, first, dt_s, by_wheels ? &*by_wheels : nullptr, budget).value_or(first);
+}
+
+/// To the scan that comes now: by wheels where they tell more than the twist, otherwise steadily.
+void LidarOdometry::predict(double dt_s, const OpenMotion* open) {
+  filter_ = bridged(dt_s) ? wheels_.move(followed_, dt_s) : followed_;
+  if (!bridged(dt_s)) filter_.predict(dt_s, prior_.usual(map_.settled()), open);
 }
 
 /// Where the wheels say that the base is. If the scan does not fit there, anywhere it may have come to: wheels spin,
 /// and robots are carried.
 std::optional<Fit> LidarOdometry::look_farther(const Selection& selected, const Fit& first, double dt_s,
-                                               Budget& budget) {
+                                               const OpenMotion* open, Budget& budget) {
+  const auto anyhow = wheel_aid_.possible_motion(followed_.state().twist, prior_.anything(dt_s), dt_s);
+  const OpenMotion* limit = open != nullptr ? open : anyhow ? &*anyhow : nullptr;
+  const SecondLook::Possible possible = [&](const MotionState& place) {
+    return limit == nullptr || WheelAid::agrees(*limit, filter_.motion_to(place.T_odom_base));
+  };
   const auto look = [&](MotionFilter wide, const Fit& known) {
-    auto better = second_look_.find(selected, map_.patches(), wide, known, dt_s, registration_, budget);
+    auto better = second_look_.find(selected, map_.patches(), wide, known, dt_s, registration_, budget, possible);
     if (better) filter_ = wide;
     return better;
   };
-  if (!bridged(dt_s)) return look(anything_since_followed(dt_s), first);
-  auto found = look(moved_as_wheels_say(dt_s), first);
+  if (!bridged(dt_s)) return look(prior_.moved_anyhow(followed_, dt_s, tracking_.lost()), first);
+  auto found = look(wheels_.move(followed_, dt_s), first);
   const Fit& best = found ? *found : first;
   if (!second_look_.doubtful(best)) return found;
   const MotionFilter as_wheels_say = filter_;
-  auto elsewhere = look(anything_since_followed(dt_s), best);
+  auto elsewhere = look(prior_.moved_anyhow(followed_, dt_s, tracking_.lost()), best);
   if (elsewhere && !second_look_.doubtful(*elsewhere)) return elsewhere;
   filter_ = as_wheels_say;
   return found;
@@ -149,12 +156,6 @@ bool LidarOdometry::placed_badly() const {
 /// Whether wheels tell the motion better than the twist of the last scan that was followed.
 bool LidarOdometry::bridged(double dt_s) const {
   return (dt_s > config_.second_look.long_step_s || tracking_.lost()) && wheels_.since_followed().has_value();
-}
-
-MotionFilter LidarOdometry::moved_as_wheels_say(double dt_s) const {
-  MotionFilter moved = followed_;
-  moved.predict_by(*wheels_.since_followed(), wheels_.twist(), WheelBridge::twist_deviation(), dt_s);
-  return moved;
 }
 
 /// The first scan of a map was taken in an unknown motion, so its points are skewed. The second one
@@ -184,17 +185,6 @@ void LidarOdometry::keep_first(const PreparedScan& scan, const Selection& select
   if (scan.duration_s > 0) first_ = {.scan = scan, .for_map = {selected.for_map.begin(), selected.for_map.end()}};
 }
 
-/// A prediction that expects anything. A robot that tilts does not go on tilting. One that was lost
-/// may not go on moving, either.
-MotionFilter LidarOdometry::anything_since_followed(double dt_s) const {
-  MotionFilter wide = followed_;
-  Vector6 kept = Vector6::Constant(tracking_.lost() ? believed_share(dt_s) : 1.0);
-  kept.segment<2>(3).setZero();
-  wide.doubt_twist(kept);
-  wide.predict(dt_s, prior_.anything(dt_s));
-  return wide;
-}
-
 Result<void> LidarOdometry::check(const Scan& scan) const {
   if (const auto good = ScanPreparation::check(scan); !good) return good.error();
   if (tracking_.began() && tracking_.seconds_since_last(scan.valid.end) <= 0)
@@ -204,7 +194,7 @@ Result<void> LidarOdometry::check(const Scan& scan) const {
 
 OdometryUpdate LidarOdometry::begin(const PreparedScan& scan, const Selection& selected) {
   tracking_.begin(scan.stamp);
-  filter_.reset({}, at_the_start(config_));
+  filter_.reset({}, prior_.at_the_start());
   reinitialise();
   T_odom_previous_ = {};
   deskewer_.deskew(scan, filter_.state().twist);
@@ -230,6 +220,7 @@ void LidarOdometry::correct(const Fit& fit, double dt_s) {
   if (!map_.settled()) filter_.forget_gap();
   prior_.learn(fit.state.twist - followed_.state().twist, dt_s);
   second_look_.learn(fit);
+  wheel_aid_.followed(wheels_, filter_.motion_to(fit.state.T_odom_base), fit.degeneracy);
   followed_ = filter_;
   wheels_.followed();
 }
@@ -240,6 +231,7 @@ void LidarOdometry::reinitialise() {
   second_look_.reset();
   twist_check_.reset();
   prior_.reset();
+  wheel_aid_.forget_surroundings();
   filter_.forget_gap();
   map_.begin(filter_.state().T_odom_base, filter_.odom_covariance());
   followed_ = filter_;
@@ -268,6 +260,7 @@ OdometryUpdate LidarOdometry::report(Time stamp, const Fit& fit, Track track) co
   update.inlier_ratio = fit.inlier_ratio();
   update.rms_m = fit.rms_m();
   update.degenerate_directions = fit.degeneracy.count;
+  update.by_wheels = by_wheels_ && fit.degeneracy.count > 0;
   update.degenerate = fit.degeneracy.directions;
   update.degenerate_length_m = fit.degeneracy.length_m;
   update.lost = track != Track::kFollowed;

@@ -18,6 +18,7 @@
 #include "onboard/odometry/estimation/motion_source.hpp"
 #include "onboard/odometry/estimation/motion_update.hpp"
 #include "onboard/odometry/estimation/twist_check.hpp"
+#include "onboard/odometry/estimation/wheel_aid.hpp"
 #include "onboard/odometry/estimation/wheel_bridge.hpp"
 #include "onboard/odometry/keypoint_selector.hpp"
 #include "onboard/odometry/local_map.hpp"
@@ -61,8 +62,8 @@ class LidarOdometry final : public MotionSource {
   LidarOdometry(const OdometryConfig& config, const SE3& T_base_lidar, Workers& workers);
 
   /// Consumes one scan. Every iteration asks the budget; one is always made. `wheels`: their state at
-  /// the scan's end, null where it is not known. It bridges gaps and times in which scans do not fit.
-  /// Errors (the state is left as it was):
+  /// the scan's end, null where it is not known. It bridges gaps and times in which scans do not fit, and tells the
+  /// motion along directions that scans leave open. Errors (the state is left as it was):
   ///   - kMalformed: the scan is not later than the last one, or has points without a firing time
   ///   - kLimit: too many points
   ///   - kTruncated: the scan is a piece of a revolution, and follows a gap or does not fit
@@ -92,10 +93,9 @@ class LidarOdometry final : public MotionSource {
   [[nodiscard]] MotionState start_hypothesis(const Selection& selected, double dt_s);
   [[nodiscard]] Fit align(const Selection& selected, double dt_s, Budget& budget);
   [[nodiscard]] std::optional<Fit> look_farther(const Selection& selected, const Fit& first, double dt_s,
-                                                Budget& budget);
+                                                const OpenMotion* open, Budget& budget);
   [[nodiscard]] bool bridged(double dt_s) const;
-  [[nodiscard]] MotionFilter moved_as_wheels_say(double dt_s) const;
-  [[nodiscard]] MotionFilter anything_since_followed(double dt_s) const;
+  void predict(double dt_s, const OpenMotion* open);
   [[nodiscard]] bool follow(const Fit& fit, const SE3& motion, double dt_s);
   [[nodiscard]] bool lose(Track track, double dt_s);
   void correct(const Fit& fit, double dt_s);
@@ -124,6 +124,7 @@ class LidarOdometry final : public MotionSource {
   TrackingState tracking_;
   TwistCheck twist_check_;
   WheelBridge wheels_;
+  WheelAid wheel_aid_;
   Relocaliser relocaliser_;
   /// The scan that began the map, until the next one shows how the base moved.
   struct FirstScan {
@@ -131,7 +132,8 @@ class LidarOdometry final : public MotionSource {
     std::vector<std::uint32_t> for_map;
   };
   std::optional<FirstScan> first_;
-  bool apart_ = false;  // the last scan began a map that must not be added to the one before
+  bool by_wheels_ = false;  // see MotionUpdate
+  bool apart_ = false;      // the last scan began a map that must not be added to the one before
 };
 
 }  // namespace cairn::odometry

@@ -51,9 +51,13 @@ Registration::Registration(const OdometryConfig& config, const SE3& T_base_lidar
 
 Fit Registration::align(const Selection& scan, const PatchMap& map, const MotionFilter& filter,
                         const MotionState& start, Budget& budget) {
+  return align(scan, map, filter, start, budget, effort_for(filter));
+}
+
+Registration::Effort Registration::effort_for(const MotionFilter& filter) {
   const Matrix12& P = filter.uncertainty().local;
   const double squared_m2 = P.topLeftCorner<3, 3>().trace() + kLever_m * kLever_m * P.block<3, 3>(3, 3).trace();
-  return align(scan, map, filter, start, budget, {kGateSigmas * std::sqrt(squared_m2)});
+  return {kGateSigmas * std::sqrt(squared_m2)};
 }
 
 Fit Registration::align(const Selection& scan, const PatchMap& map, const MotionFilter& filter,

@@ -57,6 +57,8 @@ class Registration {
     int max_steps = 1000;  ///< never more than the config's
     double share = 1;      ///< of all keypoints: a direction is degenerate if so much fewer face it
   };
+  /// That of an alignment that begins at the prediction of `filter`.
+  [[nodiscard]] static Effort effort_for(const MotionFilter& filter);
   [[nodiscard]] Fit align(const Selection& scan, const PatchMap& map, const MotionFilter& filter,
                           const MotionState& start, Budget& budget, const Effort& effort);
   /// How many keypoints would lie within 3 σ and `gate_m` of their patches, if the robot moved like

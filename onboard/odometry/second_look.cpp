@@ -52,7 +52,7 @@ void SecondLook::learn(const Fit& fit) {
 }
 
 std::optional<Fit> SecondLook::find(const Selection& scan, const PatchMap& map, MotionFilter& wide, const Fit& first,
-                                    double dt_s, Registration& registration, Budget& budget) {
+                                    double dt_s, Registration& registration, Budget& budget, const Possible& possible) {
   if (scan.keypoints.empty()) return std::nullopt;
   choose(scan, wide.state().T_odom_base);
   const auto places = search_.find({.for_map = {}, .keypoints = telling_, .duration_s = scan.duration_s}, map,
@@ -65,7 +65,7 @@ std::optional<Fit> SecondLook::find(const Selection& scan, const PatchMap& map, 
     wide.believe(place);  // a direction that nothing determines stays as found, not as predicted
     const Fit trial = registration.align(few, map, wide, place, budget, {kTrialGate_m, kStepsOfATrial, share});
     const int fits = registration.telling_inliers(few, map, trial.state, narrowest_gate_m_);
-    if (fits <= most) return;
+    if (fits <= most || !possible(trial.state)) return;
     most = fits;
     start = trial.state;
   };
@@ -76,7 +76,8 @@ std::optional<Fit> SecondLook::find(const Selection& scan, const PatchMap& map, 
   }
   wide.believe(start);
   Fit again = registration.align(scan, map, wide, start, budget, {kLastGate_m});
-  if (again.iterations > 0 && again.telling_inliers() > config_.better * first.telling_inliers()) return again;
+  const bool better = again.iterations > 0 && again.telling_inliers() > config_.better * first.telling_inliers();
+  if (better && possible(again.state)) return again;
   std::ignore = registration.telling_inliers(scan, map, first.state, narrowest_gate_m_);  // its uses are asked for next
   return std::nullopt;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <span>
 #include <vector>
@@ -32,11 +33,14 @@ class SecondLook {
   /// `first` fits worse than the last scans did, or `dt_s` is so long that the prediction says
   /// little.
   [[nodiscard]] bool needed(const Fit& first, double dt_s) const;
-  /// A fit that is clearly better than `first`, if there is one. `wide` holds a prediction that
+  /// Whether the base can be there, as far as others know.
+  using Possible = std::function<bool(const MotionState&)>;
+  /// A fit that is clearly better than `first`, and possible, if there is one. `wide` holds a prediction that
   /// expects anything; it is moved to where the better fit began. Leaves the uses of that fit, or of
   /// `first`, in `registration`.
   [[nodiscard]] std::optional<Fit> find(const Selection& scan, const PatchMap& map, MotionFilter& wide,
-                                        const Fit& first, double dt_s, Registration& registration, Budget& budget);
+                                        const Fit& first, double dt_s, Registration& registration, Budget& budget,
+                                        const Possible& possible);
   /// Takes note of what a fit that is followed looks like.
   void learn(const Fit& fit);
   /// So few points fit that the scan would blur the map.

@@ -68,7 +68,35 @@ void MotionFilter::doubt_twist(const Vector6& share) {
   forget_gap();
 }
 
-void MotionFilter::predict(double dt, const MotionNoise& noise) {
+void MotionFilter::predict(double dt, const MotionNoise& noise, const OpenMotion* open) {
+  Vector6 xi = expect(dt, noise);
+  if (open != nullptr) xi = replace_open(xi, dt, noise, *open);
+  carry(SE3::exp(xi));
+}
+
+/// Takes the twist's part along open directions out of transition and process, and puts the measured motion in its
+/// place. Returns the motion as a tangent vector.
+Vector6 MotionFilter::replace_open(const Vector6& expected, double dt, const MotionNoise& noise,
+                                   const OpenMotion& open) {
+  const Matrix6& U = open.directions;
+  const Matrix6 keep = Matrix6::Identity() - U;
+  Matrix12 keep_both = Matrix12::Zero();
+  keep_both.topLeftCorner<6, 6>() = keep_both.bottomRightCorner<6, 6>() = keep;
+  const Vector6 xi = keep * expected + U * open.motion;
+  state_.twist = keep * state_.twist + U * open.motion / dt;
+  transition_.topLeftCorner<6, 6>() = SE3::exp(xi).inverse().adjoint();
+  transition_.rightCols<6>() = keep_both * transition_.rightCols<6>();
+  process_ = keep_both * process_ * keep_both.transpose();
+  // The mean speed since the scan is not that of now: the acceleration's noise stands for the difference.
+  const Matrix6 measured = U * open.covariance * U.transpose();
+  const Matrix6 changed = U * (noise.acceleration * dt).cwiseAbs2().asDiagonal() * U.transpose();
+  process_.topLeftCorner<6, 6>() += measured;
+  process_.bottomRightCorner<6, 6>() += measured / (dt * dt) + changed;
+  return xi;
+}
+
+/// Sets transition and process of a steady twist; returns the motion as a tangent vector.
+Vector6 MotionFilter::expect(double dt, const MotionNoise& noise) {
   before_ = state_;
   dt_ = dt;
   state_.twist += correction_;
@@ -85,7 +113,7 @@ void MotionFilter::predict(double dt, const MotionNoise& noise) {
   // ⅓ instead of ¼: an acceleration that varies within the step; it also keeps the matrix
   // invertible.
   process_ << q * (dt * dt * dt * dt / 3), q * (dt * dt * dt / 2), q * (dt * dt * dt / 2), q * (dt * dt);
-  carry(motion);
+  return xi;
 }
 
 void MotionFilter::predict_by(const UncertainPose& motion, const Vector6& twist, const Vector6& deviation, double dt) {

@@ -29,6 +29,13 @@ struct MotionNoise {
   }
 };
 
+/// A motion along the directions that a scan has left open, as something else has measured it.
+struct OpenMotion {
+  Matrix6 directions;  ///< takes a right perturbation to its part along them; see Degeneracy::undetermined
+  Vector6 motion;      ///< since the scan, as a tangent vector: m, rad; only the part along `directions` counts
+  Matrix6 covariance;  ///< of `motion`
+};
+
 /// What one scan says, linearised at one state.
 struct Measurement {
   const NormalEquations& equations;
@@ -62,7 +69,8 @@ class MotionFilter {
   /// was taken.
   void doubt_twist(const Vector6& share);
   /// Moves the state by `dt` seconds (> 0).
-  void predict(double dt, const MotionNoise& noise);
+  /// Where `open` is not null, the measured motion stands in for the twist along the open directions.
+  void predict(double dt, const MotionNoise& noise, const OpenMotion* open = nullptr);
 
   /// The same by a motion that something else has measured, and a twist with these standard deviations (m/s, rad/s).
   void predict_by(const UncertainPose& motion, const Vector6& twist, const Vector6& deviation, double dt);
@@ -89,6 +97,9 @@ class MotionFilter {
   [[nodiscard]] const Matrix6& step_covariance() const { return step_covariance_; }
 
  private:
+  [[nodiscard]] Vector6 expect(double dt, const MotionNoise& noise);
+  [[nodiscard]] Vector6 replace_open(const Vector6& expected, double dt, const MotionNoise& noise,
+                                     const OpenMotion& open);
   void carry(const SE3& motion);
   void follow_motion();
 

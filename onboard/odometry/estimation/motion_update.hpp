@@ -17,6 +17,7 @@ struct MotionUpdate {
   /// Directions that the surroundings do not determine. Along them the pose is the prediction, and
   /// the covariance grows.
   int degenerate_directions = 0;
+  bool by_wheels = false;  ///< along those directions the wheels told the motion
 
   bool began = false;          ///< the first one: T_odom_base is the identity, odom has nothing in common with before
   bool lost = false;           ///< the measurement did not fit: the pose is predicted, the map was left alone

@@ -9,6 +9,18 @@ namespace {
 constexpr double kDistrust = 2.0;
 constexpr double kLeast_m = 0.05, kLeastHeight_m = 0.1, kLeastTilt_rad = 0.05, kLeastYaw_rad = 0.03;
 
+// The same where scans follow each other: most errors of stamps cancel from one scan to the next.
+constexpr double kStamps_m = 0.005, kStamps_rad = 0.01;
+
+/// Of twist(), m/s and rad/s. Chosen by hand.
+Vector6 twist_deviation() { return (Vector6() << 0.3, 0.2, 0.1, 0.3, 0.3, 0.3).finished(); }
+
+Matrix6 deviations(double along_m, double about_rad) {
+  Vector6 deviation;
+  deviation << Eigen::Vector3d::Constant(along_m), Eigen::Vector3d::Constant(about_rad);
+  return deviation.cwiseAbs2().asDiagonal();
+}
+
 Matrix6 least() {
   Vector6 deviation;
   deviation << kLeast_m, kLeast_m, kLeastHeight_m, kLeastTilt_rad, kLeastTilt_rad, kLeastYaw_rad;
@@ -21,13 +33,32 @@ void WheelBridge::note(const DriveState* wheels) { now_ = wheels != nullptr ? st
 
 void WheelBridge::followed() { followed_ = now_; }
 
-std::optional<UncertainPose> WheelBridge::since_followed() const {
-  if (!now_ || !followed_) return std::nullopt;
+/// Both states are there.
+UncertainPose WheelBridge::difference() const {
   const SE3 motion = followed_->T_odom_base.mean.inverse() * now_->T_odom_base.mean;
   const Matrix6 carry = motion.inverse().adjoint();
   // Dead reckoning adds the motion's own error to the old one, carried along.
   const Matrix6 own = now_->T_odom_base.covariance - carry * followed_->T_odom_base.covariance * carry.transpose();
-  return UncertainPose{.mean = motion, .covariance = kDistrust * kDistrust * own + least()};
+  return {.mean = motion, .covariance = kDistrust * kDistrust * own};
+}
+
+std::optional<UncertainPose> WheelBridge::measured() const {
+  if (!now_ || !followed_ || now_->slipping) return std::nullopt;
+  UncertainPose motion = difference();
+  motion.covariance += deviations(kStamps_m, kStamps_rad);
+  return motion;
+}
+
+std::optional<UncertainPose> WheelBridge::since_followed() const {
+  if (!now_ || !followed_) return std::nullopt;
+  UncertainPose motion = difference();
+  motion.covariance += least();
+  return motion;
+}
+
+MotionFilter WheelBridge::move(MotionFilter followed, double dt_s) const {
+  followed.predict_by(*since_followed(), twist(), twist_deviation(), dt_s);
+  return followed;
 }
 
 Vector6 WheelBridge::twist() const {

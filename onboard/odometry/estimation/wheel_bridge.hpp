@@ -5,6 +5,7 @@
 
 #include "hal/drive.hpp"
 #include "hal/se3.hpp"
+#include "onboard/odometry/estimation/motion_filter.hpp"
 
 namespace cairn::odometry {
 
@@ -19,15 +20,20 @@ class WheelBridge {
   /// Nothing connects to what comes next.
   void forget() { followed_.reset(); }
 
+  /// Motion of the base since the last followed scan, as the wheels measure it. None without wheels, now or then, and
+  /// where they contradict each other.
+  [[nodiscard]] std::optional<UncertainPose> measured() const;
   /// Motion of the base since the last followed scan, with the wheels' covariance (of a right perturbation), widened by
   /// what wheels do not measure. None without wheels, now or then.
   [[nodiscard]] std::optional<UncertainPose> since_followed() const;
+  /// The filter of that scan, moved on by since_followed(), which is there. `dt_s`: seconds since that scan, above 0.
+  [[nodiscard]] MotionFilter move(MotionFilter followed, double dt_s) const;
   /// Of base_link in base_link, m/s and rad/s. Valid where since_followed() is.
   [[nodiscard]] Vector6 twist() const;
-  /// Standard deviations of twist(), m/s and rad/s. Chosen by hand.
-  [[nodiscard]] static Vector6 twist_deviation() { return (Vector6() << 0.3, 0.2, 0.1, 0.3, 0.3, 0.3).finished(); }
 
  private:
+  [[nodiscard]] UncertainPose difference() const;
+
   std::optional<DriveState> now_, followed_;
 };
 

@@ -42,6 +42,7 @@ struct TaskFigures {
 /// Totals of odometry over a run.
 struct OdometryStats {
   std::uint64_t degenerate_scans = 0;     ///< some direction was not observable
+  std::uint64_t wheel_scans = 0;          ///< of these, along which wheels told the motion
   std::uint64_t lost_scans = 0;           ///< registration refused; the motion was predicted
   double lost_s = 0;                      ///< from the scan before each of them
   std::optional<double> mean_iterations;  ///< none without a pose

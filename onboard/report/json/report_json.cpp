@@ -215,6 +215,7 @@ Json to_json(const RunReport& report) {
           {"shed", shed_json(report)},
           {"odometry",
            {{"degenerate_scans", report.odometry.degenerate_scans},
+            {"wheel_scans", report.odometry.wheel_scans},
             {"lost_scans", report.odometry.lost_scans},
             {"lost_s", report.odometry.lost_s},
             {"mean_iterations", or_null(report.odometry.mean_iterations)}}},

@@ -27,6 +27,14 @@ void note_split(NoteList& notes, const RunReport& report) {
   notes.error(text + ".", remedy);
 }
 
+void note_open_directions(NoteList& notes, const OdometryStats& odometry) {
+  if (odometry.degenerate_scans == 0) return;
+  std::string text = fmt::format("{} scans left a direction of motion open, as in a corridor or an open field",
+                                 odometry.degenerate_scans);
+  text += odometry.wheel_scans > 0 ? fmt::format("; in {} of them the wheels told it.", odometry.wheel_scans) : ".";
+  notes.warning(text, "the covariance says which direction");
+}
+
 }  // namespace
 
 void note_odometry(NoteList& notes, const RunReport& report) {
@@ -38,10 +46,7 @@ void note_odometry(NoteList& notes, const RunReport& report) {
                             odometry.lost_s, odometry.lost_scans, report.trajectory.size()),
                 "do not rely on the path there; docs/tuning-budgets.md says what to try");
   note_split(notes, report);
-  if (odometry.degenerate_scans > 0)
-    notes.warning(fmt::format("{} scans left a direction of motion open, as in a corridor or an open field.",
-                              odometry.degenerate_scans),
-                  "the covariance says which direction");
+  note_open_directions(notes, odometry);
 }
 
 }  // namespace cairn::report

@@ -78,9 +78,10 @@ class SecondLookInARoom : public ::testing::Test {
   }
   std::optional<Fit> second(const Selection& scan, const Fit& before, int steps = kAmple) {
     Budget budget = Budget::steps(steps);
-    return look_.find(scan, map_, wide_, before, kStep_s, registration_, budget);
+    return look_.find(scan, map_, wide_, before, kStep_s, registration_, budget, possible_);
   }
 
+  SecondLook::Possible possible_ = [](const MotionState&) { return true; };
   Workers workers_{1};
   PatchMap map_{{.finest_block_m = 0.5, .max_blocks = 1 << 14, .max_points_per_block = 400, .criteria = {}}};
   MotionFilter narrow_, wide_;
@@ -111,12 +112,21 @@ TEST_F(SecondLookInARoom, LeavesAGoodFitAlone) {
   EXPECT_FALSE(second(scan, good));
 }
 
+TEST_F(SecondLookInARoom, DoesNotFindWhatIsNotPossible) {
+  const SE3 truth = SE3::from_xyz_rpy((Vector6() << 0.2, -0.15, 0.02, 0.05, -0.05, 0.5).finished());
+  const Selection scan = scan_from(truth);
+  const Fit missed = first(scan);
+  ASSERT_TRUE(second(scan, missed));
+  possible_ = [](const MotionState&) { return false; };
+  EXPECT_FALSE(second(scan, missed));
+}
+
 TEST_F(SecondLookInARoom, WithoutTimeOrPointsNothingIsFound) {
   const SE3 truth = SE3::from_xyz_rpy((Vector6() << 0, 0, 0, 0, 0, 0.5).finished());
   const Selection scan = scan_from(truth);
   Budget spent = Budget::steps(1);
   EXPECT_TRUE(spent.one_more());
-  EXPECT_FALSE(look_.find(scan, map_, wide_, first(scan), kStep_s, registration_, spent));
+  EXPECT_FALSE(look_.find(scan, map_, wide_, first(scan), kStep_s, registration_, spent, possible_));
   keypoints_.clear();
   EXPECT_FALSE(second({.for_map = {}, .keypoints = keypoints_, .duration_s = 0}, {}));
 }

@@ -144,7 +144,8 @@ inline std::unique_ptr<SampleRun> sample_run(int scans = 600, double resolution 
   r.start = at_seconds(100);
   r.duration_s = 0.1 * scans, r.scans = static_cast<std::uint64_t>(scans), r.lost_packets = 3;
   r.ticks = {static_cast<std::uint64_t>(scans) * 10, 0, from_seconds(180e-6)};
-  r.odometry = {14, 0, 0, 6.4};
+  r.odometry.degenerate_scans = 14;
+  r.odometry.mean_iterations = 6.4;
   r.peak_rss_mb = 143.2;
   r.control_thread_allocations = 0;
   sample::drive(r, scans, 6e-4);
