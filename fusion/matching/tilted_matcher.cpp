@@ -74,7 +74,7 @@ Result<MatchResult> TiltedMatcher::match(const std::optional<UncertainPose>& ini
       auto result = GlobalMatcher(*a->features, *all_b[i].features).match(std::nullopt, budget);
       if (!result) return result;
       const bool sure = result->accepted;
-      if (!best || result->evidence.score > best->evidence.score)
+      if (!best || sure || result->evidence.score > best->evidence.score)
         best = in_own_frames(*std::move(result), turn_a, turns_b[i]);
       best->iterations = budget.spent();
       if (sure || budget.spent() == spent) return *best;

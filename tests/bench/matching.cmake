@@ -2,6 +2,8 @@
 foreach(program IN ITEMS matching_protocol matching_evidence)
   cairn_quality(${program} SOURCES ${program}.cpp LINK cairn_protocol)
 endforeach()
+cairn_quality(matching_unlike SOURCES matching_unlike.cpp ${CMAKE_SOURCE_DIR}/tools/protocol/methods/starts.cpp
+  LINK cairn_matching cairn_recording)
 cairn_bench(merging SOURCES merging_bench.cpp LINK cairn_merging)
 cairn_bench(features SOURCES features_bench.cpp LINK cairn_matching)
 if(embree_FOUND)

@@ -32,7 +32,8 @@ class MapFeatures {
   static Result<MapFeatures> build(const mapping::SemanticOcTree& map, const FeatureConfig& config = {});
   static Result<MapFeatures> build(mapping::SemanticOcTree&&, const FeatureConfig& = {}) = delete;
 
-  /// Reads the changed tiles again (see Mapper::take_changed_tiles()). The result equals build()'s.
+  /// Reads the changed tiles again (see Mapper::take_changed_tiles()). The result equals build()'s,
+  /// but for the weights of voxels whose log-odds merely moved: such tiles are not told.
   void update(std::span<const mapping::TileKey> changed);
 
   [[nodiscard]] const mapping::SemanticOcTree& map() const { return *map_; }

@@ -3,6 +3,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <cmath>
 
 namespace cairn::matching {
 namespace {
@@ -11,7 +12,14 @@ constexpr int kTile_voxels = 1 << mapping::TileKey::kVoxelBits;  // edge of a ti
 // Added to the spread's diagonal, in squared cells: keeps the eigenvalues of exact planes apart
 // from zero. Chosen by hand, not tuned.
 constexpr float kLeastSpread_cells2 = 1e-6F;
+// Of a voxel: keeps the sums of a cell apart from zero, and bounds them where a map has no doubt.
+constexpr float kLeastEvidence = 0.02F, kLeastDoubt = 0.001F;
 constexpr float kUniformVariance = 12;  // a uniform distribution of width d has variance d²/12
+
+/// The log-odds that a voxel is occupied.
+float evidence_of(const Voxel& v) {
+  return std::max(kLeastEvidence, std::log(v.occupancy / std::max(kLeastDoubt, 1 - v.occupancy)));
+}
 
 int floor_div(int a, int b) { return a >= 0 ? a / b : -((-a + b - 1) / b); }
 
@@ -70,8 +78,10 @@ void SurfelGrid::replace_tile(mapping::TileKey tile, std::span<const Voxel> voxe
     const Eigen::Vector3i in_cell = v.key - voxels_per_cell_ * key;
     const Eigen::Vector3f d =
         ((in_cell.cast<float>().array() + 0.5F) - 0.5F * static_cast<float>(voxels_per_cell_)) * resolution_m_;
-    cell.sum += d;
-    cell.squares.noalias() += d * d.transpose();
+    const float weight = evidence_of(v);
+    cell.sum += weight * d;
+    cell.squares.noalias() += weight * d * d.transpose();
+    cell.evidence += weight;
     cell.occupancy += v.occupancy;
     ++cell.count;
     make_stale(static_cast<int>(&cell - cells_.data()));
@@ -99,22 +109,27 @@ void SurfelGrid::refresh() {
 Surfel SurfelGrid::fit(const Cell& cell) const {
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   Eigen::Matrix3f squares = Eigen::Matrix3f::Zero();
+  float evidence = 0;
   int count = 0;
   for_27([&](const Eigen::Vector3i& step) {
     const int i = index_.find(cell.cell + step);
     if (i == CellIndex::kNone) return;
     const Cell& other = cells_[static_cast<std::size_t>(i)];
-    const auto n = static_cast<float>(other.count);
+    const float n = other.evidence;
     const Eigen::Vector3f t = step.cast<float>() * cell_m_;
     sum += other.sum + n * t;
     squares.noalias() += other.squares + other.sum * t.transpose() + t * other.sum.transpose() + n * t * t.transpose();
+    evidence += n;
     count += other.count;
   });
   const auto own = static_cast<float>(cell.count);
-  Surfel s{.point = centre(cell) + cell.sum / own, .variation = 1.0F / 3.0F, .occupancy = cell.occupancy / own};
+  Surfel s{.point = centre(cell) + cell.sum / cell.evidence,
+           .variation = 1.0F / 3.0F,
+           .occupancy = cell.occupancy / own,
+           .evidence = cell.evidence};
   if (count < min_voxels_) return s;
-  const Eigen::Vector3f mean = sum / static_cast<float>(count);
-  const Eigen::Matrix3f spread = squares / static_cast<float>(count) - mean * mean.transpose() +
+  const Eigen::Vector3f mean = sum / evidence;
+  const Eigen::Matrix3f spread = squares / evidence - mean * mean.transpose() +
                                  kLeastSpread_cells2 * cell_m_ * cell_m_ * Eigen::Matrix3f::Identity();
   Eigen::SelfAdjointEigenSolver<Eigen::Matrix3f> solver;
   solver.computeDirect(spread);

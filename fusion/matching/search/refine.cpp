@@ -43,6 +43,9 @@ float credit(float cost, float robust_m) {
   return 1 / ((1 + distance) * (1 + distance));
 }
 
+/// How much a surfel's place counts. What stereo saw once is often behind the surface.
+float surety(const Surfel& s) { return std::min(1.0F, s.evidence / Surfel::kSeenEvidence); }
+
 }  // namespace
 
 bool level(const Surfel& target, const Surfel& source) { return target.level() && source.level(); }
@@ -69,7 +72,7 @@ NormalEquations plane_to_plane(std::span<const Surfel> target, const NearestGrid
     // The two faces of a trunk or a thin wall, seen by one robot each, are not one place.
     if (r.oriented && s.oriented && cosine < 0) continue;
     Eigen::Matrix3f W = level(r, s) ? information_of_height(R.row(2).transpose()) : information(n, s.normal);
-    W *= weight(r, s);
+    W *= weight(r, s) * surety(r) * surety(s);
     if (robust_m > 0) W *= credit(e.dot(W * e), robust_m);
     Matrix36f J;
     J << Eigen::Matrix3f::Identity(), -skew(s.point);

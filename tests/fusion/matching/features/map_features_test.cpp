@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "hal/workers.hpp"
@@ -20,6 +21,7 @@ void expect_equal(std::span<const Surfel> a, std::span<const Surfel> b) {
     ASSERT_EQ(a[i].normal, b[i].normal);
     ASSERT_EQ(a[i].variation, b[i].variation);
     ASSERT_EQ(a[i].occupancy, b[i].occupancy);
+    ASSERT_EQ(a[i].evidence, b[i].evidence);
     ASSERT_EQ(a[i].half_thickness, b[i].half_thickness);
   }
 }
@@ -57,7 +59,6 @@ TEST(MapFeatures, KeptAsTheMapGrowsAreThoseOfTheWholeMap) {
   const auto afresh = MapFeatures::build(mapper.tree());
   ASSERT_TRUE(afresh);
   ASSERT_EQ(kept->fine().size(), afresh->fine().size());
-  for (std::size_t i = 0; i < kept->fine().size(); ++i) ASSERT_EQ(kept->fine()[i].point, afresh->fine()[i].point);
   kept->update(all);
   expect_equal(kept->fine(), afresh->fine());
   expect_equal(kept->coarse(), afresh->coarse());
@@ -118,6 +119,54 @@ TEST(MapFeatures, CellsFitTilesAtAnyResolution) {
     const double voxels = static_cast<double>(features->fine_m()) / resolution;
     EXPECT_NEAR(std::fmod(8 / voxels + 1e-6, 1.0), 0, 1e-3) << resolution;
     EXPECT_LE(static_cast<double>(features->fine_m()), std::max(0.2, resolution) * 1.001);
+  }
+}
+
+/// A level floor of two layers, half of the voxels in each.
+mapping::SemanticOcTree thick_floor(float upper, float lower) {
+  mapping::SemanticOcTree map(0.2);
+  for (float x = -3; x < 3; x += 0.2F)
+    for (float y = -3; y < 3; y += 0.2F) {
+      map.setNodeValue(octomap::point3d(x + 0.1F, y + 0.1F, 0.1F), upper, true);
+      map.setNodeValue(octomap::point3d(x + 0.1F, y + 0.1F, -0.1F), lower, true);
+    }
+  map.canonicalise();
+  return map;
+}
+
+TEST(MapFeatures, AFloorOfTwoLayersOfVoxelsTellsNoPlacesApart) {
+  const auto map = thick_floor(3, 3);
+  const auto features = MapFeatures::build(map);
+  ASSERT_TRUE(features);
+  EXPECT_TRUE(std::ranges::any_of(features->fine(), [](const Surfel& s) { return s.variation > 0.1F; }));
+  for (const Surfel& s : features->fine()) {
+    const bool inside = s.point.head<2>().cwiseAbs().maxCoeff() < 2.5F;
+    EXPECT_FALSE(inside && s.structure());
+  }
+}
+
+TEST(MapFeatures, WhatWasSeenOftenCountsMoreThanWhatWasSeenOnce) {
+  const auto map = thick_floor(3.5F, 0.4F);
+  const auto features = MapFeatures::build(map);
+  ASSERT_TRUE(features);
+  for (const Surfel& s : features->fine()) {
+    if (s.point.head<2>().cwiseAbs().maxCoeff() > 2.5F) continue;
+    EXPECT_LT(s.variation, 0.1F);
+    EXPECT_NEAR(s.point.z(), 0.1F - 0.2F * 0.4F / 3.9F, 0.01F);  // the mean by evidence
+    EXPECT_NEAR(s.evidence, s.evidence > 1 ? 3.5F : 0.4F, 0.01F);
+  }
+}
+
+TEST(MapFeatures, AWallThatWasSeenOnceIsNoStructure) {
+  for (const bool often : {false, true}) {
+    mapping::SemanticOcTree map(0.2);
+    for (float x = -2; x < 2; x += 0.2F)
+      for (float z = 0; z < 2; z += 0.2F)
+        map.setNodeValue(octomap::point3d(x + 0.1F, 0.1F, z + 0.1F), often ? 3 : 0.4F, true);
+    map.canonicalise();
+    const auto features = MapFeatures::build(map);
+    ASSERT_TRUE(features);
+    EXPECT_EQ(std::ranges::any_of(features->fine(), &Surfel::structure), often);
   }
 }
 
