@@ -7,8 +7,9 @@
 namespace cairn {
 namespace {
 
-constexpr double kMateUnsure = 0.3;   // m: where a teammate is, is known so well
-constexpr double kMateGround = 0.05;  // m above its base_link: the ground below it belongs to the map
+constexpr double kMateUnsure = 0.3;                   // m: where a teammate is, is known so well
+constexpr double kMoversFrom = 0.3, kMoversTo = 2.2;  // m above base_link: there things come and go
+constexpr double kMateGround = 0.05;                  // m above its base_link: the ground below it belongs to the map
 
 /// Of overload: the first of so many, in order.
 void keep_every(int stride, std::vector<Eigen::Vector3f>& points) {
@@ -160,9 +161,12 @@ Result<void> Robot::extend_map(const LocatedScan& scan, const MapShare& share) {
   leave_mates_out(scan.stamp);
   if (people_) leave_people_out(scan, origin_odom);
   keep_every(share.every_point, points_odom_);
+  const double base = T_odom_base.translation().z();
   const auto inserted =
-      trust_ ? mapper_.insert(points_odom_, origin_odom, *trust_) : mapper_.insert(points_odom_, origin_odom);
+      trust_ ? mapper_.insert(points_odom_, origin_odom, *trust_)
+             : mapper_.insert(points_odom_, origin_odom, mapping::HeightBand{base + kMoversFrom, base + kMoversTo});
   if (!inserted) return inserted.error();
+  cleared_voxels_ += inserted->cleared;
   if (!map_began_) map_began_ = scan.stamp;
   if (people_) take_back_new_people();  // of earlier scans: this one left them out already
   if (labeller_ || depth_ || people_)

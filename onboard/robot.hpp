@@ -186,6 +186,8 @@ class Robot {
   [[nodiscard]] const odometry::MotionFilter& motion() const { return odometry().motion(); }
   [[nodiscard]] odometry::MotionNoise expected_noise() const { return odometry().expected_noise(); }
   [[nodiscard]] const mapping::SemanticOcTree& map() const { return mapper_.tree(); }
+  /// Voxels that something had entered and left, in all maps; see EnteredVoxels.
+  [[nodiscard]] std::uint64_t cleared_voxels() const { return cleared_voxels_; }
   /// Of map(). It may lag behind the last TrackPoint's.
   [[nodiscard]] std::uint32_t map_epoch() const { return mapped_epoch_; }
   static constexpr std::size_t kEarlierMaps = 3;
@@ -218,6 +220,7 @@ class Robot {
   std::optional<Time> map_began_;   // its first scan
   std::vector<EarlierMap> earlier_;
   std::size_t dropped_maps_ = 0;
+  std::uint64_t cleared_voxels_ = 0;
   std::vector<Eigen::Vector3f> points_odom_;  // reused
   /// Where the robot was; nothing while the scan after `t` is still to come.
   [[nodiscard]] Result<std::optional<SE3>> T_odom_base_at(Time t) const;

@@ -16,7 +16,7 @@ declare -rA packages=(
   # the proof that another vendor's DDS reads cairn-ros (tests/tools/ros/process/foreign_test.cpp)
   [foreign_dds]="libfastrtps-dev libfastcdr-dev"
   [bench]="libbenchmark-dev jq"
-  # tools/protocol.sh alone: PCL's libraries without libpcl-dev, which depends on VTK, Qt and Java; see there for the headers
+  # tools/protocol.sh and protocol_people.sh alone: PCL's libraries without libpcl-dev, which depends on VTK, Qt and Java; see there for the headers
   [protocol]="libpcl-registration1.13 libpcl-features1.13 libpcl-filters1.13 libpcl-search1.13 libpcl-kdtree1.13
               libpcl-octree1.13 libpcl-sample-consensus1.13 libpcl-common1.13 libflann1.9 libboost-dev"
   [ci]="clang-14 clang-format-14 clang-tidy-14 clangd-14 libclang-rt-14-dev shellcheck git"

@@ -11,7 +11,7 @@
 #                 The default method and those on edges always run from all (default 125)
 #     --quick     --starts 5 and shorter recordings
 # It takes about 45 minutes on two idle cores, with two OctoMaps, after the build; with --starts 25 a quarter of an hour.
-# This script alone installs and uses PCL.
+# This script and protocol_people.sh alone install and use PCL.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 seed=1001 out=protocol octomaps=() starts=125 seconds=60
@@ -26,16 +26,6 @@ while (($# > 0)); do
     *) echo "protocol.sh: unknown argument '$1' (see --help)" >&2 && exit 2 ;;
   esac
 done
-
-# libpcl-dev depends on VTK, Qt and Java, none of which is used here. Where it is not installed, its headers alone are
-# unpacked into the build's folder.
-unpack_headers() {
-  local into=$PWD/build/protocol/pcl package
-  [[ ! -d /usr/include/pcl-1.13 && ! -d $into/usr/include/pcl-1.13 ]] || return 0
-  mkdir -p "$into/packages"
-  (cd "$into/packages" && apt-get -qq -o APT::Sandbox::User=root download libpcl-dev libflann-dev)
-  for package in "$into"/packages/*.deb; do dpkg-deb -x "$package" "$into"; done
-}
 
 # Two robots in each scene; one with LiDAR and depth camera.
 record() {
@@ -64,7 +54,7 @@ jobs() {
 step() { printf '%s/4 %s (after %d min %02d s)\n' "$1" "$2" $((SECONDS / 60)) $((SECONDS % 60)) >&2; }
 
 tools/packages.sh build protocol
-unpack_headers
+source tools/protocol/pcl_headers.sh
 build protocol --target cairn protocol pcl_baselines
 bin=build/protocol/bin cairn=build/protocol/bin/cairn
 mkdir -p "$out"

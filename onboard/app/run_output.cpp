@@ -198,6 +198,7 @@ Result<void> write_earlier_maps(const RunFacts& facts, const fs::path& folder, r
     hashed.push_back(folder / report.earlier_maps.back());
     if (const auto r = mapping::save_cairn(*map.tree, hashed.back()); !r) return r.error();
   }
+  report.cleared_voxels = facts.tasks.robot.cleared_voxels();
   report.dropped_maps = facts.tasks.robot.dropped_maps();
   return {};
 }

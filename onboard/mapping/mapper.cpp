@@ -14,8 +14,6 @@ constexpr std::size_t kMegabyte = std::size_t{1} << 20U;
 // Tiles. Lists of changed tiles have room for so many from the start, and grow beyond it.
 constexpr std::size_t kTiles = std::size_t{1} << 14U;
 
-constexpr float kFreeRays = 3;  // that went through make a voxel free
-
 std::size_t megabytes(int n) { return static_cast<std::size_t>(n) * kMegabyte; }
 
 }  // namespace
@@ -54,6 +52,7 @@ std::unique_ptr<SemanticOcTree> Mapper::begin_anew() {
   auto before = std::exchange(tree_, std::make_unique<SemanticOcTree>(config_.resolution_m));
   set_up();
   changed_.clear();
+  entered_.forget();
   return before;
 }
 
@@ -83,6 +82,17 @@ Result<InsertReport> Mapper::insert(std::span<const Eigen::Vector3f> points_map,
   auto inserted = insert(points_map, origin_map);
   rays_.set_max_range(config_.max_range_m);
   tree_->set_sensor_model(usual);
+  return inserted;
+}
+
+Result<InsertReport> Mapper::insert(std::span<const Eigen::Vector3f> points_map, const Eigen::Vector3f& origin_map,
+                                    const HeightBand& band) {
+  auto inserted = insert(points_map, origin_map);
+  if (!inserted || !config_.clear_movers) return inserted;
+  entered_.follow(applier_.entered(), footprints_.front(), *tree_, band);
+  changed_now_.clear();
+  inserted->cleared = entered_.clear(*tree_, changed_now_);
+  note_changed();
   return inserted;
 }
 

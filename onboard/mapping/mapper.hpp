@@ -10,6 +10,7 @@
 
 #include "hal/result.hpp"
 #include "hal/workers.hpp"
+#include "onboard/mapping/insert/entered_voxels.hpp"
 #include "onboard/mapping/insert/footprint.hpp"
 #include "onboard/mapping/insert/footprint_applier.hpp"
 #include "onboard/mapping/insert/retraction.hpp"
@@ -27,6 +28,7 @@ struct InsertReport {
   std::size_t not_finite = 0;     ///< of these, left out because a coordinate is NaN or infinite
   std::size_t outside_map = 0;    ///< of these, left out because they lie outside of the ±2¹⁵ voxels of a tree
   std::size_t rays = 0;           ///< marched, after points in the same voxel became one
+  std::size_t cleared = 0;        ///< voxels that something had entered and left; see EnteredVoxels
   std::size_t changed_tiles = 0;  ///< see Mapper::changed_tiles()
 };
 
@@ -58,6 +60,11 @@ class Mapper {
   /// The same for a sensor whose points mean less or more, or that sees less far.
   Result<InsertReport> insert(std::span<const Eigen::Vector3f> points_map, const Eigen::Vector3f& origin_map,
                               const SensorTrust& trust);
+
+  /// The same as the first, and then clears what moved between the heights of `band` and has gone; see EnteredVoxels.
+  /// Without MappingConfig::clear_movers it is the same.
+  Result<InsertReport> insert(std::span<const Eigen::Vector3f> points_map, const Eigen::Vector3f& origin_map,
+                              const HeightBand& band);
 
   /// Adds what a picture told of points, in the map frame, to the voxels that are occupied; see LabelUpdater. Occupancy
   /// does not change. A voxel that becomes free loses its label.
@@ -93,6 +100,7 @@ class Mapper {
   ScanRays rays_;
   std::vector<Footprint> footprints_;  // one per thread; all end up in the first
   FootprintApplier applier_;
+  EnteredVoxels entered_;
   LabelUpdater labels_;
   Retraction retraction_;
   std::vector<TileKey> changed_, changed_now_, merged_;

@@ -15,6 +15,7 @@ struct MappingConfig {
   double clamping_min = 0.1192;  ///< occupancy is never below; log-odds −2, five misses
   double clamping_max = 0.971;   ///< occupancy is never above; log-odds +3.5, five hits
   double label_trust = 0.2;      ///< how much a picture counts: those that follow show the same errors again
+  bool clear_movers = true;      ///< what came into free space and went is cleared at once; see EnteredVoxels
   int reserve_mb = 0;            ///< MB of nodes, taken and touched at the start. 0: memory is taken when it is needed.
   int max_mb = 4096;             ///< MB of nodes. A larger map takes no further scan. Chosen by hand.
   int max_scan_mb = 256;         ///< MB. A scan that touches more space is refused: 250 000 bricks of 1.6 m at 0.1 m.
@@ -38,6 +39,7 @@ inline void declare(config::Section& s, MappingConfig& c) {
   s.number("clamping_max", c.clamping_max, {0.5, 0.999}, "", "occupancy probability is never above");
   s.number("label_trust", c.label_trust, {0.01, 1}, "",
            "share of its evidence with which a picture counts: pictures that follow each other err together");
+  s.flag("clear_movers", c.clear_movers, "what came into free space and went is cleared sooner than by misses alone");
   s.integer("reserve_mb", c.reserve_mb, {0, 65536}, "MB", "memory for nodes that is taken and touched at the start");
   s.integer("max_mb", c.max_mb, {16, 65536}, "MB", "no further scan is inserted when the nodes take more memory");
   s.integer("max_scan_mb", c.max_scan_mb, {8, 4096}, "MB", "scans that touch more space than fits are refused");

@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps of tools/protocol.sh that need no PCL: protocol pairs | match | report.
+// The steps of tools/protocol.sh and tools/protocol_people.sh that need no PCL: protocol pairs | match | report, and
+// missions | match | people.
 #include <CLI/CLI.hpp>
 #include <iostream>
 
 #include "tools/protocol/methods/run_methods.hpp"
+#include "tools/protocol/missions/mission_pairs.hpp"
+#include "tools/protocol/missions/mission_report.hpp"
 #include "tools/protocol/pairs/make_pairs.hpp"
 #include "tools/protocol/report/report.hpp"
 
@@ -57,8 +60,21 @@ int main(int argc, char** argv) {
   tell->add_option("--pairs", results, "folder of the pairs")->required();
   tell->add_option("--seed", seed, "to be told");
   tell->add_option("--out", out, "folder of the report")->required();
+  MissionsOptions missions;
+  CLI::App* pair_up = app.add_subcommand("missions", "runs of two robots among people → pairs of maps");
+  pair_up->add_option("--recordings", missions.recordings, "LIGHT/robot_N")->required();
+  pair_up->add_option("--runs", missions.runs, "LIGHT/PIPELINE/PHASE/robot_N")->required();
+  pair_up->add_option("--out", missions.out, "gets a folder for each pair")->required();
+  fs::path pictures;
+  CLI::App* people = app.add_subcommand("people", "pairs of missions with their outcomes → people.json, people.html");
+  people->add_option("--pairs", results, "folder of the pairs")->required();
+  people->add_option("--pictures", pictures, "folder of PNG files to be shown");
+  people->add_option("--seed", seed, "to be told");
+  people->add_option("--out", out, "folder of the report")->required();
   CLI11_PARSE(app, argc, argv);
   if (*make) return outcome(make_pairs(pairs));
   if (*run) return outcome(match(dir, methods, starts));
+  if (*pair_up) return outcome(make_missions(missions));
+  if (*people) return outcome(write_missions(results, pictures, seed, out));
   return outcome(write_report(results, seed, out));
 }

@@ -41,7 +41,8 @@ bool any(Masks mask) { return (mask[0] | mask[1] | mask[2] | mask[3]) != 0; }
 struct VoxelUpdate {
   VoxelUpdate(const SemanticNode* voxels, unsigned free, unsigned occupied, const SensorModel& model) {
     const Masks bits{1, 2, 4, 8};
-    Masks changes{}, state_changes{}, news{};
+    Masks changes{}, state_changes{}, news{}, entered_bits{};
+    const Floats free_before = all(model.min);  // beyond doubt: what flickers at edges is never so
     for (unsigned half = 0; half < 2; ++half) {
       const SemanticNode* four = voxels + 4 * half;
       const Floats old{four[0].getLogOdds(), four[1].getLogOdds(), four[2].getLogOdds(), four[3].getLogOdds()};
@@ -59,12 +60,14 @@ struct VoxelUpdate {
       changes |= after != old;
       news -= touched & ~known;
       state_changes |= touched & (~known | ((old >= model.occupied) ^ (after >= model.occupied)));
+      entered_bits |= hit & known & (before <= free_before) & (bits << static_cast<int>(4 * half));
       values[half] = after;
     }
     const Masks unequal = (values[0] != values[0][0]) | (values[1] != values[0][0]);
     changed = any(changes);
     state_changed = any(state_changes);
     all_equal = !any(unequal);
+    entered = static_cast<std::uint8_t>(entered_bits[0] | entered_bits[1] | entered_bits[2] | entered_bits[3]);
     added = news[0] + news[1] + news[2] + news[3];
     const Floats higher = choose(values[0] > values[1], values[0], values[1]);
     highest = std::max(std::max(higher[0], higher[1]), std::max(higher[2], higher[3]));
@@ -76,7 +79,8 @@ struct VoxelUpdate {
 
   Floats values[2];
   float highest;
-  int added;  // voxels that were unknown
+  int added;             // voxels that were unknown
+  std::uint8_t entered;  // voxels that were free and are hit
   bool changed, state_changed, all_equal;
 };
 
@@ -93,8 +97,8 @@ void drop_labels_of_free(SemanticNode* block, float occupied) {
 
 }  // namespace
 
-BrickUpdater::Outcome BrickUpdater::update(SemanticNode* brick, bool made, const std::uint64_t* free,
-                                           const std::uint64_t* occupied) {
+BrickUpdater::Outcome BrickUpdater::update(SemanticNode* brick, std::uint64_t path, bool made,
+                                           const std::uint64_t* free, const std::uint64_t* occupied) {
   std::array<Summary, kOctants> tiles;
   Summary all;
   for (unsigned i = 0; i < kOctants; ++i) {
@@ -114,6 +118,7 @@ BrickUpdater::Outcome BrickUpdater::update(SemanticNode* brick, bool made, const
     bool made_tile = false;
     SemanticNode* tile = writer_.child(brick, i, made_tile);
     state_changed_ = false;
+    path_ = path << 3 | i;
     outcome.changed |= update_tile(tile, made_tile, free + i * kTileWords, occupied + i * kTileWords);
     outcome.changed_octants |= static_cast<std::uint8_t>(state_changed_ ? 1U << i : 0U);
   }
@@ -124,6 +129,7 @@ BrickUpdater::Outcome BrickUpdater::update(SemanticNode* brick, bool made, const
 bool BrickUpdater::update_tile(SemanticNode* tile, bool made, const std::uint64_t* free,
                                const std::uint64_t* occupied) {
   bool changed = made;
+  const std::uint64_t path = path_;
   if (!made && tile->block() == nullptr) {
     const Summary s = summarise(free, occupied);
     const Leaf leaf = update_leaf(tile, s.occupied != 0, s.all_free == kAll);
@@ -135,6 +141,7 @@ bool BrickUpdater::update_tile(SemanticNode* tile, bool made, const std::uint64_
     look_ahead_.step();
     bool made_word = false;
     SemanticNode* word = writer_.child(tile, i, made_word);
+    path_ = path << 3 | i;
     changed |= update_word(word, made_word, free[i] & ~occupied[i], occupied[i]);
   }
   if (changed) writer_.refresh(tile);
@@ -148,11 +155,12 @@ bool BrickUpdater::update_word(SemanticNode* node, bool made, std::uint64_t free
     if (leaf != Leaf::kExpanded) return leaf == Leaf::kUpdated;
     changed = true;
   }
-  const std::uint64_t touched = free | occupied;
+  const std::uint64_t touched = free | occupied, path = path_;
   for (unsigned i = 0; i < SemanticNode::kChildren; ++i) {
     if ((touched >> (8 * i) & 0xFF) == 0) continue;
     bool made_parent = false;
     SemanticNode* parent = writer_.child(node, i, made_parent);
+    path_ = path << 3 | i;
     changed |= update_voxels(parent, made_parent, free >> (8 * i) & 0xFF, occupied >> (8 * i) & 0xFF);
   }
   if (changed) writer_.refresh(node);
@@ -172,6 +180,7 @@ bool BrickUpdater::update_voxels(SemanticNode* parent, bool made, unsigned free,
   }
   const VoxelUpdate update(parent->block(), free, occupied, model_);
   state_changed_ |= update.state_changed;
+  if (update.entered != 0 && entered_.size() < entered_.capacity()) entered_.push_back({path_, update.entered});
   if (!changed && !update.changed) return false;
   update.write(parent->block());
   if (update.state_changed) drop_labels_of_free(parent->block(), model_.occupied);

@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
+#include "onboard/mapping/insert/entered_voxels.hpp"
 #include "onboard/mapping/insert/look_ahead.hpp"
 #include "onboard/mapping/tree/node_writer.hpp"
 #include "onboard/mapping/tree/sensor_model.hpp"
@@ -22,13 +24,15 @@ class BrickUpdater {
     std::uint8_t changed_octants = 0;  ///< the tiles (8³) in which a voxel became known, or free ↔ occupied
   };
 
-  BrickUpdater(NodeWriter& writer, const SensorModel& model, LookAhead& look_ahead)
-      : writer_(writer), model_(model), look_ahead_(look_ahead) {}
+  /// `entered` gets what was free and is hit, in the order of the tree, as far as it has capacity.
+  BrickUpdater(NodeWriter& writer, const SensorModel& model, LookAhead& look_ahead, std::vector<EnteredBlock>& entered)
+      : writer_(writer), model_(model), look_ahead_(look_ahead), entered_(entered) {}
 
   /// `free` and `occupied` are BrickBits; occupied wins. `made`: the node was just created, so everything below it is
   /// unknown, while otherwise a node without children is a pruned leaf.
-  /// `look_ahead` has turned to this brick.
-  Outcome update(SemanticNode* brick, bool made, const std::uint64_t* free, const std::uint64_t* occupied);
+  /// `path` is the brick's. `look_ahead` has turned to this brick.
+  Outcome update(SemanticNode* brick, std::uint64_t path, bool made, const std::uint64_t* free,
+                 const std::uint64_t* occupied);
 
  private:
   bool update_tile(SemanticNode* tile, bool made, const std::uint64_t* free, const std::uint64_t* occupied);
@@ -52,6 +56,8 @@ class BrickUpdater {
   NodeWriter& writer_;
   SensorModel model_;
   LookAhead& look_ahead_;
+  std::vector<EnteredBlock>& entered_;
+  std::uint64_t path_ = 0;      // of the node at hand, down to the parent of voxels
   bool state_changed_ = false;  // in the tile at hand
 };
 

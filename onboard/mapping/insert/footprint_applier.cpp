@@ -26,9 +26,15 @@ std::span<const Item> same_child(std::span<const Item> items, unsigned depth) {
 
 }  // namespace
 
+FootprintApplier::FootprintApplier() {
+  for (auto& part : entered_by_part_) part.reserve(kMostEntered);
+  entered_.reserve(entered_by_part_.size() * kMostEntered);
+}
+
 void FootprintApplier::apply(Footprint& footprint, SemanticOcTree& tree, Workers& workers,
                              std::vector<TileKey>& changed) {
   const std::span<const BrickRef> bricks = footprint.sorted_bricks();
+  entered_.clear();
   if (bricks.empty()) return;
   footprint_ = &footprint;
   tree_ = &tree;
@@ -39,6 +45,7 @@ void FootprintApplier::apply(Footprint& footprint, SemanticOcTree& tree, Workers
   update_bricks(workers);
   if (!jobs_.empty()) ascend(root, 0, jobs_);
   tree.settle_count();
+  list_entered();
   list_changed(changed);
 }
 
@@ -81,7 +88,9 @@ void FootprintApplier::update_bricks(Workers& workers) {
   const SensorModel model = tree_->sensor_model();
   workers.for_each(SemanticOcTree::kWriters, [&](std::size_t part) {
     LookAhead look_ahead;
-    BrickUpdater updater(tree_->writer(static_cast<unsigned>(part)), model, look_ahead);
+    std::vector<EnteredBlock>& entered = entered_by_part_.at(part);
+    entered.clear();
+    BrickUpdater updater(tree_->writer(static_cast<unsigned>(part)), model, look_ahead, entered);
     const std::size_t first = jobs_.size() * part / SemanticOcTree::kWriters;
     const std::size_t last = jobs_.size() * (part + 1) / SemanticOcTree::kWriters;
     if (first < last) turn(look_ahead, &jobs_[first]);
@@ -91,7 +100,7 @@ void FootprintApplier::update_bricks(Workers& workers) {
       if (i + 2 < last) LookAhead::fetch_words(jobs_[i + 2].node);
       Job& job = jobs_[i];
       const auto outcome =
-          updater.update(job.node, job.made, footprint_->free(job.slot), footprint_->occupied(job.slot));
+          updater.update(job.node, job.path, job.made, footprint_->free(job.slot), footprint_->occupied(job.slot));
       job.changed |= outcome.changed;
       job.changed_octants = outcome.changed_octants;
     }
@@ -110,6 +119,10 @@ bool FootprintApplier::ascend(SemanticNode* node, unsigned depth, std::span<cons
   }
   if (changed) tree_->writer(0).refresh(node);
   return changed;
+}
+
+void FootprintApplier::list_entered() {
+  for (const auto& part : entered_by_part_) entered_.insert(entered_.end(), part.begin(), part.end());
 }
 
 void FootprintApplier::list_changed(std::vector<TileKey>& changed) const {

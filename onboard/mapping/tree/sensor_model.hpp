@@ -3,6 +3,9 @@
 
 namespace cairn::mapping {
 
+/// Rays that went through make a voxel free beyond doubt.
+inline constexpr float kFreeRays = 3;
+
 /// How one observation moves the log-odds of a voxel; floats, and rules, as in OctoMap.
 struct SensorModel {
   float hit;       ///< added when the voxel was hit, ≥ 0

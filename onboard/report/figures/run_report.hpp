@@ -162,6 +162,7 @@ struct RunReport {
   /// Files of maps whose place in `map` is not known, the oldest first; and how many more were not kept.
   std::vector<std::string> earlier_maps;
   std::size_t dropped_maps = 0;
+  std::uint64_t cleared_voxels = 0;  ///< of the map: something had come into free space there, and went
   std::optional<std::uint64_t> map_file_bytes;
   std::optional<MapPicture> picture;  ///< from above
 

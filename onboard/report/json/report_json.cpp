@@ -162,6 +162,7 @@ Json map_json(const RunReport& report) {
           {"occupied", map.occupied},
           {"free", map.free},
           {"labelled", map.labelled},
+          {"cleared", report.cleared_voxels},
           {"bytes", map.memory_bytes},
           {"file_bytes", or_null(report.map_file_bytes)},
           {"nodes", map.nodes},

@@ -170,6 +170,7 @@ std::string details_section(const RunReport& report) {
   std::string s = "<section><h2>Details</h2><div class=\"pair\"><table>\n";
   s +=
       row("occupied, free, labelled voxels", count(map.occupied) + ", " + count(map.free) + ", " + count(map.labelled));
+  if (report.cleared_voxels > 0) s += row("voxels cleared of what came and went", count(report.cleared_voxels));
   s += row("known volume", number(map.known_volume_m3()) + " m³");
   s += row("map in memory", bytes(static_cast<double>(map.memory_bytes)));
   if (report.map_file_bytes) s += row("map.cairn", bytes(static_cast<double>(*report.map_file_bytes)));

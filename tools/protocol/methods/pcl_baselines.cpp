@@ -13,11 +13,13 @@
 
 #include <cstdlib>
 #include <iostream>
+#include <optional>
 
 #include "fusion/matching/features/map_voxels.hpp"
 #include "fusion/matching/features/sample.hpp"
 #include "hal/clock.hpp"
 #include "tools/protocol/methods/attempts.hpp"
+#include "tools/protocol/methods/run_methods.hpp"
 #include "tools/protocol/pairs/map_pair.hpp"
 
 namespace cairn::protocol {
@@ -74,6 +76,8 @@ struct Clouds {
 template <class Registration, class SetUp>
 MethodRun run(const MapPair& pair, std::string method, int count, const SetUp& set_up) {
   MethodRun run{std::move(method), 0, {}, {}};
+  std::optional<VoxelDistance> distance;
+  if (has_rms(pair)) distance.emplace(pair);
   Registration registration;
   Duration began = thread_cpu_time();
   set_up(registration);
@@ -92,6 +96,7 @@ MethodRun run(const MapPair& pair, std::string method, int count, const SetUp& s
     const Eigen::Matrix4d T = registration.getFinalTransformation().template cast<double>();
     const SE3 T_a_b(Eigen::Matrix3d(T.topLeftCorner<3, 3>()), Eigen::Vector3d(T.topRightCorner<3, 1>()));
     run.attempts.push_back({start, T_a_b, error_of(T_a_b, pair.T_a_b), seconds, registration.iterations(), false, {}});
+    if (distance) run.attempts.back().rms_m = distance->rms(T_a_b);
   }
   return run;
 }
@@ -105,6 +110,7 @@ std::vector<MethodRun> run_all(const MapPair& pair, int count) {
   };
   std::vector<MethodRun> runs;
   runs.push_back(run<Icp>(pair, "icp", count, points));
+  if (pair.kind == kMission) return runs;  // the book has no other beside its own there
   runs.push_back(run<PlaneIcp>(pair, "p2plane", count, [&](PlaneIcp& registration) {
     registration.setInputTarget(with_normals(clouds.a, clouds.a));
     registration.setInputSource(with_normals(clouds.b, clouds.all_of_b));

@@ -30,8 +30,11 @@ Result<Attempt> attempt_from(const MapPair& pair, const Matcher& matcher, int st
 std::vector<std::string> our_methods(const MapPair& pair) {
   if (pair.kind == kOverlap) return {"edge_icp", "pmm_level1", "pmm", "default"};
   if (pair.kind == kHeterogeneous) return {"oicp", "em", "default"};
+  if (pair.kind == kMission) return {"default"};
   return {"oicp", "edge_icp", "pmm_level1", "pmm", "em", "default"};
 }
+
+bool has_rms(const MapPair& pair) { return pair.kind == kHeterogeneous || pair.kind == kMission; }
 
 bool is_fast(std::string_view method) { return method == "edge_icp" || method == "pmm_level1" || method == "default"; }
 
@@ -48,7 +51,7 @@ Result<MethodRun> run_method(const MapPair& pair, const std::string& method, int
   if (const auto* em = dynamic_cast<const matching::Em*>(matcher->get()))
     run.correspondences = em->mean_correspondences();
   std::optional<VoxelDistance> distance;
-  if (pair.kind == kHeterogeneous) distance.emplace(pair);
+  if (has_rms(pair)) distance.emplace(pair);
   for (const int start : chosen_starts(count)) {
     auto attempt = attempt_from(pair, **matcher, start);
     if (!attempt) return attempt.error();

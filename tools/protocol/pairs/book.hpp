@@ -82,6 +82,13 @@ inline constexpr std::array kBookRms{
     BookRms{"mixed", {0.3140, 0.3078, 0.2818}, {0.2791, 0.2563, 0.2542}},
     BookRms{"Changi exhibition centre", {0.4405, 0.4054, 0.3653}, {0.4284, 0.3998, 0.3550}},
     BookRms{"forest", {0.4393, 0.3561, 0.3430}, {0.4301, 0.3374, 0.3237}}};
+/// The same among people, by day and by night (Table 6.2).
+struct BookPeopleRms {
+  std::string_view light;
+  std::array<double, 3> jessup, ours;
+};
+inline constexpr std::array kBookPeopleRms{BookPeopleRms{"day", {0.4221, 0.3411, 0.3256}, {0.4004, 0.3354, 0.3183}},
+                                           BookPeopleRms{"night", {0.4247, 0.3171, 0.2980}, {0.4173, 0.3095, 0.2908}}};
 /// Mean correspondences of a LiDAR voxel indoors (section 5.5.2): at the start and 20 s later.
 inline constexpr std::array kBookCorrespondences{3.57, 2.15};
 

@@ -19,6 +19,8 @@ inline constexpr const char* kScene = "scene";
 inline constexpr const char* kOverlap = "overlap";  ///< the same, cut to less and less overlap
 /// Table 5.2: b by LiDAR, a by a depth camera.
 inline constexpr const char* kHeterogeneous = "heterogeneous";
+/// Table 6.2: two robots among people.
+inline constexpr const char* kMission = "mission";
 
 /// Two maps of one place and where b's frame lies in a's.
 struct MapPair {
