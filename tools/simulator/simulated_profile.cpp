@@ -62,6 +62,12 @@ networks::NetworkConfig shipped_thermal_detection() {
   return network;
 }
 
+/// As config/uav.yaml has it: points of both eyes are coarser and rarer than a LiDAR's.
+void map_with_eyes(app::RobotProfile& profile) {
+  profile.mapping.resolution_m = 0.2;
+  profile.schedule.mapping.busy_hz = profile.stereo.map_rate_hz;
+}
+
 /// Three frame periods, and never less than the default.
 double silent_ms(double usual_ms, double rate_hz) { return std::clamp(3000 / rate_hz, usual_ms, 1000.0); }
 
@@ -100,6 +106,7 @@ app::RobotProfile simulated_profile(const SimulationConfig& config) {
   profile.gpio.driver.trigger_rate_hz = config.stereo.rate_hz;
   profile.failsafe.camera_silent_ms = silent_ms(profile.failsafe.camera_silent_ms, config.stereo.rate_hz);
   profile.failsafe.thermal_silent_ms = silent_ms(profile.failsafe.thermal_silent_ms, config.thermal.rate_hz);
+  if (profile.sees_its_way()) map_with_eyes(profile);
   return profile;
 }
 

@@ -49,6 +49,14 @@ void expect_same_lens(const Lens& lens, const cameras::CameraIntrinsics& intrins
     }
 }
 
+TEST(SimulatedProfile, ARobotWithoutALidarMapsAsUavYamlSays) {
+  SimulationConfig config;
+  config.sensors = {.lidar = false, .camera = true};
+  const auto profile = simulated_profile(config);
+  EXPECT_EQ(profile.mapping.resolution_m, 0.2);
+  EXPECT_EQ(profile.schedule.mapping.busy_hz, profile.stereo.map_rate_hz);
+}
+
 TEST(SimulatedProfile, SaysHowTheCamerasSee) {
   const SimulationConfig config;
   const auto profile = simulated_profile(config);
