@@ -15,7 +15,7 @@ struct MappingConfig {
   double clamping_min = 0.1192;  ///< occupancy is never below; log-odds −2, five misses
   double clamping_max = 0.971;   ///< occupancy is never above; log-odds +3.5, five hits
   double label_trust = 0.2;      ///< how much a picture counts: those that follow show the same errors again
-  bool clear_movers = true;      ///< what came into free space and went is cleared at once; see EnteredVoxels
+  bool clear_movers = false;     ///< what came into free space and went is cleared at once; see EnteredVoxels
   int reserve_mb = 0;            ///< MB of nodes, taken and touched at the start. 0: memory is taken when it is needed.
   int max_mb = 4096;             ///< MB of nodes. A larger map takes no further scan. Chosen by hand.
   int max_scan_mb = 256;         ///< MB. A scan that touches more space is refused: 250 000 bricks of 1.6 m at 0.1 m.
