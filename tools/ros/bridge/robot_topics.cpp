@@ -25,6 +25,7 @@ Result<std::unique_ptr<RobotTopics>> RobotTopics::open(RosParticipant& participa
   const auto diagnostics = Writer<DiagnosticArray>::open(participant, "/diagnostics", TopicUse::kEvent);
   const auto costmap = Writer<OccupancyGrid>::open(participant, at + "costmap", TopicUse::kLatched);
   const auto people = Writer<MarkerArray>::open(participant, at + "people", TopicUse::kEvent);
+  const auto team_people = Writer<MarkerArray>::open(participant, at + "team_people", TopicUse::kEvent);
   const auto map = MapFeed::open(participant, at + "map", clients::TileMap::kOwn, options.map, options.map_period);
   if (!odom) return odom.error();
   if (!tf) return tf.error();
@@ -33,8 +34,9 @@ Result<std::unique_ptr<RobotTopics>> RobotTopics::open(RosParticipant& participa
   if (!diagnostics) return diagnostics.error();
   if (!costmap) return costmap.error();
   if (!people) return people.error();
+  if (!team_people) return team_people.error();
   if (!map) return map.error();
-  const Writers writers{*odom, *tf, *tf_static, *points, *diagnostics, *costmap, *people};
+  const Writers writers{*odom, *tf, *tf_static, *points, *diagnostics, *costmap, *people, *team_people};
   std::unique_ptr<RobotTopics> topics(new RobotTopics(participant, std::move(options), writers, *map));
   topics->utc_.greeted(LiveClock::realtime_offset(), LiveClock::realtime_offset());
   return topics;
@@ -99,7 +101,7 @@ Result<void> RobotTopics::write(const client::EventMessage& event) {
 
 Result<void> RobotTopics::write(const client::PeopleMessage& people) {
   const Header header = header_of(people.stamp, utc_.value(), frames_.odom, arena_);
-  (void)writers_.people.write(markers_of(people, header, arena_));
+  (void)(people.robot == 0 ? writers_.people : writers_.team_people).write(markers_of(people, header, arena_));
   return {};
 }
 
@@ -146,9 +148,9 @@ void RobotTopics::write_diagnostics(Time now, const std::vector<Diagnosis>& othe
 }
 
 Diagnosis RobotTopics::traffic() const {
-  const auto& [odom, tf, tf_static, points, diagnostics, costmap, people] = writers_;
-  const std::uint64_t lost =
-      odom.lost() + tf.lost() + points.lost() + costmap.lost() + people.lost() + own_.writer().lost();
+  const auto& [odom, tf, tf_static, points, diagnostics, costmap, people, team_people] = writers_;
+  const std::uint64_t lost = odom.lost() + tf.lost() + points.lost() + costmap.lost() + people.lost() +
+                             team_people.lost() + own_.writer().lost();
   Diagnosis traffic{.level = lost == 0 ? DiagnosticLevel::kOk : DiagnosticLevel::kWarn,
                     .name = "cairn-ros",
                     .message = lost == 0 ? "all was sent" : "readers do not keep up"};
@@ -166,6 +168,7 @@ client::SubscribeMessage RobotTopics::wants() const {
   if (team_) wants.add(Stream::kTeamTiles);
   if (writers_.points.read_by_anybody()) wants.add(Stream::kScan);
   if (writers_.people.read_by_anybody()) wants.add(Stream::kPeople);
+  if (writers_.team_people.read_by_anybody()) wants.add(Stream::kTeamPeople);
   wants.pose_hz = options_.pose_hz;
   wants.own = own_.resume();
   if (team_) wants.team = team_->resume();

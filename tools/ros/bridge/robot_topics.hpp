@@ -47,7 +47,7 @@ class RobotTopics {
     Writer<PointCloud2> points;
     Writer<DiagnosticArray> diagnostics;
     Writer<OccupancyGrid> costmap;
-    Writer<MarkerArray> people;
+    Writer<MarkerArray> people, team_people;
   };
   RobotTopics(RosParticipant& participant, TopicOptions options, Writers writers, MapFeed own)
       : participant_(&participant),

@@ -33,6 +33,20 @@ TEST(RosPeople, EachIsABodyAnArrowAndANumber) {
   }
 }
 
+TEST(RosPeople, ThoseOfATeammateHaveItsIdAndRemoveNobody) {
+  client::PeopleMessage people;
+  people.robot = 3;
+  people.people.resize(1);
+  Arena arena;
+  const Header header = header_of(Time{}, {}, "odom", arena);
+  const MarkerArray array = markers_of(people, header, arena);
+  ASSERT_EQ(array.markers._length, 3U);
+  for (unsigned i = 0; i < 3; ++i) EXPECT_EQ(array.markers._buffer[i].action, 0);
+  EXPECT_STREQ(array.markers._buffer[0].ns, "people_3");
+  people.people.clear();
+  EXPECT_EQ(markers_of(people, header, arena).markers._length, 0U);
+}
+
 TEST(RosPeople, NobodyRemovesAll) {
   Arena arena;
   const Header header = header_of(Time{}, {}, "odom", arena);

@@ -53,6 +53,8 @@ TEST_F(RosProcessTest, WritersAreThoseOfRos) {
       {"rt/husky_1/costmap", endpoint_of("nav_msgs::msg::dds_::OccupancyGrid_", ros_type<OccupancyGrid>(), kLatched)},
       {"rt/husky_1/people",
        endpoint_of("visualization_msgs::msg::dds_::MarkerArray_", ros_type<MarkerArray>(), kVolatile)},
+      {"rt/husky_1/team_people",
+       endpoint_of("visualization_msgs::msg::dds_::MarkerArray_", ros_type<MarkerArray>(), kVolatile)},
       {"rt/husky_1/map", endpoint_of("octomap_msgs::msg::dds_::Octomap_", ros_type<Octomap>(), kLatched)},
       {"rt/husky_1/team_map", endpoint_of("octomap_msgs::msg::dds_::Octomap_", ros_type<Octomap>(), kLatched)}};
   start_both();
@@ -175,6 +177,8 @@ void expect_node(const Message& said, std::size_t gid_size, std::size_t writers,
 template <class Message>
 class RosNodeTest : public RosProcessTest {
  protected:
+  static constexpr unsigned kWriters = 10;  // those of WritersAreThoseOfRos
+
   /// What the program says once it has the team's map, which comes with the first greeting.
   void expect_said(const char* form, GraphForm type, std::size_t gid_size) {
     start_both({"--graph", form});
@@ -182,8 +186,8 @@ class RosNodeTest : public RosProcessTest {
     bool complete = false;
     EXPECT_TRUE(until([&] {
       take_one<Message>(reader, [&](const Message& said) {
-        complete = said.node_entities_info_seq._buffer[0].writer_gid_seq._length == 9;
-        if (complete) expect_node(said, gid_size, 9, 4);
+        complete = said.node_entities_info_seq._buffer[0].writer_gid_seq._length == kWriters;
+        if (complete) expect_node(said, gid_size, kWriters, 4);
       });
       return complete;
     }));
