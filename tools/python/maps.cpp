@@ -19,7 +19,6 @@ namespace cairn::python {
 namespace {
 
 using mapping::SemanticNode;
-using mapping::SemanticOcTree;
 
 /// What is asked of many places at once: one entry for each.
 struct Cells {

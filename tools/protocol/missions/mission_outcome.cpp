@@ -8,6 +8,7 @@
 #include "fusion/merging/merge.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/figures/map_error.hpp"
+#include "tools/protocol/pairs/map_pair.hpp"
 #include "tools/protocol/report/figures.hpp"
 
 namespace cairn::protocol {
