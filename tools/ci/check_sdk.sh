@@ -29,7 +29,8 @@ odometry_from_pcap sim/robot_1/lidar.pcap | tail -n 1
 map_from_scans sim/robot_1 one.cairn
 map_from_scans sim/robot_2 two.cairn
 match_two_maps one.cairn one.cairn both.cairn
-PYTHONPATH=$place/usr/lib/python3/dist-packages /usr/bin/python3 -B examples/read_team_map.py both.cairn | head -n 1
+PYTHONPATH=$place/usr/lib/python3/dist-packages /usr/bin/python3 -B examples/read_team_map.py both.cairn >told
+head -n 1 told
 own_sensor_driver .
 for client in follow_pose drive_square; do
   libraries=$(ldd "built/$client")
