@@ -8,7 +8,7 @@ namespace cairn::odometry {
 namespace {
 
 // A turn of the wheels differs from the base's by so much without slip: skid steering drags all four wheels sideways.
-// Chosen by hand; the simulated Husky stays below 0.3 of the turn.
+// Chosen by hand.
 constexpr double kSkid_rad = 0.02, kSkidShare = 0.5;
 
 // Only straight pieces of the way tell the scale, and only where both have moved. Errors of stamps count as metres.
@@ -16,7 +16,7 @@ constexpr double kStraight_rad = 0.02, kMoved_m = 0.03, kMeasured_m = 0.01;
 // The scale wanders by a tenth of a percent in 100 steps: tyres grow warm.
 constexpr double kWander = 1e-4;
 constexpr double kMostDeviations = 3;
-// The least distance that counts as another place: half of a search's step.
+// The least distance that counts as another place: below half of a search's step of 0.25 m. Chosen by hand.
 constexpr double kAgree_m = 0.1;
 constexpr double kLeastScale = 0.8, kMostScale = 1.25;
 
