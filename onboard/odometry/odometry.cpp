@@ -102,9 +102,9 @@ Fit LidarOdometry::align(const Selection& selected, double dt_s, Budget& budget)
     return registration_.align(selected, map_.patches(), filter_, start_hypothesis(selected, dt_s), budget, effort);
   };
   Fit first = fit();
-  if (!by_wheels && !bridged(dt_s) && wheel_aid_.open_motion(wheels_, first.degeneracy)) {
+  if (!by_wheels && !bridged(dt_s)) {
     by_wheels = wheel_aid_.open_motion(wheels_, first.degeneracy);
-    first = fit();
+    if (by_wheels) first = fit();
   }
   if (by_wheels && !second_look_.doubtful(first) &&
       WheelAid::slipped(wheels_, filter_.motion_to(first.state.T_odom_base))) {
