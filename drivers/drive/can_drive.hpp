@@ -33,6 +33,8 @@ class CanDrive final : public Drive {
 
   /// The scales are known: tick() returns states of the wheels.
   [[nodiscard]] bool reads_wheels() const { return decoder_ != nullptr; }
+  /// Every wheel by itself; none: reads_wheels() is false.
+  [[nodiscard]] WheelMotions motions() const { return decoder_ ? decoder_->motions() : WheelMotions{}; }
   [[nodiscard]] const Counters& counters() const { return counters_; }
   [[nodiscard]] const LinkMonitor& link_monitor() const { return monitor_; }
   [[nodiscard]] const Protocol& protocol() const { return *protocol_; }

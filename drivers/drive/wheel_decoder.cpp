@@ -26,7 +26,9 @@ WheelDecoder::WheelDecoder(const Config& config)
     wheel.node = static_cast<std::uint8_t>(node);
     wheel.left = left;
     wheel.metres_per_count = reversed ? -metres : metres;
+    const bool rear = std::ranges::any_of(wheels_, [&](const Wheel& other) { return other.left == left; });
     wheels_.push_back(wheel);
+    motions_.wheels[motions_.count++] = {.left = left, .rear = rear};
   };
   add(config.left_node, true);
   add(config.right_node, false);
@@ -106,11 +108,16 @@ std::optional<Travel> WheelDecoder::take_travel(Time arrival) {
   Travel travel;
   travel.stamp = arrival;
   bool known = true;
-  for (Wheel& wheel : wheels_) {
+  const double dt = last_ ? to_seconds(arrival - *last_) : 0;
+  last_ = arrival;
+  for (std::size_t i = 0; i < wheels_.size(); ++i) {
+    Wheel& wheel = wheels_[i];
     wheel.fresh.reset();
     const auto counts = wheel.counter.update(wheel.count);
     known = known && counts;
     const double metres = counts.value_or(0) * wheel.metres_per_count;
+    motions_.wheels[i].travel_m += metres;
+    motions_.wheels[i].speed_m_s = dt > 0 ? metres / dt : 0;
     Side& side = wheel.left ? left : right;
     side.sum += metres;
     side.least = std::min(side.least, metres);

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "drivers/drive/chassis/config.hpp"
@@ -12,6 +15,20 @@
 namespace cairn::drive {
 
 struct CanFrame;
+
+/// What one wheel did.
+struct WheelMotion {
+  bool left = false, rear = false;  ///< rear: behind another one of its side
+  double travel_m = 0;              ///< of its rim since the first reading, forward
+  double speed_m_s = 0;             ///< of its rim, over the last interval between readings
+};
+/// All wheels, as of the last complete set of readings.
+struct WheelMotions {
+  static constexpr std::size_t kMost = 4;
+  std::array<WheelMotion, kMost> wheels{};
+  std::size_t count = 0;
+  [[nodiscard]] std::span<const WheelMotion> all() const { return std::span(wheels).first(count); }
+};
 
 /// Frames of a drive → wheel odometry: TPDO2 of every node as this master maps it, or the odometer of AgileX. It works
 /// for a live bus, a recording or a simulation. Frames without wheel readings are skipped.
@@ -33,6 +50,8 @@ class WheelDecoder final : public DriveDecoder {
   /// The same for a frame that is decoded already.
   Result<const DriveState*> decode(const CanFrame& frame, Time arrival);
   [[nodiscard]] const Counters& counters() const { return counters_; }
+  /// Every wheel by itself.
+  [[nodiscard]] const WheelMotions& motions() const { return motions_; }
 
  private:
   struct Wheel {
@@ -55,6 +74,8 @@ class WheelDecoder final : public DriveDecoder {
   std::vector<Wheel> wheels_;
   WheelOdometry odometry_;
   bool started_ = false;
+  WheelMotions motions_;
+  std::optional<Time> last_;  // arrival of the last complete set
   Counters counters_;
 };
 

@@ -38,10 +38,11 @@ Result<void> make_socket_folder(const std::filesystem::path& folder) {
 }
 
 Devices devices_for(const RunOptions& options, const RobotProfile& profile) {
+  const bool shown = !options.sockets.empty();  // to clients
   return {.eyes = profile.sees_its_way(),
-          .camera = wants_camera(options, profile) || wants_eye(people::Eye::kVisible, options, profile),
-          .thermal = wants_eye(people::Eye::kThermal, options, profile),
-          .depth = profile.depth.map.rate_hz > 0,
+          .camera = shown || wants_camera(options, profile) || wants_eye(people::Eye::kVisible, options, profile),
+          .thermal = shown || wants_eye(people::Eye::kThermal, options, profile),
+          .depth = shown || profile.depth.map.rate_hz > 0,
           .all = !options.record.empty()};
 }
 

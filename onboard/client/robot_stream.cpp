@@ -24,6 +24,14 @@ Result<StreamMessage> as_message(Result<Message> message) {
   return StreamMessage(std::move(*message));
 }
 
+/// What a part completes; std::monostate: nothing yet.
+template <class Assembly, class Part>
+Result<StreamMessage> assembled(Assembly& assembly, Result<Part> part) {
+  if (!part) return part.error();
+  if (auto whole = assembly.take(std::move(*part))) return StreamMessage(std::move(*whole));
+  return StreamMessage();
+}
+
 }  // namespace
 
 Result<RobotStream> RobotStream::connect(const std::filesystem::path& socket, const SubscribeMessage& wants) {
@@ -43,6 +51,7 @@ Result<void> RobotStream::join() {
   link_.emplace(std::move(*link));
   sequence_.reset();
   scans_ = {};
+  pictures_ = {};
   (void)subscribe(wants_);  // a connection that ends here is found to have ended by next()
   return {};
 }
@@ -95,10 +104,10 @@ Result<StreamMessage> RobotStream::decode() {
   if (record->kind == RecordKind::kTiles) return as_message(clients::decode_tiles(record->body));
   if (record->kind == RecordKind::kEvent) return as_message(clients::decode_event(record->body));
   if (record->kind == RecordKind::kPeople) return as_message(clients::decode_people(record->body));
-  if (record->kind != RecordKind::kScan) return StreamMessage();
-  auto part = clients::decode_scan(record->body);
-  if (!part) return part.error();
-  if (auto scan = scans_.take(std::move(*part))) return StreamMessage(std::move(*scan));
+  if (record->kind == RecordKind::kCamera) return as_message(clients::decode_camera(record->body));
+  if (record->kind == RecordKind::kWheels) return as_message(clients::decode_wheels(record->body));
+  if (record->kind == RecordKind::kScan) return assembled(scans_, clients::decode_scan(record->body));
+  if (record->kind == RecordKind::kPicture) return assembled(pictures_, clients::decode_picture(record->body));
   return StreamMessage();
 }
 

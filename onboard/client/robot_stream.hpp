@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "drivers/clients/messages/camera.hpp"
 #include "drivers/clients/messages/event.hpp"
 #include "drivers/clients/messages/hello.hpp"
 #include "drivers/clients/messages/people.hpp"
@@ -14,14 +15,17 @@
 #include "drivers/clients/messages/state.hpp"
 #include "drivers/clients/messages/subscribe.hpp"
 #include "drivers/clients/messages/tiles.hpp"
+#include "drivers/clients/messages/wheels.hpp"
 #include "drivers/clients/sockets/local_client.hpp"
 #include "hal/result.hpp"
 #include "hal/time.hpp"
+#include "onboard/client/picture_assembly.hpp"
 #include "onboard/client/scan_assembly.hpp"
 
 /// What another program on the robot reads of a running core, and how.
 namespace cairn::client {
 
+using clients::CameraMessage;
 using clients::EventMessage;
 using clients::HelloMessage;
 using clients::PeopleMessage;
@@ -29,6 +33,7 @@ using clients::PoseMessage;
 using clients::StateMessage;
 using clients::SubscribeMessage;
 using clients::TilesMessage;
+using clients::WheelsMessage;
 
 inline constexpr const char* kRobotSocket = "/run/cairn/robot.sock";
 
@@ -37,7 +42,7 @@ struct CoreGone {};
 
 /// What next() found; std::monostate: nothing came in time.
 using StreamMessage = std::variant<std::monostate, HelloMessage, PoseMessage, StateMessage, TilesMessage, ScanMessage,
-                                   EventMessage, PeopleMessage, CoreGone>;
+                                   EventMessage, PeopleMessage, CameraMessage, PictureMessage, WheelsMessage, CoreGone>;
 
 /// A subscription to robot.sock. It survives the end of a core, and finds the next one. One thread uses it.
 class RobotStream {
@@ -73,6 +78,7 @@ class RobotStream {
   std::optional<std::uint32_t> sequence_;  // of the last record
   std::uint64_t lost_ = 0;
   ScanAssembly scans_;
+  PictureAssembly pictures_;
   std::vector<std::byte> bytes_;  // reused
 };
 

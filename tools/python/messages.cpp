@@ -9,12 +9,14 @@
 namespace cairn::python {
 namespace {
 
+using client::CameraMessage;
 using client::EventMessage;
 using client::HelloMessage;
 using client::PeopleMessage;
 using client::PoseMessage;
 using client::ScanMessage;
 using client::StateMessage;
+using client::WheelsMessage;
 using Person = PeopleMessage::Person;
 
 constexpr const char* kStamp = "robot time; with Hello.realtime_offset_ns added it is UTC";
@@ -113,6 +115,47 @@ void add_people(py::module_& module) {
       .def_readonly("people", &PeopleMessage::people, "list of Person");
 }
 
+const char* lens_of(const CameraMessage& camera) {
+  if (camera.lens == CameraMessage::Lens::kUnknown) return "unknown";
+  return camera.lens == CameraMessage::Lens::kRadTan ? "radtan" : "equidistant";
+}
+
+Eigen::Matrix3d matrix_of(const CameraMessage& camera) {
+  Eigen::Matrix3d k = Eigen::Matrix3d::Zero();
+  if (camera.lens != CameraMessage::Lens::kUnknown) k << camera.fx, 0, camera.cx, 0, camera.fy, camera.cy, 0, 0, 1;
+  return k;
+}
+
+void add_camera(py::module_& module) {
+  py::class_<CameraMessage>(module, "Camera", "A camera of the robot and how it sees.")
+      .def_readonly("name", &CameraMessage::name, "as in Picture.sensor and Hello.T_base_sensor")
+      .def_readonly("width", &CameraMessage::width, "pixels of one eye's picture")
+      .def_readonly("height", &CameraMessage::height, "pixels")
+      .def_readonly("side_by_side", &CameraMessage::side_by_side, "a picture holds both eyes, the left one first")
+      .def_property_readonly("lens", &lens_of, "radtan, equidistant, or unknown: not calibrated")
+      .def_property_readonly("K", &matrix_of, "of the left eye, pixels, shape (3, 3); zeros: not calibrated")
+      .def_readonly("distortion", &CameraMessage::k, "eight numbers in OpenCV's order")
+      .def_readonly("baseline_m", &CameraMessage::baseline_m, "from the left to the right eye; 0: not known");
+}
+
+void add_wheels(py::module_& module) {
+  using Wheel = WheelsMessage::Wheel;
+  py::class_<Wheel>(module, "Wheel", "What one wheel did.")
+      .def_property_readonly(
+          "place", [](const Wheel& w) { return std::string(to_string(w.place)); }, "left, right, front_left and so on")
+      .def_readonly("travel_m", &Wheel::travel_m, "of its rim since the core began, forward")
+      .def_readonly("speed_m_s", &Wheel::speed_m_s, "of its rim");
+  py::class_<WheelsMessage>(module, "Wheels", "What the wheels measured.")
+      .def_property_readonly("stamp_ns", &stamp_of<WheelsMessage>, kStamp)
+      .def_readonly("v", &WheelsMessage::v, "of the robot by its wheels alone, m/s")
+      .def_readonly("w", &WheelsMessage::w, "rad/s, to the left")
+      .def_property_readonly(
+          "covariance", [](const WheelsMessage& m) { return m.covariance; }, "of v and w")
+      .def_readonly("slipping", &WheelsMessage::slipping, "the wheels contradict each other, or physics")
+      .def_readonly("radius_m", &WheelsMessage::radius_m, "of a wheel; 0: the profile does not say it")
+      .def_readonly("wheels", &WheelsMessage::wheels, "list of Wheel");
+}
+
 void add_news(py::module_& module) {
   py::class_<EventMessage>(module, "Event", "Something that happened, and how often so far.")
       .def_property_readonly("stamp_ns", &stamp_of<EventMessage>, kStamp)
@@ -134,6 +177,8 @@ void add_messages(py::module_& module) {
   add_state(module);
   add_scan(module);
   add_people(module);
+  add_camera(module);
+  add_wheels(module);
   add_news(module);
 }
 

@@ -3,48 +3,11 @@
 
 #include <pybind11/stl.h>
 
-#include <cstring>
-
 #include "drivers/camera/camera.hpp"
 #include "drivers/thermal/thermal.hpp"
+#include "tools/python/pixels.hpp"
 
 namespace cairn::python {
-namespace {
-
-template <class T>
-py::array empty_array(const ImageView& view, py::ssize_t channels) {
-  const py::ssize_t height = view.height, width = view.width;
-  return channels == 1 ? py::array_t<T>({height, width}) : py::array_t<T>({height, width, channels});
-}
-
-py::array make_array(const ImageView& view) {
-  switch (view.format) {
-    case PixelFormat::kMono8:
-      return empty_array<std::uint8_t>(view, 1);
-    case PixelFormat::kBgr8:
-      return empty_array<std::uint8_t>(view, 3);
-    case PixelFormat::kMono16:
-    case PixelFormat::kDepth16:
-      return empty_array<std::uint16_t>(view, 1);
-    case PixelFormat::kCelsius:
-      break;
-  }
-  return empty_array<float>(view, 1);
-}
-
-py::array to_pixels(const ImageView& view) {
-  py::array array = make_array(view);
-  auto* to = static_cast<std::byte*>(array.mutable_data());
-  for (int y = 0; y < view.height; ++y) {
-    const auto row = view.row(y);
-    std::memcpy(to, row.data(), row.size());
-    to += row.size();
-  }
-  return array;
-}
-
-}  // namespace
-
 RecordedPictures::Decode RecordedPictures::make_decoder(const recording::SourceEntry& entry) {
   if (entry.kind != recording::kThermal) {
     auto camera = std::make_shared<camera::Camera>(value_of(camera::Camera::create({})));
@@ -91,7 +54,7 @@ PyPicture RecordedPictures::next() {
 void add_recorded_pictures(py::module_& module) {
   py::class_<PyPicture>(module, "Picture", "One picture of a camera.")
       .def_readonly("sensor", &PyPicture::sensor)
-      .def_readonly("stamp_ns", &PyPicture::stamp_ns, "on the recording's time line")
+      .def_readonly("stamp_ns", &PyPicture::stamp_ns, "of a recording: on its time line; of a running core: robot time")
       .def_readonly("pixels", &PyPicture::pixels,
                     "row 0 is the top. Colour: uint8, (H, W, 3), blue green red as OpenCV has it; grey: uint8, (H, W); "
                     "depth and raw counts: uint16, (H, W); temperatures: float32, (H, W), degrees Celsius");

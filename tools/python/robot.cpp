@@ -6,11 +6,14 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <string_view>
 #include <utility>
 
+#include "drivers/camera/convert.hpp"
+#include "drivers/camera/frame.hpp"
 #include "hal/clock.hpp"
+#include "hal/image.hpp"
+#include "tools/python/pixels.hpp"
 
 namespace cairn::python {
 namespace {
@@ -19,14 +22,17 @@ using client::Costmap;
 using client::CostmapConfig;
 using clients::Stream;
 
-constexpr std::array<std::pair<std::string_view, Stream>, 8> kStreams{{{"pose", Stream::kPose},
-                                                                       {"state", Stream::kState},
-                                                                       {"own_map", Stream::kOwnTiles},
-                                                                       {"team_map", Stream::kTeamTiles},
-                                                                       {"scan", Stream::kScan},
-                                                                       {"events", Stream::kEvents},
-                                                                       {"people", Stream::kPeople},
-                                                                       {"team_people", Stream::kTeamPeople}}};
+constexpr std::array<std::pair<std::string_view, Stream>, 11> kStreams{{{"pose", Stream::kPose},
+                                                                        {"state", Stream::kState},
+                                                                        {"own_map", Stream::kOwnTiles},
+                                                                        {"team_map", Stream::kTeamTiles},
+                                                                        {"scan", Stream::kScan},
+                                                                        {"events", Stream::kEvents},
+                                                                        {"people", Stream::kPeople},
+                                                                        {"team_people", Stream::kTeamPeople},
+                                                                        {"cameras", Stream::kCameras},
+                                                                        {"pictures", Stream::kPictures},
+                                                                        {"wheels", Stream::kWheels}}};
 constexpr Duration kGlance = std::chrono::milliseconds(100);  // how long Ctrl-C may have to wait
 
 Stream stream_of(const std::string& name) {
@@ -39,21 +45,23 @@ Stream stream_of(const std::string& name) {
 }
 
 client::RobotStream connect(const std::filesystem::path& socket, const std::vector<std::string>& streams,
-                            double pose_hz, double scan_hz) {
+                            const Rates& rates) {
   client::SubscribeMessage wants;
   for (const std::string& name : streams) wants.add(stream_of(name));
-  if (!(pose_hz >= 0 && pose_hz <= client::SubscribeMessage::kMaxPose_hz)) throw py::value_error("pose_hz: 0 to 200");
-  if (!(scan_hz >= 0 && scan_hz <= std::numeric_limits<float>::max())) throw py::value_error("scan_hz: 0 or more");
-  wants.pose_hz = pose_hz;
-  wants.scan_hz = scan_hz;
+  if (wants.wants(Stream::kPictures)) wants.add(Stream::kCameras);  // a picture has the name of its camera
+  for (const double hz : {rates.pose_hz, rates.scan_hz, rates.picture_hz})
+    if (!(hz >= 0 && hz <= client::SubscribeMessage::kMaxPose_hz))
+      throw py::value_error("pose_hz, scan_hz, picture_hz: 0 to 200");
+  wants.pose_hz = rates.pose_hz;
+  wants.scan_hz = rates.scan_hz;
+  wants.picture_hz = static_cast<float>(rates.picture_hz);
   return value_of(client::RobotStream::connect(socket, wants));
 }
 
 }  // namespace
 
-Robot::Robot(const std::filesystem::path& socket, const std::vector<std::string>& streams, double pose_hz,
-             double scan_hz)
-    : stream_(connect(socket, streams, pose_hz, scan_hz)) {}
+Robot::Robot(const std::filesystem::path& socket, const std::vector<std::string>& streams, const Rates& rates)
+    : stream_(connect(socket, streams, rates)) {}
 
 py::object Robot::next(double timeout_s) {
   if (!(timeout_s >= 0)) throw py::value_error("timeout: 0 s or more");
@@ -83,13 +91,16 @@ py::object Robot::next_or_end() {
 py::object Robot::take(client::StreamMessage message) {
   if (std::holds_alternative<std::monostate>(message)) return py::none();
   if (const auto* tiles = std::get_if<client::TilesMessage>(&message)) return py::cast(take(*tiles));
+  if (const auto* picture = std::get_if<client::PictureMessage>(&message)) return py::cast(picture_of(*picture));
+  if (const auto* camera = std::get_if<client::CameraMessage>(&message)) cameras_[camera->camera] = *camera;
   if (const auto* hello = std::get_if<client::HelloMessage>(&message)) take(*hello);
   if (const auto* pose = std::get_if<client::PoseMessage>(&message)) T_odom_base_ = pose->T_odom_base.mean;
   if (const auto* state = std::get_if<client::StateMessage>(&message)) T_team_odom_ = state->T_team_odom;
   return std::visit(
       [](auto& m) -> py::object {
         using Message = std::decay_t<decltype(m)>;
-        if constexpr (std::is_same_v<Message, std::monostate> || std::is_same_v<Message, client::TilesMessage>) {
+        if constexpr (std::is_same_v<Message, std::monostate> || std::is_same_v<Message, client::TilesMessage> ||
+                      std::is_same_v<Message, client::PictureMessage>) {
           return py::none();
         } else {
           return py::cast(std::move(m));
@@ -112,6 +123,18 @@ MapChanged Robot::take(const client::TilesMessage& tiles) {
   auto& wants = stream_.wants();
   mirror(own ? own_ : team_, tiles, own ? wants.own : wants.team);
   return {own ? "own" : "team", tiles.tiles.size(), tiles.caught_up};
+}
+
+PyPicture Robot::picture_of(const client::PictureMessage& picture) const {
+  const auto camera = cameras_.find(picture.camera);
+  Image image;
+  {
+    const py::gil_scoped_release others_run;
+    const auto frame = camera::parse_frame(picture.bytes);
+    if (!frame) throw Failure(frame.error());
+    if (const auto decoded = camera::to_image(*frame, image); !decoded) throw Failure(decoded.error());
+  }
+  return {camera == cameras_.end() ? "" : camera->second.name, nanoseconds(picture.stamp), to_pixels(image.view())};
 }
 
 void Robot::mirror(Mirror& mirror, const client::TilesMessage& tiles, client::SubscribeMessage::Resume& has) {
@@ -146,8 +169,9 @@ namespace {
 constexpr const char* kAboutConnect =
     "Reads a running core through its robot.sock. `streams` names what is wanted: pose, state, own_map, team_map, "
     "scan,\n"
-    "events, people, team_people. `pose_hz`: predictions, too, so often a second (200 at most). `scan_hz`: at most so\n"
-    "many scans a second; 0: all. Error: no core is there.";
+    "events, people, team_people, cameras, pictures, wheels. `pose_hz`: predictions, too, so often a second (200 at "
+    "most).\n"
+    "`scan_hz`, `picture_hz`: at most so many a second; 0: all. Error: no core is there.";
 
 py::array_t<std::uint8_t> cost_of(const Costmap& map) {
   return to_array(map.cost, {py::ssize_t{map.cells}, py::ssize_t{map.cells}});
@@ -197,11 +221,12 @@ void add_robot(py::module_& module) {
            py::arg("base_height_m") = husky.base_height_m);
   module.def(
       "connect",
-      [](const std::filesystem::path& socket, const std::vector<std::string>& streams, double pose_hz, double scan_hz) {
-        return std::make_unique<Robot>(socket, streams, pose_hz, scan_hz);
+      [](const std::filesystem::path& socket, const std::vector<std::string>& streams, double pose_hz, double scan_hz,
+         double picture_hz) {
+        return std::make_unique<Robot>(socket, streams, Rates{pose_hz, scan_hz, picture_hz});
       },
       py::arg("socket") = client::kRobotSocket, py::arg("streams") = std::vector<std::string>{"pose", "state"},
-      py::kw_only(), py::arg("pose_hz") = 0.0, py::arg("scan_hz") = 0.0, kAboutConnect);
+      py::kw_only(), py::arg("pose_hz") = 0.0, py::arg("scan_hz") = 0.0, py::arg("picture_hz") = 0.0, kAboutConnect);
 }
 
 }  // namespace cairn::python

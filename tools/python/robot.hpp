@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -12,14 +14,20 @@
 #include "tools/python/arrays.hpp"
 #include "tools/python/map.hpp"
 #include "tools/python/map_changed.hpp"
+#include "tools/python/recorded_pictures.hpp"
 
 namespace cairn::python {
+
+/// How often a stream may come, in Hz; 0: as in client::SubscribeMessage.
+struct Rates {
+  double pose_hz = 0, scan_hz = 0, picture_hz = 0;
+};
 
 /// A running core as Python reads it: its messages, and what they have told so far.
 class Robot {
  public:
   /// `streams`: names of what is wanted. Throws ValueError for another name, Failure if no core is there.
-  Robot(const std::filesystem::path& socket, const std::vector<std::string>& streams, double pose_hz, double scan_hz);
+  Robot(const std::filesystem::path& socket, const std::vector<std::string>& streams, const Rates& rates);
 
   /// The next message, or None after `timeout_s`; Ctrl-C interrupts it. Throws Failure for a record that is none of
   /// this release's; going on is possible.
@@ -40,12 +48,14 @@ class Robot {
   [[nodiscard]] py::object take(client::StreamMessage message);
   void take(const client::HelloMessage& hello);
   [[nodiscard]] MapChanged take(const client::TilesMessage& tiles);
+  [[nodiscard]] PyPicture picture_of(const client::PictureMessage& picture) const;
   void mirror(Mirror& mirror, const client::TilesMessage& tiles, client::SubscribeMessage::Resume& has);
   [[nodiscard]] static Map copy_of(const Mirror& mirror, const char* stream);
 
   client::RobotStream stream_;
   Mirror own_, team_;
   std::optional<SE3> T_odom_base_, T_team_odom_;
+  std::map<std::uint8_t, client::CameraMessage> cameras_;  // by number
 };
 
 }  // namespace cairn::python

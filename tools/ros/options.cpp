@@ -35,6 +35,9 @@ void add_core(CLI::App& app, Options& options) {
   app.add_option("--pose-rate", options.topics.pose_hz, "poses a second; 0: those of scans alone")
       ->check(CLI::Range(0.0, clients::SubscribeMessage::kMaxPose_hz))
       ->capture_default_str();
+  app.add_option("--picture-rate", options.topics.picture_hz, "pictures a second of each camera, at most; 0: all")
+      ->check(CLI::Range(0.0, clients::SubscribeMessage::kMaxPose_hz))
+      ->capture_default_str();
 }
 
 void add_maps(CLI::App& app, MapChoice& maps) {

@@ -22,6 +22,9 @@ enum class RecordKind : std::uint8_t {
   kScan = 5,
   kEvent = 6,
   kPeople = 7,
+  kCamera = 8,
+  kPicture = 9,
+  kWheels = 10,
   // robot.sock, client → core
   kSubscribe = 32,
   // command.sock, client → core

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/clients/messages/subscribe.hpp"
 
+#include <cmath>
+
 #include "drivers/clients/messages/field_reader.hpp"
 
 namespace cairn::clients {
@@ -22,17 +24,16 @@ SubscribeMessage::Resume read_resume(FieldReader& in) {
   return resume;
 }
 
-double read_rate(FieldReader& in) {
-  const double rate_hz = in.real(SubscribeMessage::kMaxPose_hz);
-  in.require(rate_hz >= 0);
-  return rate_hz;
+double checked_rate(FieldReader& in, double rate_hz) {
+  in.require(std::isfinite(rate_hz) && !std::signbit(rate_hz) && rate_hz <= SubscribeMessage::kMaxPose_hz);
+  return in.good() ? rate_hz : 0;
 }
 
 }  // namespace
 
 void encode(const SubscribeMessage& message, std::vector<std::byte>& out) {
   append_le(out, message.streams);
-  append_le(out, std::uint32_t{0});
+  append_le(out, message.picture_hz);
   append_le(out, message.pose_hz);
   append_le(out, message.scan_hz);
   append_resume(out, message.own);
@@ -43,9 +44,9 @@ Result<SubscribeMessage> decode_subscribe(std::span<const std::byte> body) {
   FieldReader in(body);
   SubscribeMessage message;
   message.streams = in.up_to(kAllStreams);
-  in.require(in.number<std::uint32_t>() == 0);
-  message.pose_hz = read_rate(in);
-  message.scan_hz = read_rate(in);
+  message.picture_hz = static_cast<float>(checked_rate(in, in.number<float>()));
+  message.pose_hz = checked_rate(in, in.number<double>());
+  message.scan_hz = checked_rate(in, in.number<double>());
   message.own = read_resume(in);
   message.team = read_resume(in);
   if (!in.complete()) return in.error("not a subscription");

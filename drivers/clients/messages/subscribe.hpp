@@ -17,8 +17,11 @@ enum class Stream : std::uint32_t {
   kEvents = 32,
   kPeople = 64,
   kTeamPeople = 128,  ///< those whom peers follow
+  kCameras = 256,     ///< which cameras there are, once
+  kPictures = 512,
+  kWheels = 1024,
 };
-inline constexpr std::uint32_t kAllStreams = 255;
+inline constexpr std::uint32_t kAllStreams = 2047;
 
 /// What a client of robot.sock wants from now on. A second one replaces the first.
 struct SubscribeMessage {
@@ -28,6 +31,7 @@ struct SubscribeMessage {
   std::uint32_t streams = 0;  ///< bits of Stream
   double pose_hz = 0;         ///< 0: the pose of each scan; otherwise predictions, too, so often a second
   double scan_hz = 0;         ///< 0: all scans; otherwise at most so many a second
+  float picture_hz = 0;       ///< 0: all pictures; otherwise at most so many a second, of each camera
   /// What the client has of a map already. It gets what is newer, or everything if the core knows no such session.
   struct Resume {
     std::uint64_t session = 0;
@@ -43,8 +47,8 @@ struct SubscribeMessage {
   void add(Stream stream) { streams |= static_cast<std::uint32_t>(stream); }
 };
 
-/// Appends the body. It is: streams (4), zeros (4), both rates (8 each); then for the own and for the team's map
-/// session (8), version (8), epoch (4), zeros (4).
+/// Appends the body. It is: streams (4), rate of pictures (4), the other rates (8 each); then for the own and for the
+/// team's map session (8), version (8), epoch (4), zeros (4).
 void encode(const SubscribeMessage& message, std::vector<std::byte>& out);
 /// Error kMalformed: also for a stream that does not exist, or a rate that is too high.
 [[nodiscard]] Result<SubscribeMessage> decode_subscribe(std::span<const std::byte> body);

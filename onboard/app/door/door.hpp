@@ -43,9 +43,9 @@ struct Door {
 /// Which devices a live run opens besides those that geometry and safety use.
 struct Devices {
   bool eyes = false;     ///< the camera tells the motion: it must not be missing
-  bool camera = false;   ///< its pictures are looked at
+  bool camera = false;   ///< its pictures are looked at, or clients may have them
   bool thermal = false;  ///< the same
-  bool depth = false;    ///< its clouds go into the map
+  bool depth = false;    ///< its clouds go into the map, or clients may have its pictures
   bool all = false;      ///< they are recorded
 };
 

@@ -25,10 +25,10 @@ void declare(config::Section& s, RobotProfile& p) {
   s.group("lidar", p.lidar, "the LiDAR and its mount");
   s.group("camera", p.camera,
           "the colour camera, single or stereo; it exists when capture.device is named; a live run opens it for "
-          "networks, where both eyes tell the motion, and to record it (--record)");
+          "networks, where both eyes tell the motion, for clients (--sockets), and to record it (--record)");
   s.group("thermal", p.thermal,
-          "the thermal camera; a live run opens it for perception.thermal_detection, and to record it");
-  s.group("depth", p.depth, "the depth camera; a live run opens it for depth.map, and to record it");
+          "the thermal camera; a live run opens it for perception.thermal_detection, for clients, and to record it");
+  s.group("depth", p.depth, "the depth camera; a live run opens it for depth.map, for clients, and to record it");
   s.group("stereo", p.stereo, "what both eyes of the colour camera are used for");
   s.group("drive", p.drive, "the drive on its CAN bus; it exists when interface is named");
   s.group("gpio", p.gpio, "e-stop, camera trigger and PPS; they exist when their lines are named");

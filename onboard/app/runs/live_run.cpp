@@ -7,6 +7,7 @@
 #include "onboard/app/runs/allocations.hpp"
 #include "onboard/app/runs/connect_inputs.hpp"
 #include "onboard/app/runs/real_time.hpp"
+#include "onboard/app/runs/shown_cameras.hpp"
 #include "onboard/scheduler/execution/executive.hpp"
 
 namespace cairn::app {
@@ -104,6 +105,11 @@ Result<void> LiveRun::open_streams() {
   streams_.emplace(std::move(*hub), session, robot_id, *outlets_, context_.monitor);
   tasks_.serve_poses(*outlets_);
   tasks_.drive.publish_to(outlets_->drive);
+  tasks_.drive.tell_wheels(*outlets_);
+  const auto cameras = shown_cameras(profile, context_.door.recording.sources);
+  show(cameras, tasks_.receive, *outlets_);
+  streams_->show(cameras);
+  streams_->set_wheel_radius(profile.drive.driver.wheel_radius_m);
   tasks_.mapping.serve(outlets_->own);
   tasks_.mapping.tell_people(outlets_->people);
   if (!tasks_.team) return {};

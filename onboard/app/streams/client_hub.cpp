@@ -67,6 +67,7 @@ void ClientHub::take(LocalServer::ClientId id, Time now) {
   client->fresh = true;
   client->predictions = RateLimit(wants->pose_hz);
   client->scans = RateLimit(wants->scan_hz);
+  for (PictureCursor& picture : client->pictures) picture.limit = RateLimit(static_cast<double>(wants->picture_hz));
 }
 
 bool ClientHub::anybody_wants(clients::Stream stream) const {

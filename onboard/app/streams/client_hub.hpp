@@ -14,6 +14,7 @@
 #include "drivers/clients/messages/tiles.hpp"
 #include "drivers/clients/sockets/local_server.hpp"
 #include "hal/monitor.hpp"
+#include "onboard/app/streams/outlets/picture_outlet.hpp"
 #include "onboard/app/streams/rate_limit.hpp"
 
 namespace cairn::app {
@@ -27,6 +28,12 @@ struct TileCursor {
   Duration pause{};           ///< that was waited last
 };
 
+/// How far a client has come with the pictures of one camera.
+struct PictureCursor {
+  RateLimit limit;
+  std::optional<std::uint32_t> bytes;  ///< of the present picture, that it has; none: it gets no more of it
+};
+
 /// One client of robot.sock.
 struct StreamClient {
   clients::LocalServer::ClientId id = 0;
@@ -34,8 +41,9 @@ struct StreamClient {
   bool fresh = false;          ///< its subscription has just come
   std::uint32_t sequence = 0;  ///< of its next record
   RateLimit predictions, scans;
-  std::array<TileCursor, 2> tiles;           ///< by clients::TileMap
-  std::optional<std::uint32_t> scan_points;  ///< of the present scan, that it has; none: it gets no more of it
+  std::array<TileCursor, 2> tiles;                    ///< by clients::TileMap
+  std::optional<std::uint32_t> scan_points;           ///< of the present scan, that it has; none: it gets no more of it
+  std::array<PictureCursor, kShownCameras> pictures;  ///< by camera
 };
 
 /// The clients of robot.sock and what they want. No call waits. A client that sends anything but a subscription is

@@ -4,7 +4,7 @@
 #include <optional>
 
 #include "drivers/clients/messages/pose.hpp"
-#include "onboard/app/streams/stream_outlets.hpp"
+#include "onboard/app/streams/outlets/stream_outlets.hpp"
 
 namespace cairn::app {
 

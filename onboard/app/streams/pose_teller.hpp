@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "onboard/app/streams/stream_outlets.hpp"
+#include "onboard/app/streams/outlets/stream_outlets.hpp"
 #include "onboard/robot.hpp"
 
 namespace cairn::app {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "onboard/app/streams/client_hub.hpp"
-#include "onboard/app/streams/stream_outlets.hpp"
+#include "onboard/app/streams/outlets/stream_outlets.hpp"
 
 namespace cairn::app {
 

@@ -4,8 +4,9 @@
 #include <utility>
 
 #include "drivers/clients/messages/state.hpp"
-#include "onboard/app/streams/people_message.hpp"
-#include "onboard/app/streams/state_message.hpp"
+#include "onboard/app/streams/messages/people_message.hpp"
+#include "onboard/app/streams/messages/state_message.hpp"
+#include "onboard/app/streams/messages/wheels_message.hpp"
 
 namespace cairn::app {
 namespace {
@@ -14,7 +15,7 @@ using clients::Stream;
 using clients::TileMap;
 
 // In one tick. Encoding a tile takes a microsecond, making and sending a full record some tens.
-constexpr std::size_t kTiles = 512, kTileRecords = 8, kScanRecords = 16;
+constexpr std::size_t kTiles = 512, kTileRecords = 8, kScanRecords = 16, kPictureRecords = 16;
 constexpr double kEvents_hz = 10;
 constexpr Duration kClosingStep = std::chrono::milliseconds(1);
 
@@ -34,12 +35,14 @@ StreamsTask::StreamsTask(ClientHub hub, std::uint64_t session, std::uint64_t rob
 std::size_t StreamsTask::serve(Time now) {
   send_poses();
   send_people();
+  send_wheels();
   hub_.receive(now);
   greet_subscribers();
   send_predictions(now);
   send_state(now);
   send_events(now);
   scans_.serve(hub_, outlets_.scans, kScanRecords);
+  send_pictures();
   return send_tiles(now);
 }
 
@@ -51,8 +54,13 @@ void StreamsTask::greet_subscribers() {
     if (client.wants.wants(Stream::kState)) hub_.send(client, state_);
     if (client.wants.wants(Stream::kEvents))
       for (const clients::EventMessage& event : events_.so_far()) hub_.send(client, event);
+    if (client.wants.wants(Stream::kCameras))
+      for (const ShownCamera& camera : cameras_) hub_.send(client, camera.message);
   }
   outlets_.scans_wanted.store(hub_.anybody_wants(Stream::kScan), std::memory_order_relaxed);
+  outlets_.wheels_wanted.store(hub_.anybody_wants(Stream::kWheels), std::memory_order_relaxed);
+  const bool pictures = hub_.anybody_wants(Stream::kPictures);
+  for (PictureOutlet& outlet : outlets_.pictures) outlet.wanted.store(pictures, std::memory_order_relaxed);
 }
 
 void StreamsTask::send_poses() {
@@ -68,6 +76,19 @@ void StreamsTask::send_people() {
     hub_.send_all(Stream::kPeople, message_of(*news));
   for (; const PeopleNews* news = outlets_.team_people.front(); outlets_.team_people.pop())
     hub_.send_all(Stream::kTeamPeople, message_of(*news));
+}
+
+void StreamsTask::send_wheels() {
+  for (; const WheelNews* news = outlets_.wheels.front(); outlets_.wheels.pop())
+    hub_.send_all(Stream::kWheels, message_of(*news, wheel_radius_m_));
+}
+
+void StreamsTask::send_pictures() {
+  std::size_t records = kPictureRecords;
+  for (const ShownCamera& camera : cameras_) {
+    const std::size_t i = camera.message.camera;
+    pictures_[i].serve(hub_, outlets_.pictures[i].pictures, camera.latency, records);
+  }
 }
 
 void StreamsTask::send_predictions(Time now) {

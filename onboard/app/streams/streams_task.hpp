@@ -1,27 +1,43 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
+#include <utility>
+#include <vector>
 
+#include "drivers/clients/messages/camera.hpp"
 #include "drivers/clients/messages/state.hpp"
 #include "hal/clock.hpp"
 #include "onboard/app/streams/client_hub.hpp"
 #include "onboard/app/streams/event_feed.hpp"
+#include "onboard/app/streams/outlets/stream_outlets.hpp"
+#include "onboard/app/streams/picture_stream.hpp"
 #include "onboard/app/streams/pose_predictor.hpp"
 #include "onboard/app/streams/scan_stream.hpp"
-#include "onboard/app/streams/stream_outlets.hpp"
 #include "onboard/app/streams/tile_stream.hpp"
 #include "onboard/scheduler/tick.hpp"
 
 namespace cairn::app {
+
+/// A camera of which clients may have pictures.
+struct ShownCamera {
+  clients::CameraMessage message;
+  Duration latency{};  ///< from the exposure to the stamp of the picture
+};
 
 /// Serves robot.sock, on a thread of its own. Nobody ever waits for it, and it waits for nobody.
 class StreamsTask final : public scheduler::Task {
  public:
   /// `robot_id` in its team, or 0. `outlets` and `monitor` must outlive the task.
   StreamsTask(ClientHub hub, std::uint64_t session, std::uint64_t robot_id, StreamOutlets& outlets, Monitor& monitor);
+
+  /// The cameras of which clients may have pictures: each at its number in the outlets. To be called before the run.
+  void show(std::vector<ShownCamera> cameras) { cameras_ = std::move(cameras); }
+  /// Of a wheel, in metres; 0: not known. To be called before the run.
+  void set_wheel_radius(double radius_m) { wheel_radius_m_ = radius_m; }
 
   void tick(scheduler::Tick& tick) override { serve(tick.release()); }
 
@@ -35,6 +51,8 @@ class StreamsTask final : public scheduler::Task {
   void greet_subscribers();
   void send_poses();
   void send_people();
+  void send_wheels();
+  void send_pictures();
   void send_predictions(Time now);
   void send_state(Time now);
   void send_events(Time now);
@@ -47,6 +65,9 @@ class StreamsTask final : public scheduler::Task {
   EventFeed events_;
   PosePredictor predictor_;
   ScanStream scans_;
+  std::vector<ShownCamera> cameras_;
+  std::array<PictureStream, kShownCameras> pictures_{PictureStream(0), PictureStream(1), PictureStream(2)};
+  double wheel_radius_m_ = 0;
   TileStream own_, team_;
   clients::StateMessage state_;
   RateLimit state_beat_{1}, event_beat_;

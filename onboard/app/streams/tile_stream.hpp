@@ -7,7 +7,7 @@
 
 #include "drivers/clients/messages/tiles.hpp"
 #include "onboard/app/streams/client_hub.hpp"
-#include "onboard/app/streams/tile_outlet.hpp"
+#include "onboard/app/streams/outlets/tile_outlet.hpp"
 #include "onboard/app/streams/tile_store.hpp"
 
 namespace cairn::app {

@@ -170,9 +170,18 @@ void DriveTask::publish(Tick& tick) {
   status.push(tick);
 }
 
+void DriveTask::tell_clients() {
+  if (outlets_ == nullptr || !outlets_->wheels_wanted.load(std::memory_order_relaxed)) return;
+  if (WheelNews* news = outlets_->wheels.back()) {
+    *news = {*state_, drive_->motions()};
+    outlets_->wheels.push();
+  }
+}
+
 void DriveTask::publish_wheels(Tick& tick) {
   if (!state_ || state_->stamp == published_wheels_) return;
   published_wheels_ = state_->stamp;
+  tell_clients();
   DriveState* out = wheels.back(tick);
   if (out == nullptr) return;
   *out = *state_;

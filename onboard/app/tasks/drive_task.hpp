@@ -8,6 +8,7 @@
 #include "drivers/drive/can_drive.hpp"
 #include "hal/latest_value.hpp"
 #include "onboard/app/commands/commander.hpp"
+#include "onboard/app/streams/outlets/stream_outlets.hpp"
 #include "onboard/app/tasks/messages.hpp"
 #include "onboard/scheduler/feed.hpp"
 #include "onboard/scheduler/ports.hpp"
@@ -71,6 +72,10 @@ class DriveTask final : public scheduler::Task {
   /// outlive the task.
   void publish_to(LatestValue<std::optional<DriveStatus>>& latest) { published_to_ = &latest; }
 
+  /// Live: what the wheels measured goes to `outlets`, too, while it is wanted. To be called before the run; `outlets`
+  /// must outlive the task.
+  void tell_wheels(StreamOutlets& outlets) { outlets_ = &outlets; }
+
   void tick(scheduler::Tick& tick) override;
 
   /// Of the task's thread, or after the run.
@@ -93,6 +98,7 @@ class DriveTask final : public scheduler::Task {
   [[nodiscard]] Commander::Situation situation(Time now) const { return {now, decision_, drive_->status()}; }
   void publish(scheduler::Tick& tick);
   void publish_wheels(scheduler::Tick& tick);
+  void tell_clients();
 
   Planner planner_;
   std::unique_ptr<ReplayableCanLink> link_;
@@ -106,6 +112,7 @@ class DriveTask final : public scheduler::Task {
   Time published_wheels_ = Time::min();  // stamp
   DriveNews published_;
   LatestValue<std::optional<DriveStatus>>* published_to_ = nullptr;
+  StreamOutlets* outlets_ = nullptr;
 };
 
 }  // namespace cairn::app

@@ -13,7 +13,7 @@
 #include "onboard/app/perception/label_joiner.hpp"
 #include "onboard/app/perception/people_log.hpp"
 #include "onboard/app/restart/map_copier.hpp"
-#include "onboard/app/streams/stream_outlets.hpp"
+#include "onboard/app/streams/outlets/stream_outlets.hpp"
 #include "onboard/app/tasks/messages.hpp"
 #include "onboard/app/team/team_messages.hpp"
 #include "onboard/safety/overload.hpp"

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "drivers/clients/messages/picture.hpp"
 #include "drivers/recording/formats/right_eye.hpp"
 #include "onboard/app/door/fitted.hpp"
 
@@ -20,8 +21,26 @@ bool ReceiveTask::add(Input& input, SourceId id, scheduler::Feed::Tap tap) {
   sensors_.push_back({{*input.source, id, slot, complain, std::move(tap)},
                       input.scans.get(),
                       right ? std::nullopt : watched_as(input.entry.kind),
-                      right ? decltype(Sensor::pictures){} : ports_of(input.entry.kind)});
+                      right ? decltype(Sensor::pictures){} : ports_of(input.entry.kind),
+                      input.entry.kind});
   return true;
+}
+
+bool ReceiveTask::show(recording::SensorKind kind, PictureOutlet& outlet) {
+  const auto camera = std::ranges::find_if(
+      sensors_, [&](const Sensor& sensor) { return sensor.kind == kind && sensor.pictures[0] != nullptr; });
+  if (camera == sensors_.end()) return false;
+  camera->shown = &outlet;
+  return true;
+}
+
+/// Who does not keep up gets fewer pictures.
+void ReceiveTask::show(const Packet& picture, PictureOutlet& outlet) {
+  if (!outlet.wanted.load(std::memory_order_relaxed) || picture.bytes.size() > clients::PicturePart::kMaxBytes) return;
+  if (Packet* place = outlet.pictures.back()) {
+    *place = picture;
+    outlet.pictures.push();
+  }
 }
 
 void ReceiveTask::tick(Tick& tick) {
@@ -61,6 +80,7 @@ void ReceiveTask::take_undecoded(const Packet& packet, Sensor& sensor, Tick& tic
     monitor_.event(packet.arrival, "camera", "stuck: the same picture again and again");
   else if (sensor.watched)
     note(*sensor.watched, packet.arrival);
+  if (sensor.shown != nullptr) show(packet, *sensor.shown);
   for (auto* port : sensor.pictures)
     if (port != nullptr) hand_on(packet, *port, tick);
 }

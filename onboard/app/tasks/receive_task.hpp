@@ -9,6 +9,7 @@
 #include "hal/monitor.hpp"
 #include "hal/relaxed_counter.hpp"
 #include "onboard/app/door/door.hpp"
+#include "onboard/app/streams/outlets/picture_outlet.hpp"
 #include "onboard/app/tasks/messages.hpp"
 #include "onboard/safety/rejection.hpp"
 #include "onboard/safety/stuck.hpp"
@@ -46,6 +47,10 @@ class ReceiveTask final : public scheduler::Task {
   /// `input` must outlive the task. False: there are kMaxInputs already.
   bool add(Input& input, SourceId id, scheduler::Feed::Tap tap);
 
+  /// Live: pictures of the first camera of this kind go to `outlet`, too, while they are wanted. To be called before
+  /// the run; `outlet` must outlive the task. False: there is none.
+  bool show(recording::SensorKind kind, PictureOutlet& outlet);
+
   void tick(scheduler::Tick& tick) override;
   void finish(scheduler::Tick& tick) override;
 
@@ -60,6 +65,8 @@ class ReceiveTask final : public scheduler::Task {
     ScanDecoder* decoder;                    // null: its packets are only counted and recorded
     std::optional<safety::Watched> watched;  // without a decoder: every packet is good data of this kind
     PicturePorts pictures;                   // where its packets go
+    recording::SensorKind kind;
+    PictureOutlet* shown = nullptr;  // null: to no client
     safety::StuckWatch stuck{};
     safety::PictureSample sample{};
     safety::RejectionWatch rejection{};
@@ -70,6 +77,7 @@ class ReceiveTask final : public scheduler::Task {
   void decode(const Packet& packet, Sensor& sensor, scheduler::Tick& tick);
   void judge(Time now);
   void hand_on(const Scan* scan, scheduler::Tick& tick, bool at_the_end);
+  static void show(const Packet& picture, PictureOutlet& outlet);
   static void hand_on(const Packet& picture, scheduler::OutputPort<ArrivedPicture>& to, scheduler::Tick& tick);
   [[nodiscard]] PicturePorts ports_of(recording::SensorKind kind);
   void note(safety::Watched what, Time when);

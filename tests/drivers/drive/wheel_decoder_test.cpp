@@ -36,6 +36,19 @@ TEST_F(WheelDecoderTest, TurnsCountsIntoMotion) {
   EXPECT_NEAR(both(15200, -10270)->v, 0.16, 1e-9);
 }
 
+TEST_F(WheelDecoderTest, SaysWhatEachWheelDid) {
+  both(0, 0);
+  both(100, -300);
+  both(200, -600);
+  const auto wheels = decoder->motions().all();
+  ASSERT_EQ(wheels.size(), 2U);
+  EXPECT_TRUE(wheels[0].left && !wheels[1].left && !wheels[0].rear && !wheels[1].rear);
+  EXPECT_NEAR(wheels[0].travel_m, 0.0032, 1e-12);
+  EXPECT_NEAR(wheels[1].travel_m, 0.0096, 1e-12) << "it counts backwards";
+  EXPECT_NEAR(wheels[0].speed_m_s, 0.16, 1e-9);
+  EXPECT_NEAR(wheels[1].speed_m_s, 0.48, 1e-9);
+}
+
 TEST_F(WheelDecoderTest, ALostReadingIsMadeUpForByTheNext) {
   both(0, 0);
   now += 10ms;

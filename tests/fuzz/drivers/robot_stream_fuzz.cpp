@@ -5,13 +5,16 @@
 #include <span>
 #include <vector>
 
+#include "drivers/clients/messages/camera.hpp"
 #include "drivers/clients/messages/event.hpp"
 #include "drivers/clients/messages/hello.hpp"
 #include "drivers/clients/messages/people.hpp"
+#include "drivers/clients/messages/picture.hpp"
 #include "drivers/clients/messages/pose.hpp"
 #include "drivers/clients/messages/scan.hpp"
 #include "drivers/clients/messages/state.hpp"
 #include "drivers/clients/messages/tiles.hpp"
+#include "drivers/clients/messages/wheels.hpp"
 #include "tests/fuzz/require.hpp"
 
 namespace cairn::clients {
@@ -33,6 +36,13 @@ std::vector<std::byte> written(const ScanPart& part) {
   std::ranges::copy(part.points_base, points.begin() + part.first);
   std::vector<std::byte> out;
   encode(part, points, out);
+  return out;
+}
+std::vector<std::byte> written(const PicturePart& part) {
+  std::vector<std::byte> bytes(part.total);
+  std::ranges::copy(part.bytes, bytes.begin() + part.first);
+  std::vector<std::byte> out;
+  encode(part, bytes, out);
   return out;
 }
 template <class Message>
@@ -59,6 +69,9 @@ void look(RecordKind kind, Body body) {
   if (kind == RecordKind::kScan) look(body, decode_scan);
   if (kind == RecordKind::kEvent) look(body, decode_event);
   if (kind == RecordKind::kPeople) look(body, decode_people);
+  if (kind == RecordKind::kCamera) look(body, decode_camera);
+  if (kind == RecordKind::kPicture) look(body, decode_picture);
+  if (kind == RecordKind::kWheels) look(body, decode_wheels);
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdio>
 
+#include "drivers/camera/frame.hpp"
 #include "drivers/clients/messages/scan.hpp"
 #include "drivers/clients/sockets/local_server.hpp"
 #include "fusion/peers/items/tile_codec.hpp"
@@ -37,6 +38,11 @@ class Speaker {
   void say_scan(const clients::ScanPart& part, const std::vector<Eigen::Vector3f>& points) {
     clients::begin_record(clients::ScanPart::kKind, sequence_++, bytes_);
     encode(part, points, bytes_);
+    end();
+  }
+  void say_picture(const clients::PicturePart& part, const std::vector<std::byte>& bytes) {
+    clients::begin_record(clients::PicturePart::kKind, sequence_++, bytes_);
+    encode(part, bytes, bytes_);
     end();
   }
   void say_tile(TileMap map, const clients::TilesMessage::Tile& tile) {
@@ -94,6 +100,15 @@ void say_everything(Speaker& core) {
   client::PeopleMessage people;
   people.people.push_back({.id = 7, .sightings = 3, .seen = true, .position_odom = {5, 6, 0}, .velocity_odom = {1, 0}});
   core.say(people);
+  core.say(client::CameraMessage{
+      .name = "front", .width = 3, .height = 2, .lens = client::CameraMessage::Lens::kRadTan, .fx = 5, .fy = 6});
+  std::vector<std::byte> picture;
+  camera::append_header(picture, {static_cast<std::uint32_t>(camera::FrameFormat::kGrey), 3, 2, 3, false});
+  for (int i = 0; i < 6; ++i) picture.push_back(static_cast<std::byte>(10 * i));
+  core.say_picture({.stamp = Time{std::chrono::seconds(2)}}, picture);
+  client::WheelsMessage wheels{.v = 0.5, .radius_m = 0.2};
+  wheels.wheels = {{clients::WheelPlace::kLeft, 3, 0.25}};
+  core.say(wheels);
   core.say(client::EventMessage{.count = 2, .stage = "odometry", .what = "lost"});
   core.say_tile(TileMap::kOwn, pillar());
 }

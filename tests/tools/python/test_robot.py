@@ -8,7 +8,7 @@ import unittest
 import cairn
 import numpy as np
 
-ALL = ["pose", "state", "own_map", "scan", "events", "people"]
+ALL = ["pose", "state", "own_map", "scan", "events", "people", "pictures", "wheels"]
 
 
 class RobotTest(unittest.TestCase):
@@ -53,6 +53,12 @@ class RobotTest(unittest.TestCase):
         person = messages["People"].people[0]
         self.assertEqual((person.id, person.sightings, person.seen), (7, 3, True))
         np.testing.assert_allclose(person.velocity, [1, 0])
+        camera, picture, wheels = messages["Camera"], messages["Picture"], messages["Wheels"]
+        self.assertEqual((camera.name, camera.width, camera.lens), ("front", 3, "radtan"))
+        np.testing.assert_allclose(np.diag(camera.K), [5, 6, 1])
+        self.assertEqual((picture.sensor, picture.stamp_ns), ("front", 2_000_000_000))
+        np.testing.assert_array_equal(picture.pixels, [[0, 10, 20], [30, 40, 50]])
+        self.assertEqual((wheels.v, wheels.wheels[0].place, wheels.wheels[0].travel_m), (0.5, "left", 3))
         self.assertEqual((messages["Event"].what, messages["Event"].count), ("lost", 2))
         self.assertEqual(robot.lost, 0)
 

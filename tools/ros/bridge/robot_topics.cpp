@@ -1,12 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/ros/bridge/robot_topics.hpp"
 
+#include <algorithm>
+#include <utility>
+
 #include "hal/clock.hpp"
 #include "onboard/client/view/costmap.hpp"
 #include "tools/ros/messages/costmap.hpp"
 #include "tools/ros/messages/odometry.hpp"
 #include "tools/ros/messages/people.hpp"
 #include "tools/ros/messages/points.hpp"
+#include "tools/ros/messages/wheels.hpp"
 
 namespace cairn::ros {
 namespace {
@@ -26,6 +30,7 @@ Result<std::unique_ptr<RobotTopics>> RobotTopics::open(RosParticipant& participa
   const auto costmap = Writer<OccupancyGrid>::open(participant, at + "costmap", TopicUse::kLatched);
   const auto people = Writer<MarkerArray>::open(participant, at + "people", TopicUse::kEvent);
   const auto team_people = Writer<MarkerArray>::open(participant, at + "team_people", TopicUse::kEvent);
+  const auto joint_states = Writer<JointState>::open(participant, at + "joint_states", TopicUse::kEvent);
   const auto map = MapFeed::open(participant, at + "map", clients::TileMap::kOwn, options.map, options.map_period);
   if (!odom) return odom.error();
   if (!tf) return tf.error();
@@ -35,8 +40,9 @@ Result<std::unique_ptr<RobotTopics>> RobotTopics::open(RosParticipant& participa
   if (!costmap) return costmap.error();
   if (!people) return people.error();
   if (!team_people) return team_people.error();
+  if (!joint_states) return joint_states.error();
   if (!map) return map.error();
-  const Writers writers{*odom, *tf, *tf_static, *points, *diagnostics, *costmap, *people, *team_people};
+  const Writers writers{*odom, *tf, *tf_static, *points, *diagnostics, *costmap, *people, *team_people, *joint_states};
   std::unique_ptr<RobotTopics> topics(new RobotTopics(participant, std::move(options), writers, *map));
   topics->utc_.greeted(LiveClock::realtime_offset(), LiveClock::realtime_offset());
   return topics;
@@ -54,8 +60,8 @@ Result<void> RobotTopics::write(const client::HelloMessage& hello) {
   T_team_odom_.reset();
   T_odom_base_.reset();
   pose_.reset();  // another core may count its time anew
-  const Time now = LiveClock().now();
-  (void)writers_.tf_static.write(tf_static_of(hello.sensors, frames_, now, utc_.value(), arena_));
+  sensors_ = hello.sensors;
+  write_frames();
   own_.begin(hello);
   if (hello.robot_id != 0 && !team_) {
     const auto map = MapFeed::open(*participant_, "/" + options_.name + "/team_map", clients::TileMap::kTeam,
@@ -105,6 +111,42 @@ Result<void> RobotTopics::write(const client::PeopleMessage& people) {
   return {};
 }
 
+/// Topics of a camera stay when another core has no such camera.
+Result<void> RobotTopics::write(const client::CameraMessage& camera) {
+  if (const auto known = cameras_.find(camera.camera); known != cameras_.end()) {
+    known->second.describe(camera);
+  } else {
+    auto feed = CameraFeed::open(*participant_, "/" + options_.name + "/", camera);
+    if (!feed) return feed.error();
+    cameras_.emplace(camera.camera, std::move(*feed));
+  }
+  const auto mount = std::ranges::find(sensors_, camera.name, &clients::HelloMessage::Sensor::name);
+  if (mount == sensors_.end()) return {};
+  const std::string optical = optical_frame(Frames(), camera);
+  std::erase_if(sensors_, [&](const auto& sensor) { return sensor.name == optical; });
+  const SE3 T_base_camera =
+      std::ranges::find(sensors_, camera.name, &clients::HelloMessage::Sensor::name)->T_base_sensor;
+  sensors_.push_back({optical, T_base_camera * T_camera_optical()});
+  write_frames();
+  return {};
+}
+
+Result<void> RobotTopics::write(const client::PictureMessage& picture) {
+  const auto camera = cameras_.find(picture.camera);
+  return camera == cameras_.end() ? Result<void>{} : camera->second.take(picture, frames_, utc_.value(), arena_);
+}
+
+/// Nothing without a radius: joints have angles.
+Result<void> RobotTopics::write(const client::WheelsMessage& wheels) {
+  if (wheels.radius_m > 0) (void)writers_.joint_states.write(joint_state_of(wheels, frames_, utc_.value(), arena_));
+  return {};
+}
+
+/// All of them in one message, each time, as ROS wants it.
+void RobotTopics::write_frames() {
+  (void)writers_.tf_static.write(tf_static_of(sensors_, frames_, LiveClock().now(), utc_.value(), arena_));
+}
+
 Result<void> RobotTopics::write(client::CoreGone /*gone*/) {
   health_.core_gone();
   diagnosed_.reset();  // say it now
@@ -148,15 +190,21 @@ void RobotTopics::write_diagnostics(Time now, const std::vector<Diagnosis>& othe
 }
 
 Diagnosis RobotTopics::traffic() const {
-  const auto& [odom, tf, tf_static, points, diagnostics, costmap, people, team_people] = writers_;
-  const std::uint64_t lost = odom.lost() + tf.lost() + points.lost() + costmap.lost() + people.lost() +
-                             team_people.lost() + own_.writer().lost();
+  const auto& [odom, tf, tf_static, points, diagnostics, costmap, people, team_people, joint_states] = writers_;
+  std::uint64_t lost = odom.lost() + tf.lost() + points.lost() + costmap.lost() + people.lost() + team_people.lost() +
+                       joint_states.lost() + own_.writer().lost();
+  std::uint64_t pictures = 0;
+  for (const auto& [number, camera] : cameras_) {
+    lost += camera.lost();
+    pictures += camera.written();
+  }
   Diagnosis traffic{.level = lost == 0 ? DiagnosticLevel::kOk : DiagnosticLevel::kWarn,
                     .name = "cairn-ros",
                     .message = lost == 0 ? "all was sent" : "readers do not keep up"};
   traffic.values = {{"odom", std::to_string(odom.written())},
                     {"points", std::to_string(points.written())},
                     {"map", std::to_string(own_.writer().written())},
+                    {"pictures", std::to_string(pictures)},
                     {"lost", std::to_string(lost)}};
   return traffic;
 }
@@ -164,12 +212,17 @@ Diagnosis RobotTopics::traffic() const {
 client::SubscribeMessage RobotTopics::wants() const {
   using clients::Stream;
   client::SubscribeMessage wants;
-  for (const Stream stream : {Stream::kPose, Stream::kState, Stream::kOwnTiles, Stream::kEvents}) wants.add(stream);
+  for (const Stream stream : {Stream::kPose, Stream::kState, Stream::kOwnTiles, Stream::kEvents, Stream::kCameras})
+    wants.add(stream);
   if (team_) wants.add(Stream::kTeamTiles);
   if (writers_.points.read_by_anybody()) wants.add(Stream::kScan);
   if (writers_.people.read_by_anybody()) wants.add(Stream::kPeople);
   if (writers_.team_people.read_by_anybody()) wants.add(Stream::kTeamPeople);
+  if (writers_.joint_states.read_by_anybody()) wants.add(Stream::kWheels);
+  if (std::ranges::any_of(cameras_, [](const auto& camera) { return camera.second.read_by_anybody(); }))
+    wants.add(Stream::kPictures);
   wants.pose_hz = options_.pose_hz;
+  wants.picture_hz = static_cast<float>(options_.picture_hz);
   wants.own = own_.resume();
   if (team_) wants.team = team_->resume();
   return wants;

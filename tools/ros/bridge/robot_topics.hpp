@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -8,6 +10,7 @@
 #include <vector>
 
 #include "onboard/client/robot_stream.hpp"
+#include "tools/ros/bridge/camera_feed.hpp"
 #include "tools/ros/bridge/map_feed.hpp"
 #include "tools/ros/dds/topic.hpp"
 #include "tools/ros/messages/diagnostics.hpp"
@@ -21,7 +24,8 @@ struct TopicOptions {
   std::string frame_prefix;  ///< before each frame but the team's
   MapForm map = MapForm::kBinary;
   Duration map_period = std::chrono::seconds(2);
-  double pose_hz = 50;  ///< 0: the poses of scans alone
+  double pose_hz = 50;    ///< 0: the poses of scans alone
+  double picture_hz = 5;  ///< of each camera, at most; 0: all
 };
 
 /// Out: what a core says, as topics of ROS.
@@ -35,7 +39,7 @@ class RobotTopics {
   /// Writes maps and, once a second, diagnostics, `others` after its own. Error kLimit: a map is too large.
   Result<void> tick(Time now, const std::vector<Diagnosis>& others);
 
-  /// What the core should send now: scans only while somebody reads `points`.
+  /// What the core should send now: scans, people, wheels and pictures only while somebody reads them.
   [[nodiscard]] client::SubscribeMessage wants() const;
   /// The epoch to arm with, as the core said last; none: it has not.
   [[nodiscard]] std::optional<std::uint32_t> arming_epoch() const { return health_.arming_epoch(); }
@@ -48,6 +52,7 @@ class RobotTopics {
     Writer<DiagnosticArray> diagnostics;
     Writer<OccupancyGrid> costmap;
     Writer<MarkerArray> people, team_people;
+    Writer<JointState> joint_states;
   };
   RobotTopics(RosParticipant& participant, TopicOptions options, Writers writers, MapFeed own)
       : participant_(&participant),
@@ -63,9 +68,13 @@ class RobotTopics {
   Result<void> write(const client::ScanMessage& scan);
   Result<void> write(const client::EventMessage& event);
   Result<void> write(const client::PeopleMessage& people);
+  Result<void> write(const client::CameraMessage& camera);
+  Result<void> write(const client::PictureMessage& picture);
+  Result<void> write(const client::WheelsMessage& wheels);
   Result<void> write(client::CoreGone gone);
   Result<void> write(std::monostate nothing);
   Result<void> write_maps(Time now);
+  void write_frames();
   void write_costmap(Time now);
   void write_diagnostics(Time now, const std::vector<Diagnosis>& others);
   [[nodiscard]] Diagnosis traffic() const;
@@ -76,6 +85,8 @@ class RobotTopics {
   Writers writers_;
   MapFeed own_;
   std::optional<MapFeed> team_;
+  std::map<std::uint8_t, CameraFeed> cameras_;  // by number
+  std::vector<clients::HelloMessage::Sensor> sensors_;
   Health health_;
   UtcOffset utc_;
   std::optional<Time> pose_, diagnosed_;  // stamp of the newest pose written; of the last diagnostics

@@ -13,10 +13,34 @@ const RosType& ros_type<BoolMessage>() {
 }
 
 template <>
+const RosType& ros_type<CameraInfo>() {
+  static const RosType type{"sensor_msgs/msg/CameraInfo",
+                            "RIHS01_b3dfd68ff46c9d56c80fd3bd4ed22c7a4ddce8c8348f2f59c299e73118e7e275",
+                            &sensor_msgs_msg_dds__CameraInfo__desc};
+  return type;
+}
+
+template <>
+const RosType& ros_type<CompressedImage>() {
+  static const RosType type{"sensor_msgs/msg/CompressedImage",
+                            "RIHS01_15640771531571185e2efc8a100baf923961a4d15d5569652e6cb6691e8e371a",
+                            &sensor_msgs_msg_dds__CompressedImage__desc};
+  return type;
+}
+
+template <>
 const RosType& ros_type<DiagnosticArray>() {
   static const RosType type{"diagnostic_msgs/msg/DiagnosticArray",
                             "RIHS01_5a8a36efb05fb25070fa0fb3810290c0e6cd4862b54a8fb975a1ee8dc55a333e",
                             &diagnostic_msgs_msg_dds__DiagnosticArray__desc};
+  return type;
+}
+
+template <>
+const RosType& ros_type<JointState>() {
+  static const RosType type{"sensor_msgs/msg/JointState",
+                            "RIHS01_a13ee3a330e346c9d87b5aa18d24e11690752bd33a0350f11c5882bc9179260e",
+                            &sensor_msgs_msg_dds__JointState__desc};
   return type;
 }
 

@@ -21,7 +21,13 @@ template <class Message>
 template <>
 const RosType& ros_type<BoolMessage>();
 template <>
+const RosType& ros_type<CameraInfo>();
+template <>
+const RosType& ros_type<CompressedImage>();
+template <>
 const RosType& ros_type<DiagnosticArray>();
+template <>
+const RosType& ros_type<JointState>();
 template <>
 const RosType& ros_type<MarkerArray>();
 template <>

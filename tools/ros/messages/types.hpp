@@ -7,9 +7,12 @@
 namespace cairn::ros {
 
 using BoolMessage = std_msgs_msg_dds__Bool_;
+using CameraInfo = sensor_msgs_msg_dds__CameraInfo_;
+using CompressedImage = sensor_msgs_msg_dds__CompressedImage_;
 using DiagnosticArray = diagnostic_msgs_msg_dds__DiagnosticArray_;
 using DiagnosticStatus = diagnostic_msgs_msg_dds__DiagnosticStatus_;
 using Header = std_msgs_msg_dds__Header_;
+using JointState = sensor_msgs_msg_dds__JointState_;
 using KeyValue = diagnostic_msgs_msg_dds__KeyValue_;
 using Marker = visualization_msgs_msg_dds__Marker_;
 using MarkerArray = visualization_msgs_msg_dds__MarkerArray_;

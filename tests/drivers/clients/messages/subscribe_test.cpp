@@ -12,6 +12,7 @@ SubscribeMessage some_subscription() {
   message.add(Stream::kTeamTiles);
   message.pose_hz = 200;
   message.scan_hz = 2;
+  message.picture_hz = 5;
   message.own = {7, 1, 99};
   message.team = {7, 0, 5};
   return message;
@@ -24,6 +25,7 @@ TEST(SubscribeMessage, ComesBackAsItWasSent) {
   EXPECT_FALSE(got->wants(Stream::kScan));
   EXPECT_EQ(got->pose_hz, 200);
   EXPECT_EQ(got->scan_hz, 2);
+  EXPECT_EQ(got->picture_hz, 5);
   EXPECT_EQ(got->own, some_subscription().own);
   EXPECT_EQ(got->team, some_subscription().team);
   test::expect_exact(test::body_of(some_subscription()), decode_subscribe);
@@ -37,12 +39,15 @@ TEST(SubscribeMessage, RefusesRatesThatCannotBe) {
     message = some_subscription();
     message.scan_hz = rate_hz;
     EXPECT_FALSE(decode_subscribe(test::body_of(message)));
+    message = some_subscription();
+    message.picture_hz = static_cast<float>(rate_hz);
+    EXPECT_FALSE(decode_subscribe(test::body_of(message)));
   }
 }
 
 TEST(SubscribeMessage, RefusesStreamsThatDoNotExist) {
   SubscribeMessage message;
-  message.streams = 256;
+  message.streams = kAllStreams + 1;
   EXPECT_FALSE(decode_subscribe(test::body_of(message)));
 }
 

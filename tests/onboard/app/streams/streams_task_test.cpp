@@ -67,6 +67,97 @@ TEST_F(StreamsTaskTest, PeopleOfPeersAreAStreamOfTheirOwn) {
   EXPECT_TRUE(read<clients::PeopleMessage>(own).empty());
 }
 
+TEST_F(StreamsTaskTest, WheelsAreToldToThoseWhoAsk) {
+  RobotStream wheels = connect(wanted({Stream::kWheels})), states = connect(wanted({Stream::kState}));
+  EXPECT_FALSE(outlets_.wheels_wanted);
+  run();
+  EXPECT_TRUE(outlets_.wheels_wanted);
+  task_.set_wheel_radius(0.2);
+  WheelNews* news = outlets_.wheels.back();
+  ASSERT_NE(news, nullptr);
+  news->state.stamp = Time{milliseconds(300)};
+  news->state.v = 0.5;
+  news->wheels.count = 2;
+  news->wheels.wheels[0] = {.left = true, .travel_m = 3, .speed_m_s = 0.4};
+  news->wheels.wheels[1] = {.left = true, .rear = true, .travel_m = 4};
+  outlets_.wheels.push();
+  run();
+  const auto got = read<clients::WheelsMessage>(wheels);
+  ASSERT_EQ(got.size(), 1U);
+  EXPECT_EQ(got[0].v, 0.5);
+  EXPECT_EQ(got[0].radius_m, 0.2);
+  ASSERT_EQ(got[0].wheels.size(), 2U);
+  EXPECT_EQ(got[0].wheels[0].place, clients::WheelPlace::kFrontLeft);
+  EXPECT_EQ(got[0].wheels[1].travel_m, 4);
+  EXPECT_TRUE(read<clients::WheelsMessage>(states).empty());
+}
+
+class PictureStreamTest : public test::StreamsRig {
+ protected:
+  PictureStreamTest() { task_.show({{.message = {.camera = 1, .name = "thermal"}, .latency = milliseconds(30)}}); }
+  /// False: there was no room.
+  bool take_picture(int number, std::size_t bytes) {
+    Packet* picture = outlets_.pictures[1].pictures.back();
+    if (picture == nullptr) return false;
+    picture->arrival = Time{milliseconds(1000 + 100 * number)};
+    picture->bytes.assign(bytes, static_cast<std::byte>(number));
+    outlets_.pictures[1].pictures.push();
+    return true;
+  }
+};
+
+TEST_F(PictureStreamTest, GoesToThoseWhoAskAtTheirRate) {
+  auto wants = wanted({Stream::kCameras});
+  RobotStream pictures = connect(wants);
+  run();
+  EXPECT_FALSE(outlets_.pictures[1].wanted);
+  const auto cameras = read<client::CameraMessage>(pictures);
+  ASSERT_EQ(cameras.size(), 1U);
+  EXPECT_EQ(cameras[0].name, "thermal");
+  wants.add(Stream::kPictures);
+  wants.picture_hz = 5;
+  pictures.subscribe(wants);
+  run();
+  EXPECT_TRUE(outlets_.pictures[1].wanted);
+  std::vector<client::PictureMessage> got;
+  for (int i = 0; i < 8; ++i) {
+    ASSERT_TRUE(take_picture(i, 100'000));
+    run(1);
+    for (auto& picture : read<client::PictureMessage>(pictures)) got.push_back(std::move(picture));
+  }
+  ASSERT_EQ(got.size(), 4U);
+  EXPECT_EQ(got[0].bytes, std::vector<std::byte>(100'000, std::byte{0}));
+  EXPECT_EQ(got[1].camera, 1);
+  EXPECT_EQ(got[1].stamp, Time{milliseconds(1170)}) << "it was taken 30 ms before it came";
+  EXPECT_EQ(pictures.lost(), 0U);
+}
+
+TEST_F(PictureStreamTest, WhoDoesNotReadLosesPicturesAndNoPoses) {
+  auto wants = wanted({Stream::kPictures, Stream::kPose});
+  RobotStream slow = connect(wants);
+  run();
+  for (int i = 0; i < 10; ++i) {
+    (void)take_picture(i, 1'000'000);
+    locate(i + 1);
+    run();
+  }
+  std::size_t poses = 0;
+  std::vector<client::PictureMessage> got;
+  for (int i = 0; i < 20; ++i, run()) {
+    for (;;) {
+      auto next = slow.next(Duration{});
+      ASSERT_TRUE(next);
+      if (std::holds_alternative<std::monostate>(*next)) break;
+      if (std::holds_alternative<clients::PoseMessage>(*next)) ++poses;
+      if (auto* picture = std::get_if<client::PictureMessage>(&*next)) got.push_back(std::move(*picture));
+    }
+  }
+  EXPECT_EQ(poses, 10U);
+  ASSERT_GE(got.size(), 1U) << "the newest ones come when it reads";
+  for (const auto& picture : got) EXPECT_EQ(picture.bytes.size(), 1'000'000U);
+  EXPECT_EQ(got.back().bytes.back(), std::byte{9});
+}
+
 TEST_F(StreamsTaskTest, TheStateComesAtOnceWithEveryChangeAndOnceASecond) {
   RobotStream states = connect(wanted({Stream::kState}));
   run();

@@ -137,7 +137,10 @@ class TypeHash : public ::testing::Test {
 
 TEST_F(TypeHash, OfEachTypeIsThatOfItsIdl) {
   expect_like_ros(ros_type<BoolMessage>());
+  expect_like_ros(ros_type<CameraInfo>());
+  expect_like_ros(ros_type<CompressedImage>());
   expect_like_ros(ros_type<DiagnosticArray>());
+  expect_like_ros(ros_type<JointState>());
   expect_like_ros(ros_type<MarkerArray>());
   expect_like_ros(ros_type<OccupancyGrid>());
   expect_like_ros(ros_type<Octomap>());

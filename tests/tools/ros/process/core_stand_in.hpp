@@ -8,6 +8,7 @@
 
 #include "drivers/clients/messages/command.hpp"
 #include "drivers/clients/messages/hello.hpp"
+#include "drivers/clients/messages/picture.hpp"
 #include "drivers/clients/messages/scan.hpp"
 #include "drivers/clients/messages/subscribe.hpp"
 #include "drivers/clients/messages/tiles.hpp"
@@ -41,6 +42,11 @@ class CoreStandIn {
       part.first += encode(part, points, bytes_);
       send();
     }
+  }
+  void say_picture(const clients::PicturePart& part, std::span<const std::byte> bytes) {
+    clients::begin_record(clients::RecordKind::kPicture, sequence_++, bytes_);
+    encode(part, bytes, bytes_);
+    send();
   }
   void say_tiles(const clients::TilesMessage& tiles) {
     clients::TilesWriter writer(tiles, sequence_++, bytes_);

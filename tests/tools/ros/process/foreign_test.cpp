@@ -7,41 +7,11 @@
 #include <sstream>
 
 #include "onboard/client/view/costmap.hpp"
-#include "tests/tools/ros/process/fast_dds.hpp"
-#include "tests/tools/ros/process/ros_rig.hpp"
+#include "tests/tools/ros/process/foreign_rig.hpp"
 #include "tools/ros/messages/odometry.hpp"
 
 namespace cairn::ros {
 namespace {
-
-using fast::Fields;
-using fast::Payload;
-
-class ForeignRos : public RosRig {
- protected:
-  ForeignRos() : ros_side_(domain_number()) {}
-
-  /// The first message of a topic of /husky_1, or none in five minutes.
-  std::optional<Payload> first(const std::string& topic, const std::string& type, const fast::DataReaderQos& qos) {
-    auto* reader = ros_side_.reader(topic, type, qos);
-    std::optional<Payload> payload;
-    EXPECT_TRUE(until([&] { return (payload = fast::take(reader)).has_value(); })) << topic;
-    return payload;
-  }
-
-  /// Seconds after the epoch at which a core's stamps lie.
-  static void expect_stamp(Fields& fields) {
-    EXPECT_GE(fields.next<std::int32_t>(), 1'700'000'100);
-    EXPECT_EQ(fields.next<std::uint32_t>() % 20'000'000, 0U) << "stamps of the stand-in are multiples of 20 ms";
-  }
-  static void expect_transform(Fields& fields, const SE3& T) {
-    EXPECT_EQ(fields.reals(3), std::vector<double>(T.translation().begin(), T.translation().end()));
-    const auto& q = T.quaternion();
-    EXPECT_EQ(fields.reals(4), (std::vector{q.x(), q.y(), q.z(), q.w()}));
-  }
-
-  fast::FastRos ros_side_;
-};
 
 TEST_F(ForeignRos, ReadsOdometry) {
   start_core();
@@ -82,11 +52,18 @@ TEST_F(ForeignRos, ReadsTransforms) {
   EXPECT_EQ(tf.text(), "h1/odom");
   expect_transform(tf, *state().T_team_odom);
 
-  auto fixed = first("rt/tf_static", "tf2_msgs::msg::dds_::TFMessage_", fast::latched_qos());
-  ASSERT_TRUE(fixed) << "it was written once, before this reader came";
+  auto* latched = ros_side_.reader("rt/tf_static", "tf2_msgs::msg::dds_::TFMessage_", fast::latched_qos());
+  std::optional<Payload> fixed;
+  EXPECT_TRUE(until([&] {
+    fixed = fast::take(latched);
+    return fixed && Fields(*fixed).next<std::uint32_t>() == 3;
+  })) << "the optical frame follows when the core has said its cameras";
+  ASSERT_TRUE(fixed);
   Fields tf_static(*fixed);
-  EXPECT_EQ(tf_static.next<std::uint32_t>(), 2U);
-  for (const auto& sensor : hello().sensors) {
+  EXPECT_EQ(tf_static.next<std::uint32_t>(), 3U);
+  auto sensors = hello().sensors;
+  sensors.push_back({"front_optical", SE3(Eigen::Quaterniond(0.5, -0.5, 0.5, -0.5), Eigen::Vector3d::Zero())});
+  for (const auto& sensor : sensors) {
     (void)tf_static.next<std::int32_t>();
     (void)tf_static.next<std::uint32_t>();
     EXPECT_EQ(tf_static.text(), "h1/base_link");

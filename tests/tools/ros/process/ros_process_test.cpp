@@ -55,6 +55,12 @@ TEST_F(RosProcessTest, WritersAreThoseOfRos) {
        endpoint_of("visualization_msgs::msg::dds_::MarkerArray_", ros_type<MarkerArray>(), kVolatile)},
       {"rt/husky_1/team_people",
        endpoint_of("visualization_msgs::msg::dds_::MarkerArray_", ros_type<MarkerArray>(), kVolatile)},
+      {"rt/husky_1/joint_states",
+       endpoint_of("sensor_msgs::msg::dds_::JointState_", ros_type<JointState>(), kVolatile)},
+      {"rt/husky_1/front/image_raw/compressed",
+       endpoint_of("sensor_msgs::msg::dds_::CompressedImage_", ros_type<CompressedImage>(), kVolatile)},
+      {"rt/husky_1/front/camera_info",
+       endpoint_of("sensor_msgs::msg::dds_::CameraInfo_", ros_type<CameraInfo>(), kVolatile)},
       {"rt/husky_1/map", endpoint_of("octomap_msgs::msg::dds_::Octomap_", ros_type<Octomap>(), kLatched)},
       {"rt/husky_1/team_map", endpoint_of("octomap_msgs::msg::dds_::Octomap_", ros_type<Octomap>(), kLatched)}};
   start_both();
@@ -177,7 +183,7 @@ void expect_node(const Message& said, std::size_t gid_size, std::size_t writers,
 template <class Message>
 class RosNodeTest : public RosProcessTest {
  protected:
-  static constexpr unsigned kWriters = 10;  // those of WritersAreThoseOfRos
+  static constexpr unsigned kWriters = 13;  // those of WritersAreThoseOfRos
 
   /// What the program says once it has the team's map, which comes with the first greeting.
   void expect_said(const char* form, GraphForm type, std::size_t gid_size) {

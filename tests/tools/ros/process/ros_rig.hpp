@@ -11,9 +11,12 @@
 #include <string>
 #include <vector>
 
+#include "drivers/camera/frame.hpp"
+#include "drivers/clients/messages/camera.hpp"
 #include "drivers/clients/messages/event.hpp"
 #include "drivers/clients/messages/pose.hpp"
 #include "drivers/clients/messages/state.hpp"
+#include "drivers/clients/messages/wheels.hpp"
 #include "drivers/peers/domain_claim.hpp"
 #include "fusion/peers/items/tile_codec.hpp"
 #include "hal/clock.hpp"
@@ -120,6 +123,36 @@ class RosRig : public ::testing::Test {
       points.emplace_back(0.25F * static_cast<float>(i), -1.5F, 0.001F * static_cast<float>(i));
     return points;
   }
+  static clients::CameraMessage camera() {
+    return {.camera = 1,
+            .name = "front",
+            .width = 8,
+            .height = 4,
+            .lens = clients::CameraMessage::Lens::kRadTan,
+            .fx = 10,
+            .fy = 11,
+            .cx = 4,
+            .cy = 2,
+            .k = {0.1, 0.2, 0.3, 0.4, 0.5}};
+  }
+  static std::vector<std::byte> pixels() {
+    std::vector<std::byte> pixels;
+    for (int i = 0; i < 8 * 4 * 2; ++i) pixels.push_back(static_cast<std::byte>(3 * i));
+    return pixels;
+  }
+  /// 16 bit, so that a foreign reader gets it exactly.
+  static std::vector<std::byte> picture() {
+    std::vector<std::byte> bytes;
+    camera::append_header(bytes, {static_cast<std::uint32_t>(camera::FrameFormat::kY16), 8, 4, 16, false});
+    const auto values = pixels();
+    bytes.insert(bytes.end(), values.begin(), values.end());
+    return bytes;
+  }
+  [[nodiscard]] clients::WheelsMessage wheels() const {
+    clients::WheelsMessage wheels{.stamp = now_, .v = 0.5, .radius_m = 0.5};
+    wheels.wheels = {{clients::WheelPlace::kLeft, 2, 0.25}, {clients::WheelPlace::kRight, -1, -0.5}};
+    return wheels;
+  }
   static mapping::TileState wall() {
     mapping::TileState wall;
     for (unsigned i = 0; i < 64; ++i) {
@@ -154,6 +187,9 @@ class RosRig : public ::testing::Test {
       core->say(clients::EventMessage{.stamp = now_, .count = 2, .stage = "odometry", .what = "scan refused"});
     if (wants.wants(Stream::kOwnTiles)) core->say_tiles(tiles(clients::TileMap::kOwn));
     if (wants.wants(Stream::kTeamTiles)) core->say_tiles(tiles(clients::TileMap::kTeam));
+    if (wants.wants(Stream::kCameras)) core->say(camera());
+    if (wants.wants(Stream::kWheels)) core->say(wheels());
+    if (wants.wants(Stream::kPictures)) core->say_picture({.stamp = now_, .camera = camera().camera}, picture());
     if (wants.wants(Stream::kScan)) core->say_scan({.stamp = now_, .T_odom_base = pose().T_odom_base.mean}, points());
   }
 

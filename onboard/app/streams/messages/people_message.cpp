@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/app/streams/people_message.hpp"
+#include "onboard/app/streams/messages/people_message.hpp"
 
 namespace cairn::app {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/app/streams/state_message.hpp"
+#include "onboard/app/streams/messages/state_message.hpp"
 
 #include <gmock/gmock.h>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/app/streams/tile_outlet.hpp"
+#include "onboard/app/streams/outlets/tile_outlet.hpp"
 
 #include <gmock/gmock.h>
 

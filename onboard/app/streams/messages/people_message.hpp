@@ -2,7 +2,7 @@
 #pragma once
 
 #include "drivers/clients/messages/people.hpp"
-#include "onboard/app/streams/stream_outlets.hpp"
+#include "onboard/app/streams/outlets/stream_outlets.hpp"
 
 namespace cairn::app {
 
