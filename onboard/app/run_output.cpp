@@ -76,15 +76,15 @@ void add_tasks(const RobotTasks& tasks, report::RunReport& report) {
     report.control_thread_allocations = control.allocations + tasks.graph.scheduled(tasks.drive).stats.allocations;
 }
 
-/// A level that leaves nothing out is reported as `nothing`, which is first.
+/// A level that leaves nothing out is reported as the one before it.
 void add_shed(const MappingTask& mapping, report::RunReport& report) {
   for (int i = 0; i < safety::kShedLevels; ++i) {
     const auto level = static_cast<safety::Shed>(i);
     const std::uint64_t scans = mapping.scans_at()[static_cast<std::size_t>(i)];
-    if (i == 0 || safety::in_force(level, mapping.takes_labels()) == level)
+    if (safety::in_force(level, mapping.shed_work()) == level)
       report.shed.emplace_back(to_string(level), scans);
     else
-      report.shed.front().second += scans;
+      report.shed.back().second += scans;
   }
 }
 

@@ -12,8 +12,10 @@ std::string_view to_string(Shed level) {
   return kNames[static_cast<std::size_t>(level)];
 }
 
-Shed in_force(Shed level, bool labels) {
-  return level < (labels ? Shed::kSemantics : Shed::kMapDensity) ? Shed::kNothing : level;
+Shed in_force(Shed level, const ShedWork& work) {
+  if (level == Shed::kSemantics && !work.pictures) level = Shed::kPeerTiles;
+  if (level == Shed::kPeerTiles && !work.peers) level = Shed::kNothing;
+  return level;
 }
 
 ShedPlan plan_of(Shed level) {

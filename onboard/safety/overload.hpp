@@ -13,16 +13,21 @@ namespace cairn::safety {
 /// left out.
 enum class Shed : std::uint8_t {
   kNothing,
-  kPeerTiles,       ///< leaves nothing out: reserved for peers' tiles, which another task folds
-  kSemantics,       ///< no picture is looked at, so the map gets no labels
+  kPeerTiles,       ///< peers' maps are neither compared with the robot's nor folded into the team's
+  kSemantics,       ///< no picture is looked at: the map gets no labels, and cameras find no people
   kMapDensity,      ///< every 2nd point goes into the map
   kScanDecimation,  ///< every 4th point of every 2nd scan does
 };
 inline constexpr int kShedLevels = 5;
 [[nodiscard]] std::string_view to_string(Shed level);
 
-/// The level as a report may name it: kNothing for one that leaves nothing out. `labels`: the map gets labels.
-[[nodiscard]] Shed in_force(Shed level, bool labels);
+/// What a robot does that not every robot does.
+struct ShedWork {
+  bool peers = false;     ///< it is in a team
+  bool pictures = false;  ///< networks look at pictures
+};
+/// The level as a report may name it: the highest up to `level` that leaves something out on this robot.
+[[nodiscard]] Shed in_force(Shed level, const ShedWork& work);
 
 /// What a level means for mapping.
 struct ShedPlan {

@@ -219,7 +219,7 @@ void LiveRun::publish_state() {
   (void)outlets_->T_team_odom.refresh();
   outlets_->state.publish(StateNews{.decision = safety_events_.decision(),
                                     .drive = outlets_->drive.value(),
-                                    .shed = tasks_.mapping.shed(),
+                                    .shed = tasks_.mapping.shed_in_force(),
                                     .scans = tasks_.looks(),
                                     .T_team_odom = outlets_->T_team_odom.value()});
 }

@@ -57,9 +57,12 @@ class MappingTask final : public scheduler::Task {
   /// Any thread.
   [[nodiscard]] safety::Shed shed() const { return level_.load(std::memory_order_relaxed); }
   /// Any thread: the level as a report may name it.
-  [[nodiscard]] safety::Shed shed_in_force() const { return safety::in_force(shed(), takes_labels()); }
-  /// Whether the map gets labels.
-  [[nodiscard]] bool takes_labels() const { return labels.channel() != nullptr; }
+  [[nodiscard]] safety::Shed shed_in_force() const { return safety::in_force(shed(), shed_work()); }
+  /// What can be left out besides points.
+  [[nodiscard]] safety::ShedWork shed_work() const {
+    const bool boxed = boxes.channel() != nullptr || thermal_boxes.channel() != nullptr;
+    return {.peers = tiles.connected(), .pictures = boxed || labels.channel() != nullptr};
+  }
   /// Any thread: the last scan found no memory in the map.
   [[nodiscard]] bool memory_short() const { return memory_short_.load(std::memory_order_relaxed); }
   /// Scans that were mapped at each level.

@@ -69,6 +69,7 @@ RobotTasks::RobotTasks(std::span<const recording::SourceEntry> sources, const Ro
     add_depth(profile, options.live(), monitor);
   if (has_kind(sources, recording::kPeers)) {
     team.emplace(graph, profile, mapping.tiles, mapping.mates, monitor);
+    team->team().spare([this] { return mapping.shed(); });
     if (previous.resumed) team->team().go_on();
     mapping.share_resumed_tiles();
   }

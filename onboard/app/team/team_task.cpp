@@ -71,6 +71,7 @@ void TeamTask::attach(Source& source, SourceId id, peer_link::PeerPort* port, sc
 }
 
 void TeamTask::tick(Tick& tick) {
+  spared_ = overloaded(tick);
   if (tick.regime() != Regime::kDrain) {
     hear(tick);
     observe(tick);
@@ -83,6 +84,12 @@ void TeamTask::tick(Tick& tick) {
   const auto& poses = team_->poses().T_team_odom;
   const auto own = poses.find(team_->exchange().self());
   pose_outlet_->publish(own != poses.end() ? std::optional(own->second) : std::nullopt);
+}
+
+/// Virtual time knows no overload.
+bool TeamTask::overloaded(Tick& tick) const {
+  const auto ask = [this] { return shed_ && shed_() >= safety::Shed::kPeerTiles ? 1 : 0; };
+  return tick.decide(shed_slot, ask, 0) != 0;
 }
 
 /// A tile's contributors are looked up in each submap, as when it is fused.
@@ -145,7 +152,7 @@ void TeamTask::speak(Tick& tick) {
   team_->step(now, out_);
   if (port_ != nullptr)
     for (const peers::Outgoing& datagram : out_) port_->send(datagram.to, datagram.bytes);
-  hand_out_a_job(tick);
+  if (!spared_) hand_out_a_job(tick);
   pass_on_bodies(tick);
   note_lags(now);
   if (last_published_ == Time::min() || now >= last_published_ + kPublishPeriod) publish_peers(now);
@@ -198,7 +205,7 @@ void TeamTask::fuse(Tick& tick) {
     while (!team_->fuse(all)) continue;
     return;
   }
-  if (team_->map().up_to_date()) return;
+  if (spared_ || team_->map().up_to_date()) return;
   const StageTimer timing(fusion_);
   Budget budget = tick.budget(fuse_slot, tick.figure_now() + kFusionSlice, kSliceTiles);
   (void)team_->fuse(budget);

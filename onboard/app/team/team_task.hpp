@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "drivers/peers/peer_port.hpp"
@@ -15,6 +16,7 @@
 #include "onboard/app/streams/outlets/stream_outlets.hpp"
 #include "onboard/app/streams/outlets/tile_outlet.hpp"
 #include "onboard/app/team/team_messages.hpp"
+#include "onboard/safety/overload.hpp"
 #include "onboard/scheduler/feed.hpp"
 #include "onboard/scheduler/ports.hpp"
 
@@ -31,9 +33,12 @@ class TeamTask final : public scheduler::Task {
   scheduler::OutputPort<team::MatchJob> jobs{*this, "jobs"};
   scheduler::InputPort<team::MatchJob> results{*this, "results"};
   scheduler::OutputPort<Mates> mates{*this, "mates"};
+  const std::size_t shed_slot = take_slots();  ///< 1: peers' maps wait, because the robot is overloaded
 
   /// `monitor` must outlive the task. `name` and `resolution_m` are those of the robot.
   TeamTask(const TeamProfile& profile, std::string name, double resolution_m, Monitor& monitor);
+  /// Before the run. `shed`: what is left out now; any thread may ask it.
+  void spare(std::function<safety::Shed()> shed) { shed_ = std::move(shed); }
   /// Before the run: the run goes on in the map of the previous run.
   void go_on() { epoch_ = 0; }
   /// Before the run. `source` must outlive the task. `port` is the same source, to send through; null in a replay.
@@ -65,6 +70,7 @@ class TeamTask final : public scheduler::Task {
  private:
   static constexpr std::uint32_t kFirstEpoch = 1;  // see Resume
 
+  [[nodiscard]] bool overloaded(scheduler::Tick& tick) const;
   void hear(scheduler::Tick& tick);
   void take(const Packet& packet, Time now);
   void begin(const Packet& packet, Time now);
@@ -79,6 +85,8 @@ class TeamTask final : public scheduler::Task {
   void pass_on_bodies(scheduler::Tick& tick);
   void tell_clients(const team::PeerBodies& peer, Time now);
 
+  std::function<safety::Shed()> shed_;
+  bool spared_ = false;  // in this tick, peers' maps wait
   TeamProfile profile_;
   std::string name_;
   double resolution_m_;

@@ -114,9 +114,11 @@ TEST(Overload, ALevelIsNamedOnlyWhereItLeavesSomethingOut) {
     const auto level = static_cast<Shed>(i);
     const ShedPlan plan = plan_of(level);
     const bool less = plan.point_stride > all.point_stride || plan.scan_stride > all.scan_stride;
-    EXPECT_EQ(in_force(level, false), less ? level : Shed::kNothing) << to_string(level);
-    EXPECT_EQ(in_force(level, true), less || level == Shed::kSemantics ? level : Shed::kNothing) << to_string(level);
+    EXPECT_EQ(in_force(level, {}), less ? level : Shed::kNothing) << to_string(level);
+    EXPECT_EQ(in_force(level, {.pictures = true}), less || level == Shed::kSemantics ? level : Shed::kNothing);
+    EXPECT_EQ(in_force(level, {.peers = true, .pictures = true}), level);
   }
+  EXPECT_EQ(in_force(Shed::kSemantics, {.peers = true}), Shed::kPeerTiles) << "it includes the one before";
 }
 
 TEST(Overload, ItsBoundsKeepTheSecond) {

@@ -49,7 +49,8 @@ TEST(ShownCameras, AreThoseOfTheRunAsTheProfileDescribesThem) {
 TEST(ShownCameras, PicturesAreHandedOnOnlyWhileTheyAreWanted) {
   Monitor monitor;
   ReceiveTask receive(monitor);
-  Input input{.entry = camera_entry("camera", recording::kCamera)};
+  Input input;
+  input.entry = camera_entry("camera", recording::kCamera);
   input.source = std::make_unique<grey::Pictures>(grey::pictures(10));
   ASSERT_TRUE(receive.add(input, SourceId{}, {}));
   StreamOutlets outlets;
