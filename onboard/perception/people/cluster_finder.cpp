@@ -7,6 +7,8 @@
 #include <utility>
 
 #include "onboard/perception/people/body.hpp"
+#include "onboard/perception/people/plan_spread.hpp"
+#include "onboard/perception/people/wall_cells.hpp"
 
 namespace cairn::people {
 namespace {
@@ -23,17 +25,23 @@ constexpr float kOneBody = 0.65F;       // m; two together are wider
 constexpr float kSeedReach = 0.45F;     // m from where somebody is expected
 constexpr int kEdge = 1;                // cells around what has long stood there: its edges
 constexpr std::uint32_t kFewest = 4;    // points
+// A piece of a wall: standard deviations along and across a line, m. Of bodies in simulated drives that are 0.1 to 0.14
+// m along, 1 % of people's are less than 0.03 m across, and 77 % of all others.
+constexpr double kLongPiece = 0.08, kThinPiece = 0.022;
 
 }  // namespace
 
 struct ClusterFinder::Body {
   Vector2f low = Vector2f::Constant(std::numeric_limits<float>::infinity()), high = -low;
-  Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+  PlanSpread plan;
   float bottom = kHead, top = 0;
-  std::uint32_t points = 0, entered = 0, known = 0;
+  std::uint32_t entered = 0, known = 0;
 
   [[nodiscard]] float extent() const { return (high - low).maxCoeff(); }
-  [[nodiscard]] Vector2f middle() const { return (sum / points).cast<float>(); }
+  [[nodiscard]] Vector2f middle() const { return plan.middle().cast<float>(); }
+  [[nodiscard]] float share(std::uint32_t points) const {
+    return static_cast<float>(points) / static_cast<float>(plan.count());
+  }
   [[nodiscard]] bool may_hold(const Vector2f& seed) const {
     return (seed.array() > low.array() - kSeedReach).all() && (seed.array() < high.array() + kSeedReach).all();
   }
@@ -41,8 +49,9 @@ struct ClusterFinder::Body {
 
 ClusterFinder::ClusterFinder(double farthest_m)
     : farthest_(static_cast<float>(farthest_m)),
-      side_(2 * static_cast<int>(std::ceil(farthest_m / kCell)) + 2),
+      side_(2 * static_cast<int>(std::ceil(farthest_m / kCell)) + 2 * WallCells::kReach),
       ground_(farthest_m),
+      walls_(side_),
       head_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), 0),
       standing_(head_.size(), 0) {}
 
@@ -51,15 +60,18 @@ void ClusterFinder::measure(std::span<const Vector3f> points, const Vector3f& se
   sensor_height_ = sensor_height_m;
   ground_.fill(points, sensor, sensor_height_m);
   heights_.assign(points.size(), 0.0F);
+  walls_.clear();
   const auto side = static_cast<float>(side_);
   const Vector2f corner = sensor.head<2>().array() - 0.5F * kCell * side;
   for (std::size_t i = 0; i < points.size(); ++i) {
     const Vector2f at = (points[i].head<2>() - corner) / kCell;
     // A rim of cells stays empty, so that every cell has its neighbours. What is not finite is not within, either.
-    if (!(at.array() >= 1).all() || !(at.array() < side - 1).all()) continue;
+    if (!(at.array() >= WallCells::kReach).all() || !(at.array() < side - WallCells::kReach).all()) continue;
     if ((points[i].head<2>() - sensor.head<2>()).norm() > farthest_) continue;
     heights_[i] = points[i].z() - ground_.height(points[i].x(), points[i].y());
+    if (at_body_height(i)) walls_.add(cell_of(points[i]), points[i].head<2>());
   }
+  walls_.judge();
 }
 
 std::uint32_t ClusterFinder::cell_of(const Vector3f& point) const {
@@ -79,7 +91,7 @@ void ClusterFinder::mark_standing(std::span<const Vector3f> points, std::span<co
   for (const std::uint32_t cell : standing_cells_) standing_[cell] = 0;
   standing_cells_.clear();
   for (std::uint32_t i = 0; i < points.size(); ++i) {
-    if (spaces[i] != Space::kSettled || !(heights_[i] > kShin && heights_[i] < kHead)) continue;
+    if (spaces[i] != Space::kSettled || !at_body_height(i)) continue;
     const std::uint32_t cell = cell_of(points[i]);
     if (standing_[cell]++ == 0) standing_cells_.push_back(cell);
   }
@@ -101,7 +113,7 @@ void ClusterFinder::fill_cells(std::span<const Vector3f> points, const ClusterCh
   if (choice.loose) mark_standing(points, choice.spaces);
   if (choice.loose) loose_.assign(points.size(), 0);
   for (std::uint32_t i = 0; i < points.size(); ++i) {
-    if (!(heights_[i] > kShin && heights_[i] < kHead)) continue;
+    if (!at_body_height(i)) continue;
     const std::uint32_t cell = cell_of(points[i]);
     if (choice.loose) {
       if (choice.spaces[i] == Space::kSettled || beside_standing(cell, choice.spaces[i])) continue;
@@ -142,10 +154,9 @@ ClusterFinder::Body ClusterFinder::body_of(std::span<const std::uint32_t> member
     const Vector3f& p = points[i];
     body.low = body.low.cwiseMin(p.head<2>());
     body.high = body.high.cwiseMax(p.head<2>());
-    body.sum += p.head<2>().cast<double>();
+    body.plan.add(p.head<2>());
     body.bottom = std::min(body.bottom, heights_[i]);
     body.top = std::max(body.top, heights_[i]);
-    ++body.points;
     if (choice.spaces.empty()) continue;
     if (choice.spaces[i] == Space::kFree) ++body.entered;
     if (choice.spaces[i] == Space::kNew || choice.spaces[i] == Space::kSettled) ++body.known;
@@ -154,7 +165,8 @@ ClusterFinder::Body ClusterFinder::body_of(std::span<const std::uint32_t> member
 }
 
 void ClusterFinder::add_if_person_sized(const Body& body) {
-  if (body.points < kFewest || body.extent() > kWidest || body.bottom > kHighestBottom) return;
+  if (body.plan.count() < kFewest || body.extent() > kWidest || body.bottom > kHighestBottom) return;
+  if (body.plan.on_a_line(kLongPiece, kThinPiece)) return;
   const Vector2f away = body.middle() - sensor_.head<2>();
   const float seen_up_to = sensor_height_ + kSteepest * away.norm() - kCell;
   if (body.top < std::min(kLowestTop, seen_up_to)) return;
@@ -162,9 +174,9 @@ void ClusterFinder::add_if_person_sized(const Body& body) {
                        .ground = ground_.height(body.middle().x(), body.middle().y()),
                        .top = body.top,
                        .extent = body.extent(),
-                       .points = body.points,
-                       .entered = static_cast<float>(body.entered) / static_cast<float>(body.points),
-                       .known = static_cast<float>(body.known) / static_cast<float>(body.points)});
+                       .points = body.plan.count(),
+                       .entered = body.share(body.entered),
+                       .known = body.share(body.known)});
 }
 
 /// Each point is of the nearest person who is expected there. What is of nobody is put back.

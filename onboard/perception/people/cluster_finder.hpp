@@ -6,8 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "onboard/perception/people/body.hpp"
 #include "onboard/perception/people/ground_grid.hpp"
 #include "onboard/perception/people/space.hpp"
+#include "onboard/perception/people/wall_cells.hpp"
 
 namespace cairn::people {
 
@@ -42,6 +44,11 @@ class ClusterFinder {
   [[nodiscard]] const GroundGrid& ground() const { return ground_; }
   /// Of the last scan: height above the ground of each point; 0 where it is too far.
   [[nodiscard]] std::span<const float> heights() const { return heights_; }
+  /// Whether a point of the last scan is on a straight wall, see WallCells. Only points that may be somebody's are.
+  [[nodiscard]] bool on_wall(const Eigen::Vector3f& point_odom, std::size_t i) const {
+    return at_body_height(i) && walls_.is_wall(cell_of(point_odom));
+  }
+  [[nodiscard]] bool at_body_height(std::size_t i) const { return heights_[i] > kShin && heights_[i] < kHead; }
   /// Of the last loose choice: the points between shin and head that may be somebody's.
   [[nodiscard]] std::span<const std::uint8_t> loose() const { return loose_; }
 
@@ -63,6 +70,7 @@ class ClusterFinder {
   float farthest_;  // m
   int side_;        // cells
   GroundGrid ground_;
+  WallCells walls_;
   Eigen::Vector3f sensor_ = Eigen::Vector3f::Zero();
   float sensor_height_ = 0;
   std::vector<float> heights_;

@@ -74,8 +74,8 @@ bool People::is_free(const Eigen::Vector2d& position, float ground, const Known&
 void People::ask_map(const PeopleScan& scan, const Known& known) {
   spaces_.assign(scan.points_odom.size(), Space::kUnknown);
   for (std::size_t i = 0; i < spaces_.size(); ++i)
-    if (const float height = finder_.heights()[i]; height > kShin && height < kHead)
-      spaces_[i] = known(scan.points_odom[i]);
+    if (finder_.at_body_height(i))
+      spaces_[i] = finder_.on_wall(scan.points_odom[i], i) ? Space::kSettled : known(scan.points_odom[i]);
 }
 
 /// Without what has long stood there, people beside walls stand alone. With it, those are found who have long stood.
@@ -192,7 +192,8 @@ void People::fill_mask(const PeopleScan& scan) {
   for (const auto& them : {people(), tracker_.newcomers()})
     for (const Person& person : them)
       for (std::size_t i = 0; i < mask_.size(); ++i)
-        if (in_body(scan.points_odom[i], person.position, person.ground)) mask_[i] = 1;
+        if (in_body(scan.points_odom[i], person.position, person.ground) && !finder_.on_wall(scan.points_odom[i], i))
+          mask_[i] = 1;
 }
 
 }  // namespace cairn::people

@@ -43,6 +43,25 @@ TEST(ClusterFinder, WallsFurnitureAndWhatHangsAreNobody) {
   EXPECT_TRUE(clusters_of(sign).empty()) << "a sign in the air";
 }
 
+/// As the strip of a wall that is seen through a gap.
+TEST(ClusterFinder, AFlatPieceIsNobodyWhateverItsDirection) {
+  std::mt19937 random(3);
+  std::normal_distribution<float> noise(0, 0.015F);
+  for (const float turn : {0.0F, 0.5F, 1.6F, 2.8F}) {
+    const Eigen::Vector2f along(std::cos(turn), std::sin(turn)), across(-along.y(), along.x());
+    std::vector<Vector3f> round, flat;
+    for (int i = 0; i < 200; ++i) {
+      const float at = 0.002F * static_cast<float>(i) - 0.2F, height = 0.3F + 0.008F * static_cast<float>(i);
+      const Eigen::Vector2f straight = Eigen::Vector2f(5, 3) + at * along + noise(random) * across;
+      const Eigen::Vector2f bent = straight + std::sqrt(0.04F - at * at) * across;
+      flat.emplace_back(straight.x(), straight.y(), height);
+      round.emplace_back(bent.x(), bent.y(), height);
+    }
+    EXPECT_TRUE(clusters_of(flat).empty()) << turn;
+    EXPECT_EQ(clusters_of(round).size(), 1U) << turn;
+  }
+}
+
 TEST(ClusterFinder, NobodyIsLookedForBeyondTheLimit) {
   const auto scan = scan_of({{{5, 0}}, {{-14, 0}}});
   EXPECT_EQ(clusters_of(scan, 20).size(), 2U);

@@ -57,6 +57,18 @@ TEST_F(PeopleTest, WhoWalksIsMaskedWholeAndNothingElse) {
   EXPECT_EQ(masked, points_on(walker)) << "the pole stays, and so does the ground";
 }
 
+/// Somebody walks along a wall that the map does not know yet, and is gone.
+TEST_F(PeopleTest, AStraightWallIsNobodyWhereSomebodyWas) {
+  settled_x_ = 1000;
+  Cylinder walker;
+  for (int i = 0; i < 25; ++i) {
+    walker.place = {11.4, -1.5 + 0.12 * i};
+    observe({walker});
+  }
+  ASSERT_EQ(people_.people().size(), 1U);
+  EXPECT_EQ(observe({}), 0U) << "the wall is where the mask is, and is flat";
+}
+
 TEST_F(PeopleTest, WhatStandsIsNobody) {
   elsewhere_ = Space::kUnknown;
   for (int i = 0; i < 25; ++i) EXPECT_EQ(observe({{{6, 0}}, {{4, 4}, 0.15, 2.0}}), 0U);
