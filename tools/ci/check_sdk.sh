@@ -54,6 +54,9 @@ mkdir wrong && printf 'cmake_minimum_required(VERSION 3.25)\nproject(wrong CXX)\
 cmake -S wrong -B wrong/build -DCMAKE_PREFIX_PATH="$place/usr" >wrong.log 2>&1 && { echo "it was found" >&2; exit 1; }
 grep -q 'no component flying' wrong.log || { cat wrong.log; exit 1; }
 
+echo "── services"
+"$project/tools/ci/check_units.sh" "$place/usr"
+
 echo "── sizes"
 du -sh usr/bin/cairn-core usr/bin/cairn-peers usr/bin/cairn usr/include usr/lib
 cd "$project"
