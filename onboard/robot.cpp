@@ -130,6 +130,7 @@ const TrackPoint& Robot::place(const odometry::MotionUpdate& motion, bool resumi
                     .epoch = epoch_,
                     .degenerate_directions = motion.degenerate_directions,
                     .by_wheels = motion.by_wheels,
+                    .wrong_wheel_scale = motion.wrong_wheel_scale,
                     .iterations = motion.iterations,
                     .lost = motion.lost});
   return track_.back();

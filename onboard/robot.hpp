@@ -73,6 +73,7 @@ struct TrackPoint {
   std::uint32_t epoch = 0;        ///< counts maps; how the poses of two lie to each other is hardly known or not at all
   int degenerate_directions = 0;  ///< of the motion since the last scan: 0 = all six directions were observed
   bool by_wheels = false;         ///< along the others the wheels told it
+  double wrong_wheel_scale = 0;   ///< see odometry::MotionUpdate
   int iterations = 0;
   bool lost = false;
 };

@@ -155,7 +155,8 @@ bool LidarOdometry::placed_badly() const {
 
 /// Whether wheels tell the motion better than the twist of the last scan that was followed.
 bool LidarOdometry::bridged(double dt_s) const {
-  return (dt_s > config_.second_look.long_step_s || tracking_.lost()) && wheels_.since_followed().has_value();
+  const bool needed = dt_s > config_.second_look.long_step_s || tracking_.lost();
+  return needed && !wheel_aid_.wrong_scale() && wheels_.since_followed().has_value();
 }
 
 /// The first scan of a map was taken in an unknown motion, so its points are skewed. The second one
@@ -249,6 +250,7 @@ OdometryUpdate LidarOdometry::report(Time stamp) const {
   update.T_previous_base = {.mean = T_odom_previous_.inverse() * filter_.state().T_odom_base,
                             .covariance = filter_.step_covariance()};
   update.twist = filter_.state().twist;
+  update.wrong_wheel_scale = wheel_aid_.wrong_scale().value_or(0);
   update.points_base = deskewer_.points_base();
   return update;
 }

@@ -41,6 +41,7 @@ void OdometryTask::locate(const ArrivedScan& arrived, Tick& tick) {
     teller_.tell(out != nullptr ? out->scan : dropped_);
   }
   lost_ = !located || located->lost;
+  if (located) watch_wheels(*located);
   if (!located) {
     monitor_.event(arrived.scan.valid.end, "odometry", to_string(located.error()));
   } else if (out == nullptr) {
@@ -51,6 +52,13 @@ void OdometryTask::locate(const ArrivedScan& arrived, Tick& tick) {
   }
   if (tick.takes_time()) latency_.record(tick.figure_now() - arrived.arrival);
   if (progress_) progress_(arrived.scan.valid.end, ++count_);
+}
+
+void OdometryTask::watch_wheels(const TrackPoint& point) {
+  const bool wrong = point.wrong_wheel_scale != 0;
+  if (wrong && !std::exchange(wheels_wrong_, wrong))
+    monitor_.event(point.stamp, "odometry", "the wheels are not believed: their scale is wrong by more than 15 %");
+  wheels_wrong_ = wrong;
 }
 
 /// The safety task hears of changes only.

@@ -35,6 +35,7 @@ class OdometryTask final : public scheduler::Task {
  private:
   void locate(const ArrivedScan& arrived, scheduler::Tick& tick);
   void publish_status(scheduler::Tick& tick);
+  void watch_wheels(const TrackPoint& point);
 
   Duration deadline_;
   int max_steps_;
@@ -47,6 +48,7 @@ class OdometryTask final : public scheduler::Task {
   LocatedScan dropped_;  // filled when the channel is full
   std::size_t count_ = 0;
   bool lost_ = false, published_lost_ = false;
+  bool wheels_wrong_ = false;  // and that was said
 };
 
 }  // namespace cairn::app

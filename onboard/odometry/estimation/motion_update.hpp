@@ -18,6 +18,9 @@ struct MotionUpdate {
   /// the covariance grows.
   int degenerate_directions = 0;
   bool by_wheels = false;  ///< along those directions the wheels told the motion
+  /// Metres of the way for each metre of the wheels, where the profile's scale is so wrong that they are not believed;
+  /// 0: it is right, or not known.
+  double wrong_wheel_scale = 0;
 
   bool began = false;          ///< the first one: T_odom_base is the identity, odom has nothing in common with before
   bool lost = false;           ///< the measurement did not fit: the pose is predicted, the map was left alone

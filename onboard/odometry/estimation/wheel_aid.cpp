@@ -18,12 +18,14 @@ constexpr double kWander = 1e-4;
 constexpr double kMostDeviations = 3;
 // The least distance that counts as another place: below half of a search's step of 0.25 m. Chosen by hand.
 constexpr double kAgree_m = 0.1;
+// So far all steps have to differ before they are no slip. Chosen by hand.
+constexpr double kAlike_m = 5;
 constexpr double kLeastScale = 0.8, kMostScale = 1.25;
 
 }  // namespace
 
 std::optional<OpenMotion> WheelAid::along(const Matrix6& directions, const WheelBridge& wheels) const {
-  if (directions.isZero()) return std::nullopt;
+  if (directions.isZero() || watch_.wrong()) return std::nullopt;
   const auto measured = wheels.measured();
   if (!measured) return std::nullopt;
   Vector6 motion = measured->mean.log();
@@ -64,7 +66,9 @@ void WheelAid::followed(const WheelBridge& wheels, const SE3& motion, const Dege
   const auto measured = wheels.measured();
   if (degeneracy.count > 0 || !measured || slipped(wheels, motion)) return;
   const Vector6 by_wheels = measured->mean.log(), by_scan = motion.log();
-  if (std::abs(by_scan[5]) < kStraight_rad && std::abs(by_wheels[0]) > kMoved_m) learn_scale(by_wheels[0], by_scan[0]);
+  if (std::abs(by_scan[5]) >= kStraight_rad) return;
+  if (std::abs(by_wheels[0]) > kMoved_m || std::abs(by_scan[0]) > kMoved_m) watch_.add(by_wheels[0], by_scan[0]);
+  if (std::abs(by_wheels[0]) > kMoved_m) learn_scale(by_wheels[0], by_scan[0]);
 }
 
 /// A Kalman filter of one number.
@@ -72,10 +76,22 @@ void WheelAid::learn_scale(double wheels_m, double base_m) {
   scale_variance_ = std::min(scale_variance_ + kWander * kWander, kFirstScale * kFirstScale);
   const double innovation = base_m - scale_ * wheels_m;
   const double variance = wheels_m * wheels_m * scale_variance_ + kMeasured_m * kMeasured_m;
-  if (innovation * innovation > kMostDeviations * kMostDeviations * variance) return;
+  if (innovation * innovation > kMostDeviations * kMostDeviations * variance) return learn_anew(base_m);
+  refused_m_ = 0;
   const double gain = wheels_m * scale_variance_ / variance;
   scale_ = std::clamp(scale_ + gain * innovation, kLeastScale, kMostScale);
   scale_variance_ *= 1 - gain * wheels_m;
+}
+
+/// Steps that all differ alike are no slip: the filter began too far from the truth.
+void WheelAid::learn_anew(double base_m) {
+  refused_m_ += std::abs(base_m);
+  const auto scale = watch_.scale();
+  if (!scale || watch_.wrong() || refused_m_ < kAlike_m) return;
+  const double difference = *scale - scale_;
+  if (difference * difference < kMostDeviations * kMostDeviations * scale_variance_) return;
+  scale_ = *scale;
+  scale_variance_ = kFirstScale * kFirstScale;
 }
 
 }  // namespace cairn::odometry

@@ -6,13 +6,15 @@
 #include "hal/se3.hpp"
 #include "onboard/odometry/estimation/degeneracy.hpp"
 #include "onboard/odometry/estimation/motion_filter.hpp"
+#include "onboard/odometry/estimation/scale_watch.hpp"
 #include "onboard/odometry/estimation/wheel_bridge.hpp"
 
 namespace cairn::odometry {
 
 /// Wheels tell the motion along the directions that scans leave open, as along a corridor without features. Elsewhere
 /// scans are far better than wheels; there they find the wheels' scale. Wheels that turn otherwise than the scan shows
-/// slip, and are not believed.
+/// slip, and are not believed. Wheels whose metres are wrong by more than ScaleWatch::kMostWrong are not believed at
+/// all.
 class WheelAid {
  public:
   /// What wheels say of the motion since the last scan that was followed, along the directions that it left open. None:
@@ -42,14 +44,19 @@ class WheelAid {
 
   /// Metres for each metre of the wheels.
   [[nodiscard]] double scale() const { return scale_; }
+  /// The same by the way of the last metres, where it is so wrong that the wheels are not believed.
+  [[nodiscard]] std::optional<double> wrong_scale() const { return watch_.wrong() ? watch_.scale() : std::nullopt; }
 
  private:
   [[nodiscard]] std::optional<OpenMotion> along(const Matrix6& directions, const WheelBridge& wheels) const;
   void learn_scale(double wheels_m, double base_m);
+  void learn_anew(double base_m);
 
   Matrix6 open_ = Matrix6::Zero();  // Degeneracy::undetermined of the last scan that was followed
   double open_way_m_ = 0;           // driven since a scan told everything
   double scale_ = 1, scale_variance_ = kFirstScale * kFirstScale;
+  ScaleWatch watch_;
+  double refused_m_ = 0;  // along which no step fitted to the scale
 
   static constexpr double kFirstScale = 0.03;  // standard deviation: tyres are worn, and softer when loaded
 };

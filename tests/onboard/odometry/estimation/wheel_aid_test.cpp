@@ -68,6 +68,21 @@ TEST_F(WheelAidTest, WheelsThatSpinDoNotChangeTheScale) {
   EXPECT_NEAR(aid_.scale(), before, 0.005);
 }
 
+TEST_F(WheelAidTest, WheelsWithAScaleFarOffAreNotBelieved) {
+  for (int i = 0; i < 60; ++i) step(moved(0.2, 0), moved(0.16, 0), {});
+  ASSERT_TRUE(aid_.wrong_scale());
+  EXPECT_NEAR(*aid_.wrong_scale(), 0.8, 1e-6);
+  step(moved(0.2, 0), moved(0.16, 0), open_along_x());
+  roll(moved(0.2, 0));
+  EXPECT_FALSE(aid_.open_motion(wheels_)) << "the corridor's axis stays open";
+}
+
+TEST_F(WheelAidTest, AScaleOffByATenthIsFoundAtAnySpeed) {
+  for (int i = 0; i < 60; ++i) step(moved(0.5, 0), moved(0.44, 0), {});
+  EXPECT_FALSE(aid_.wrong_scale());
+  EXPECT_NEAR(aid_.scale(), 0.88, 0.005);
+}
+
 TEST_F(WheelAidTest, ScansWithoutTheirOwnWayTeachNothing) {
   for (int i = 0; i < 200; ++i) step(moved(0.1, 0), moved(0.12, 0), open_along_x());
   EXPECT_EQ(aid_.scale(), 1);
