@@ -24,6 +24,24 @@ double change_between(const mapping::TileState& said, const mapping::TileState& 
          0.25 * (differing(said.low, now.low) + differing(said.high, now.high));
 }
 
+SeenAgain OwnTiles::observe(mapping::TileKey tile, const mapping::TileState& state, Time now, std::uint16_t submap) {
+  SeenAgain seen;
+  auto [waiting, added] = waiting_.try_emplace(tile);
+  if (!added)
+    seen = seen_again(waiting->second.state, state);
+  else if (const auto said = said_.find(tile); said != said_.end())
+    seen = seen_again(said->second.state, state);
+  if (added) waiting->second.first = now;
+  waiting->second.state = state;
+  waiting->second.submap = submap;
+  waiting->second.last = last_ = now;
+  return seen;
+}
+
+std::size_t OwnTiles::forget(Time since) {
+  return std::erase_if(waiting_, [&](const auto& entry) { return entry.second.last >= since; });
+}
+
 bool OwnTiles::due(const Waiting& waiting, const Said* said, Time now) const {
   if (said == nullptr) return now >= waiting.first + config_.first;
   const double much = said->again ? config_.much : config_.much_first;

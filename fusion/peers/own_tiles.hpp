@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <map>
 
 #include "fusion/peers/exchange.hpp"
+#include "fusion/peers/submap_check.hpp"
 #include "hal/time.hpp"
 #include "onboard/mapping/tree/tile_state.hpp"
 
@@ -36,16 +38,13 @@ class OwnTiles {
  public:
   explicit OwnTiles(const OwnTilesConfig& config) : config_(config) {}
 
-  /// A tile has changed. `submap`: the present one, which the tile is published in.
-  void observe(mapping::TileKey tile, const mapping::TileState& state, Time now, std::uint16_t submap = 0) {
-    auto [waiting, added] = waiting_.try_emplace(tile);
-    if (added) waiting->second.first = now;
-    waiting->second.state = state;
-    waiting->second.submap = submap;
-    waiting->second.last = last_ = now;
-  }
+  /// A tile has changed. `submap`: the present one, which the tile is published in. Returns what became of the walls
+  /// that it had when it was observed or published last.
+  SeenAgain observe(mapping::TileKey tile, const mapping::TileState& state, Time now, std::uint16_t submap = 0);
   /// Publishes the tiles that are due.
   void say(Exchange& exchange, Time now);
+  /// Tiles that were observed at `since` or later are not published as they are now. Returns how many these are.
+  std::size_t forget(Time since);
   /// The robot's map begins anew.
   void clear() {
     waiting_.clear();

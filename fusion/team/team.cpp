@@ -15,6 +15,9 @@ using peers::RobotId;
 
 namespace {
 
+// Contradictions show within some batches.
+constexpr Duration kNoticedIn = std::chrono::seconds(3);
+
 peers::ExchangeConfig with_voxels(peers::ExchangeConfig config, double resolution_m) {
   config.voxel_um = static_cast<std::uint32_t>(std::lround(1e6 * resolution_m));
   return config;
@@ -37,6 +40,9 @@ Team::Team(const TeamConfig& config, peers::Epoch epoch)
 void Team::begin(peers::Epoch epoch) {
   own_tiles_.clear();
   own_submaps_.clear();
+  check_ = {};
+  seen_ = {};
+  doubted_.reset();
   exchange_.begin(epoch);
 }
 
@@ -44,12 +50,33 @@ void Team::be_at(const UncertainPose& T_odom_base) {
   position_odom_ = T_odom_base.mean.translation();
   const auto place = peers::place_of(T_odom_base);
   if (!place) return;  // no peer would take it
-  own_submaps_.be_at(position_odom_, exchange_);
+  own_submaps_.be_at(T_odom_base, exchange_);
   exchange_.set_place(*place);
 }
 
+void Team::judge(bool lost, Time now) {
+  check_.judge(lost, std::exchange(seen_, {}));
+  const peers::Doubt doubt = check_.doubt();
+  if (doubted_) held_back_.time += now - *doubted_;
+  if (doubt != peers::Doubt::kNone) {
+    if (!doubted_) begin_doubt(now);
+    contradicted_ = contradicted_ || doubt == peers::Doubt::kContradicted;
+    doubted_ = now;
+  } else if (std::exchange(doubted_, std::nullopt) && contradicted_) {
+    held_back_.tiles += own_tiles_.forget(doubt_began_);
+    own_submaps_.cut(exchange_);
+  }
+}
+
+/// What was mapped in the moments before it was noticed is in doubt as well.
+void Team::begin_doubt(Time now) {
+  doubt_began_ = now - kNoticedIn;
+  contradicted_ = false;
+  ++held_back_.times;
+}
+
 void Team::step(Time now, std::vector<peers::Outgoing>& out) {
-  own_tiles_.say(exchange_, now);
+  if (check_.doubt() == peers::Doubt::kNone) own_tiles_.say(exchange_, now);
   publish_edges();
   take_news(now);
   agree();

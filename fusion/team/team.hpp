@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -12,6 +13,7 @@
 #include "fusion/peers/exchange.hpp"
 #include "fusion/peers/own_submaps.hpp"
 #include "fusion/peers/own_tiles.hpp"
+#include "fusion/peers/submap_check.hpp"
 #include "fusion/team/comparisons/compared_peers.hpp"
 #include "fusion/team/comparisons/match_job.hpp"
 #include "fusion/team/comparisons/match_plan.hpp"
@@ -73,8 +75,12 @@ class Team {
   }
   /// A tile of the robot's own map has changed. It is published as a part of the present submap.
   void observe(mapping::TileKey tile, const mapping::TileState& state, Time now) {
-    own_tiles_.observe(tile, state, now, own_submaps_.current());
+    seen_ += own_tiles_.observe(tile, state, now, own_submaps_.current());
   }
+  /// The tiles that some scans changed have been observed. `lost`: odometry was, at one of these scans. While the
+  /// robot's map is in doubt, nothing of it is published. What was mapped while scans contradicted it never is, and
+  /// another submap begins afterwards.
+  void judge(bool lost, Time now);
   /// Where a peer's odom frame lies in this robot's by something else than maps: a survey, a marker that
   /// both saw. It is published until it is claimed otherwise, also after either robot has begun anew. It
   /// must agree with what the maps say. `probability`: that it is right, 0…1.
@@ -94,6 +100,16 @@ class Team {
   /// Goes on with the team's map. True: it is up to date.
   bool fuse(Budget& budget) { return map_.fuse(budget); }
 
+  /// Why nothing of the robot's own map is published now.
+  [[nodiscard]] peers::Doubt doubt() const { return check_.doubt(); }
+  /// What was not published because of doubts.
+  struct HeldBack {
+    std::uint64_t times = 0;  ///< that nothing was published for a while
+    Duration time{};          ///< all together
+    std::uint64_t tiles = 0;  ///< that were never published as they were then
+  };
+  [[nodiscard]] const HeldBack& held_back() const { return held_back_; }
+
   /// How many tiles of the robot's own map wait to be published.
   [[nodiscard]] std::size_t unsaid() const { return own_tiles_.waiting(); }
   [[nodiscard]] const merging::TeamMap& map() const { return map_; }
@@ -110,6 +126,7 @@ class Team {
  private:
   void publish(const IndexedEdge& edge);
   void publish_edges();
+  void begin_doubt(Time now);
   void take_news(Time now);
   void take_tile(peers::RobotId robot, peers::ItemId id, Time now);
   void agree();
@@ -121,6 +138,12 @@ class Team {
   peers::Exchange exchange_;
   peers::OwnTiles own_tiles_;
   peers::OwnSubmaps own_submaps_;
+  peers::SubmapCheck check_;
+  peers::SeenAgain seen_;        // since the last judgement
+  std::optional<Time> doubted_;  // when it was judged last, if the map was in doubt then
+  Time doubt_began_{};
+  bool contradicted_ = false;  // in the present doubt
+  HeldBack held_back_;
   SurveyedPoses surveyed_;
   TeamTiles tiles_;
   bool claims_changed_ = true;

@@ -47,6 +47,7 @@ report::OdometryStats odometry_stats(const std::vector<TrackPoint>& track) {
     stats.degenerate_scans += p.degenerate_directions > 0 ? 1U : 0U;
     stats.wheel_scans += p.by_wheels ? 1U : 0U;
     stats.lost_scans += p.lost ? 1U : 0U;
+    if (p.wrong_wheel_scale != 0) ++stats.wheels_wrong_scans, stats.wrong_wheel_scale = p.wrong_wheel_scale;
     stats.lost_s += p.lost ? to_seconds(p.stamp - before) : 0;
     iterations += p.iterations;
     before = p.stamp;

@@ -206,6 +206,13 @@ std::vector<Row> peer_rows() {
       shown_by("P25", "a peer lies about occupancy: a phantom wall, or an erased one",
                "A planner's view never lets a peer overrule what the robot saw itself.",
                "client/PlannerViewTest.WhatTheRobotSawItselfIsNeverOverruled"),
+      shown_by("P26", "odometry is wrong and does not know it: scans contradict the robot's own map",
+               "Nothing of the map is shared until scans agree with it again, for 3 s at least. What was mapped in the "
+               "meantime is not shared as it is. Another submap begins, which the team may move. An event says so.",
+               "team/TeamDoubt.ScansThatContradictTheMapAreHeldBackAndANewSubmapFollows"),
+      shown_by("P27", "odometry was lost and has found the map again",
+               "The team is told nothing for 3 s. If scans then agree with the map, all of it is shared.",
+               "peers/SubmapCheck.LostOdometryIsADoubtForAWhileAfterwards"),
   };
 }
 

@@ -125,7 +125,8 @@ void MappingTask::hand_to_clients(std::size_t most) {
 
 /// Scans change the same tiles again and again. Reading them with each scan would be a quarter of the work in a forest.
 void MappingTask::note_changes(const LocatedScan& scan, Tick& tick) {
-  changes_ = {scan.epoch, scan.T_odom_base, scan.twist, scan.stamp};
+  const bool lost = scan.lost || (changes_ && changes_->lost);
+  changes_ = {scan.epoch, scan.T_odom_base, scan.twist, scan.stamp, lost};
   mapped_ = scan.stamp;
   owed_changes_ = false;
   if (scan.stamp < next_batch_ && scan.stamp >= next_batch_ - kBatchPeriod) return;
@@ -142,6 +143,7 @@ void MappingTask::hand_on_tiles(Tick& tick) {
   out->T_odom_base = changes_->T_odom_base;
   out->twist = changes_->twist;
   out->stamp = changes_->stamp;
+  out->lost = changes_->lost;
   out->people.assign(robot_.people().begin(), robot_.people().end());
   out->tiles.clear();
   const auto add = [&](mapping::TileKey tile) {

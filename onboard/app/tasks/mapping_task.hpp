@@ -102,6 +102,7 @@ class MappingTask final : public scheduler::Task {
     UncertainPose T_odom_base;
     Vector6 twist;
     Time stamp;
+    bool lost;  // at one of the scans
   };
   std::optional<Changes> changes_;  // not handed on yet
   Time next_batch_{};

@@ -17,6 +17,7 @@ struct TileBatch {
   UncertainPose T_odom_base;           ///< at the scan
   Vector6 twist = Vector6::Zero();     ///< of base_link in base_link: m/s, rad/s
   Time stamp{};                        ///< of the scan
+  bool lost = false;                   ///< odometry was, at one of the scans
   std::vector<people::Person> people;  ///< around the robot
   std::vector<std::pair<mapping::TileKey, mapping::TileState>> tiles;
 };

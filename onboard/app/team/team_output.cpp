@@ -76,6 +76,9 @@ void add_team(const TeamTask& task, report::RunReport& report) {
     if (team.poses().T_team_odom.contains(robot)) stats.merged_with.push_back(name);
   }
   stats.tiles = tiles_of(team, self);
+  stats.held_back_times = team.held_back().times;
+  stats.held_back_s = to_seconds(team.held_back().time);
+  stats.held_back_tiles = team.held_back().tiles;
   report.team = std::move(stats);
 }
 

@@ -137,7 +137,20 @@ void TeamTask::observe(Tick& tick) {
     team_->be_at(batch->T_odom_base);
     team_->show(bodies_of(*batch, profile_), batch->stamp);
     for (const auto& [tile, state] : batch->tiles) team_->observe(tile, state, tick.release());
+    judge(batch->lost, tick.release());
   }
+}
+
+void TeamTask::judge(bool lost, Time now) {
+  const peers::Doubt before = team_->doubt();
+  team_->judge(lost, now);
+  if (team_->doubt() == before) return;
+  if (team_->doubt() == peers::Doubt::kLost)
+    monitor_.event(now, "team", "what is mapped is held back from the team: odometry was lost");
+  else if (team_->doubt() == peers::Doubt::kContradicted)
+    monitor_.event(now, "team", "what is mapped is held back from the team: scans contradict the map");
+  else
+    monitor_.event(now, "team", "what is mapped is shared with the team again");
 }
 
 void TeamTask::learn(Tick& tick) {

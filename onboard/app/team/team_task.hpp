@@ -75,6 +75,7 @@ class TeamTask final : public scheduler::Task {
   void take(const Packet& packet, Time now);
   void begin(const Packet& packet, Time now);
   void observe(scheduler::Tick& tick);
+  void judge(bool lost, Time now);
   void learn(scheduler::Tick& tick);
   void speak(scheduler::Tick& tick);
   void hand_out_a_job(scheduler::Tick& tick);

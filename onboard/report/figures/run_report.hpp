@@ -43,6 +43,8 @@ struct TaskFigures {
 struct OdometryStats {
   std::uint64_t degenerate_scans = 0;     ///< some direction was not observable
   std::uint64_t wheel_scans = 0;          ///< of these, along which wheels told the motion
+  std::uint64_t wheels_wrong_scans = 0;   ///< at which wheels were not believed: their scale is far off
+  double wrong_wheel_scale = 0;           ///< metres for each metre of the wheels at the last of them; 0: none
   std::uint64_t lost_scans = 0;           ///< registration refused; the motion was predicted
   double lost_s = 0;                      ///< from the scan before each of them
   std::optional<double> mean_iterations;  ///< none without a pose
@@ -117,6 +119,9 @@ struct TeamStats {
   std::map<std::uint64_t, SE3> T_team_odom;  ///< of the robots that are in it, by now
   std::vector<std::string> merged_with;      ///< their names, without this one's
   std::uint64_t tiles = 0;                   ///< that this robot said
+  std::uint64_t held_back_times = 0;         ///< that it said nothing of its map, because that was in doubt
+  double held_back_s = 0;                    ///< so long, all together
+  std::uint64_t held_back_tiles = 0;         ///< that scans contradicted, and that were not said
   std::string sha256;                        ///< over team.cairn and team.tum: the same on every robot of the team
 };
 

@@ -134,8 +134,13 @@ Json team_json(const RunReport& report) {
   const TeamStats& t = *report.team;
   Json poses = Json::object();
   for (const auto& [robot, pose] : t.T_team_odom) poses[std::to_string(robot)] = numbers(pose.matrix());
-  return {{"id", t.id},       {"anchor", t.anchor}, {"T_team_odom", poses}, {"merged_with", t.merged_with},
-          {"tiles", t.tiles}, {"sha256", t.sha256}};
+  return {{"id", t.id},
+          {"anchor", t.anchor},
+          {"T_team_odom", poses},
+          {"merged_with", t.merged_with},
+          {"tiles", t.tiles},
+          {"held_back", {{"times", t.held_back_times}, {"s", t.held_back_s}, {"tiles", t.held_back_tiles}}},
+          {"sha256", t.sha256}};
 }
 
 Json ground_truth_json(const RunReport& report) {
@@ -217,6 +222,7 @@ Json to_json(const RunReport& report) {
           {"odometry",
            {{"degenerate_scans", report.odometry.degenerate_scans},
             {"wheel_scans", report.odometry.wheel_scans},
+            {"wheels_wrong_scans", report.odometry.wheels_wrong_scans},
             {"lost_scans", report.odometry.lost_scans},
             {"lost_s", report.odometry.lost_s},
             {"mean_iterations", or_null(report.odometry.mean_iterations)}}},

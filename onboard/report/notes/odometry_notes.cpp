@@ -35,6 +35,16 @@ void note_open_directions(NoteList& notes, const OdometryStats& odometry) {
   notes.warning(text, "the covariance says which direction");
 }
 
+/// The scale of the profile, times this, is right.
+void note_wrong_wheels(NoteList& notes, const OdometryStats& odometry) {
+  if (odometry.wheels_wrong_scans == 0) return;
+  notes.warning(fmt::format("The wheels were not believed at {} scans: a metre of theirs is {:.2f} m of the way.",
+                            odometry.wheels_wrong_scans, odometry.wrong_wheel_scale),
+                fmt::format("if they do not spin, multiply drive.wheel_radius_m of the profile by {:.2f}; with AgileX, "
+                            "have its odometer calibrated",
+                            odometry.wrong_wheel_scale));
+}
+
 }  // namespace
 
 void note_odometry(NoteList& notes, const RunReport& report) {
@@ -47,6 +57,7 @@ void note_odometry(NoteList& notes, const RunReport& report) {
                 "do not rely on the path there; docs/tuning-budgets.md says what to try");
   note_split(notes, report);
   note_open_directions(notes, odometry);
+  note_wrong_wheels(notes, odometry);
 }
 
 }  // namespace cairn::report

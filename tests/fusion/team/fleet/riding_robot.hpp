@@ -50,6 +50,13 @@ class RidingRobot {
     (void)mapper_.insert(points_, T_odom_lidar.translation().cast<float>());
     for (const mapping::TileKey tile : mapper_.take_changed_tiles())
       team.observe(tile, mapping::read_tile(mapper_.tree(), tile), now);
+    team.judge(false, now);
+  }
+
+  /// From now on, odometry is wrong by so much, and does not know it: a motion of base_link.
+  void mislead(const SE3& motion) {
+    const SE3 at = T_world_base();
+    T_odom_world_ = T_odom_world_ * at * motion * at.inverse();
   }
 
   /// Where the robot is in the world.

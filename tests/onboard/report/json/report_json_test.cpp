@@ -33,6 +33,7 @@ TEST(ReportJson, HasEveryPromisedField) {
                             "/allocations/control_thread",
                             "/odometry/degenerate_scans",
                             "/odometry/wheel_scans",
+                            "/odometry/wheels_wrong_scans",
                             "/ground_truth/ate_rmse_m",
                             "/ground_truth/rpe_trans_percent",
                             "/ground_truth/rpe_rot_deg_per_m",

@@ -45,6 +45,26 @@ TEST(Notes, ScansOfWhichNoneBecameAPoseAreAnError) {
   EXPECT_THAT(lines(report), ElementsAre(HasSubstr("error: Not one scan became a pose")));
 }
 
+TEST(Notes, SayThatWheelsWereNotBelievedAndWhatTheirRadiusIs) {
+  RunReport report = uneventful();
+  report.odometry.wheels_wrong_scans = 7;
+  report.odometry.wrong_wheel_scale = 0.8;
+  ASSERT_THAT(lines(report), ElementsAre(HasSubstr("at 7 scans: a metre of theirs is 0.80 m")));
+  EXPECT_THAT(notes_of(report)[0].remedy, HasSubstr("wheel_radius_m of the profile by 0.80"));
+}
+
+TEST(Notes, SayWhatWasHeldBackFromTheTeam) {
+  RunReport report = uneventful();
+  report.team = TeamStats{};
+  EXPECT_THAT(lines(report), ElementsAre());
+  report.team->held_back_times = 1;
+  report.team->held_back_s = 12;
+  report.team->held_back_tiles = 30;
+  EXPECT_THAT(lines(report), ElementsAre(HasSubstr("For 12 s the team was told nothing")));
+  EXPECT_THAT(lines(report), ElementsAre(HasSubstr("30 tiles")));
+  EXPECT_EQ(to_json(report)["team"]["held_back"]["tiles"], 30);
+}
+
 TEST(Notes, SayHowLongOdometryWasLost) {
   RunReport report = uneventful();
   report.trajectory.resize(40);
