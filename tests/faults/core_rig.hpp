@@ -106,7 +106,8 @@ class CoreRig {
   drive::test::VirtualBus bus;
   support::EStopLine line;
   support::CommandQueue commands;
-  bool asks_to_drive = true;  ///< a client says 0.5 m/s, fifty times a second
+  std::function<void(const drive::CanFrame&)> sees{};  ///< gets what was sent, after each tick; may be empty
+  bool asks_to_drive = true;                           ///< a client says 0.5 m/s, fifty times a second
 
  private:
   /// The bus as the tasks see it.
@@ -155,6 +156,8 @@ class CoreRig {
             (frame.data[0] & 0x0FU) != drive::cia402::kEnableOperation)
           stop_frame_ = now;
     }
+    if (sees)
+      for (const drive::CanFrame& frame : bus.sent) sees(frame);
     bus.sent.clear();
   }
 

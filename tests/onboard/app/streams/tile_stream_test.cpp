@@ -3,6 +3,8 @@
 
 #include <gmock/gmock.h>
 
+#include <string>
+
 #include "tests/onboard/app/streams/streams_rig.hpp"
 
 namespace cairn::app {
@@ -58,6 +60,39 @@ TEST_F(TileStreamTest, WhoDoesNotReadMissesNoTile) {
   run(1);
   take_in(deaf, mirror);
   EXPECT_GT(deaf.lost(), 0U);
+}
+
+/// As robots map: a thousand tiles a second, most of them again and again.
+TEST_F(TileStreamTest, AfterThirtySecondsAwayAMirrorHasEveryTileWithinTwo) {
+  auto wants = wanted({Stream::kOwnTiles});
+  RobotStream always = connect(wants);
+  client::MapMirror there(TileMap::kOwn, 0.2), back(TileMap::kOwn, 0.2);
+  {
+    RobotStream first = connect(wants);
+    map(0, 0, 5000);
+    run(50);
+    take_in(always, there);
+    take_in(first, back);
+  }
+  for (unsigned i = 0; i < 60; ++i) {
+    map(0, 300 * i, 500, i % 8);
+    run(100);  // half a second
+    take_in(always, there);
+  }
+  wants.own = back.resume();
+  RobotStream second = connect(wants);
+  const Time before = now_;
+  do {
+    run(1);
+    take_in(second, back);
+  } while (!(back.caught_up() && back.tiles() == there.tiles()) && now_ - before < std::chrono::seconds(10));
+  RecordProperty("s", std::to_string(to_seconds(now_ - before)));
+  EXPECT_LE(now_ - before, std::chrono::seconds(2));
+  EXPECT_GT(there.tiles(), 18'000U);
+  const auto tiles = mapping::known_tiles(there.map(), 1'000'000);
+  ASSERT_EQ(tiles, mapping::known_tiles(back.map(), 1'000'000));
+  for (const mapping::TileKey tile : tiles)
+    ASSERT_EQ(mapping::read_tile(there.map(), tile), mapping::read_tile(back.map(), tile));
 }
 
 TEST_F(TileStreamTest, AMirrorThatComesBackGetsWhatItLacks) {

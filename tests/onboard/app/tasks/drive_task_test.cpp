@@ -4,6 +4,14 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "drivers/drive/canopen/canopen.hpp"
+#include "drivers/drive/canopen/cia402.hpp"
+#include "drivers/drive/canopen/cia402_master.hpp"
 #include "tests/faults/core_rig.hpp"
 
 namespace cairn::app {
@@ -86,6 +94,37 @@ TEST_F(DriveTaskTest, WhatTheDriveCannotDoIsTold) {
   EXPECT_EQ(last().outcome, Outcome::kLimited);
   EXPECT_LT(last().v, 5);
   EXPECT_GT(last().v, 0);
+}
+
+/// From the arrival of a velocity to the first frame on the bus that has it. A control period is that of the frames to
+/// the motors: the SYNC of CiA 402.
+TEST_F(DriveTaskTest, ACommandIsOnTheBusWithinTwoControlPeriods) {
+  constexpr Duration kControl = drive::cia402::Master::kSyncPeriod;
+  drive_for(1s, 0.3);
+  std::mt19937 random(7);
+  std::uniform_int_distribution<int> ticks(6, 20);
+  Duration worst{}, sum{};
+  constexpr int kCommands = 10'000;
+  for (int i = 0; i < kCommands; ++i) {
+    rig_.go(ticks(random) * faults::CoreRig::kTick);
+    const Time asked = rig_.bus.now;
+    rig_.commands.drive(asked, 0.2 + 0.1 * (i % 3));
+    const auto wanted = static_cast<std::int32_t>(std::lround((0.2 + 0.1 * (i % 3)) / 0.16 * 1000));
+    bool sent = false;
+    rig_.sees = [&](const drive::CanFrame& frame) {
+      if (!frame.is(drive::canopen::kRpdo1 + 1)) return;
+      const auto order = drive::cia402::decode_rpdo1(frame);
+      sent = sent || (order && std::abs(order->target_velocity - wanted) <= 2);
+    };
+    while (!sent && rig_.bus.now - asked < 1s) rig_.go(faults::CoreRig::kTick);
+    worst = std::max(worst, rig_.bus.now - asked);
+    sum += rig_.bus.now - asked;
+    rig_.commands.answers.clear();
+  }
+  rig_.sees = nullptr;
+  RecordProperty("worst_ms", std::to_string(1e3 * to_seconds(worst)));
+  RecordProperty("mean_ms", std::to_string(1e3 * to_seconds(sum) / kCommands));
+  EXPECT_LE(worst, 2 * kControl);
 }
 
 }  // namespace

@@ -30,8 +30,8 @@ namespace cairn::ros {
 /// A program that runs beside the test.
 class RosProcess {
  public:
-  explicit RosProcess(std::vector<std::string> words) {
-    words.insert(words.begin(), places::program("cairn-ros"));
+  explicit RosProcess(std::vector<std::string> words, const char* program = "cairn-ros") {
+    words.insert(words.begin(), places::program(program));
     std::vector<char*> arguments;
     for (std::string& word : words) arguments.push_back(word.data());
     arguments.push_back(nullptr);
