@@ -5,7 +5,7 @@ cairn_bench(peers
 cairn_quality(team_runs
   SOURCES team_runs.cpp team/figures.cpp team/recorded_robot.cpp
   LINK cairn_team cairn_app cairn_team_figures PkgConfig::XXHASH)
-cairn_quality(submap_drift SOURCES submap_drift.cpp LINK cairn_app cairn_peers)
+cairn_quality(submap_drift SOURCES team/submap_drift.cpp LINK cairn_app cairn_peers)
 cairn_quality(core_with_peers SOURCES core_with_peers.cpp LINK cairn_team cairn_app cairn_peer_link)
 cairn_quality(core_with_clients SOURCES core_with_clients.cpp LINK cairn_app cairn_client)
 find_package(fastcdr QUIET)
