@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // A team on simulated recordings, in virtual time over an emulated link: who finds whom and when, how exactly, what it
 // takes to send, and whether all end with one map that fits the world.
-//   team_runs RECORDINGS… [key=value …]     RECORDINGS: a folder of robot_1, robot_2, …
+//   team_runs RECORDINGS… [key=value …]     RECORDINGS: a folder of recordings; several, with commas: all
+//   their robots are one team, in this order. Between robots of different worlds every merge is wrong.
 //   keys: resolution (0.1 m), loss (0.2), jitter_ms (300), rate (bytes/s, 16000), after (s of silence at the end, 30),
 //   out (a folder for the team's map of each robot), looks (1: every place that was looked at, with what speaks for
 //   it), submap (m of path, 300), drift (of the way, 0) and drift_deg (a metre, 0) that odd robots' odometry is given,
@@ -54,22 +55,11 @@ std::uint64_t hash_of(const mapping::SemanticOcTree& map) {
   return XXH3_64bits(out.str().data(), out.str().size());
 }
 
-void print_items(const team::Team& team) {
-  std::uint64_t sent = 0, received = 0, known = 0;
-  for (const auto& [id, link] : team.exchange().links()) {
-    sent += link.sent_items;
-    received += link.received_items;
-    known += link.repeated_items;
-  }
-  std::printf("  items: sent %llu, received %llu, of these known before %llu\n", static_cast<unsigned long long>(sent),
-              static_cast<unsigned long long>(received), static_cast<unsigned long long>(known));
-}
-
 class TeamRun {
  public:
-  TeamRun(std::vector<std::unique_ptr<RecordedRobot>> robots, fs::path folder)
+  TeamRun(std::vector<std::unique_ptr<RecordedRobot>> robots, fs::path first)
       : robots_(std::move(robots)),
-        folder_(std::move(folder)),
+        first_(std::move(first)),
         network_(
             {g_options["loss"], 0.05, 0, std::chrono::milliseconds(20), from_seconds(g_options["jitter_ms"] / 1000)},
             1) {}
@@ -97,7 +87,7 @@ class TeamRun {
   }
 
   void report() {
-    const auto world = mapping::load_map(folder_ / "robot_1" / "world.ot");
+    const auto world = mapping::load_map(first_ / "world.ot");
     for (std::size_t i = 0; i < robots_.size(); ++i) {
       RecordedRobot& robot = *robots_[i];
       const auto& map = robot.finished_map();
@@ -105,7 +95,7 @@ class TeamRun {
       std::printf(
           "%s robot_%zu: team of %zu, map %016llx, sent %.0f kB, received %.0f kB, raw %.1f MB (1/%.0f), "
           "slice max %.2f ms\n",
-          folder_.filename().c_str(), i + 1, robot.team.poses().T_team_odom.size(),
+          first_.parent_path().filename().c_str(), i + 1, robot.team.poses().T_team_odom.size(),
           static_cast<unsigned long long>(hash_of(map)), static_cast<double>(sent_[i + 1].all()) / 1e3,
           static_cast<double>(robot.received_bytes) / 1e3, static_cast<double>(robot.raw_bytes()) / 1e6,
           static_cast<double>(robot.raw_bytes()) / static_cast<double>(sent_[i + 1].all()),
@@ -173,9 +163,11 @@ class TeamRun {
   }
 
   static void print_evidence(const matching::Evidence& e) {
-    std::printf(" overlap %.2f pairs %d %.0f m2 conflict %.3f %.3f weakest %.3f unique %.2f score %.3f", e.overlap,
-                e.structure_pairs, e.agreeing_m2, e.conflict, e.reverse_conflict, e.weakest_translation, e.uniqueness,
-                e.score);
+    std::printf(
+        " overlap %.2f pairs %d %.0f m2 floor %.0f m2 inliers %.2f conflict %.3f %.3f weakest %.3f unique %.2f score "
+        "%.3f",
+        e.overlap, e.structure_pairs, e.agreeing_m2, e.agreeing_floor_m2, e.structure_inliers, e.conflict,
+        e.reverse_conflict, e.weakest_translation, e.uniqueness, e.score);
   }
 
   /// What the pair would look like at its true pose, and every place that is held.
@@ -244,7 +236,7 @@ class TeamRun {
   }
 
   std::vector<std::unique_ptr<RecordedRobot>> robots_;
-  fs::path folder_;
+  fs::path first_;  // recording
   fleet::Network network_;
   Time now_{}, stopped_{};
   Duration longest_slice_{}, match_time_{}, refine_time_{}, fuse_time_{}, step_time_{}, longest_step_{};
@@ -256,16 +248,17 @@ class TeamRun {
   Ages ages_;
 };
 
-int run(const fs::path& folder) {
+int run(const std::string& folders) {
   std::vector<std::unique_ptr<RecordedRobot>> robots;
-  for (int i = 1; fs::exists(folder / ("robot_" + std::to_string(i))); ++i) {
+  const std::vector<fs::path> recordings = recordings_of(folders);
+  for (std::size_t i = 1; i <= recordings.size(); ++i) {
     team::TeamConfig config;
     config.id = static_cast<RobotId>(i);
     config.name = "robot_" + std::to_string(i);
     config.resolution_m = g_options["resolution"];
     config.exchange.bytes_per_second = static_cast<std::size_t>(g_options["rate"]);
     config.own_submaps.length_m = g_options["submap"];
-    auto robot = RecordedRobot::open(folder / config.name, config);
+    auto robot = RecordedRobot::open(recordings[i - 1], config);
     if (!robot) {
       std::puts(to_string(robot.error()).c_str());
       return 1;
@@ -274,7 +267,8 @@ int run(const fs::path& folder) {
     (*robot)->set_drift({sign * g_options["drift"], sign * g_options["drift_deg"] / 57.29578});
     robots.push_back(*std::move(robot));
   }
-  TeamRun team(std::move(robots), folder);
+  if (robots.empty()) return 1;
+  TeamRun team(std::move(robots), recordings.front());
   team.run();
   team.report();
   return 0;
@@ -284,7 +278,7 @@ int run(const fs::path& folder) {
 }  // namespace cairn::bench
 
 int main(int argc, char** argv) {
-  std::vector<std::filesystem::path> folders;
+  std::vector<std::string> folders;
   for (int i = 1; i < argc; ++i) {
     const char* equals = std::strchr(argv[i], '=');
     if (std::strncmp(argv[i], "out=", 4) == 0)
@@ -295,6 +289,6 @@ int main(int argc, char** argv) {
       folders.emplace_back(argv[i]);
   }
   int failed = folders.empty() ? 2 : 0;
-  for (const auto& folder : folders) failed |= cairn::bench::run(folder);
+  for (const std::string& folder : folders) failed |= cairn::bench::run(folder);
   return failed;
 }

@@ -2,6 +2,8 @@
 #include "tools/simulator/simulate.hpp"
 #include "tools/simulator/scenes/make_world.hpp"
 
+#include <algorithm>
+#include <cctype>
 #include <sstream>
 
 #include "hal/files/unfinished_folder.hpp"
@@ -26,6 +28,7 @@ Result<void> check(const SimulationConfig& config) {
   if (config.robots < 1 || config.robots > kMaxRobots) error.detail += "robots must be 1 to 16; ";
   if (config.people < 0 || config.people > kMaxPeople) error.detail += "people must be 0 to 50; ";
   if (!(config.seconds > 0 && config.seconds <= kMaxSeconds)) error.detail += "seconds must be above 0, at most 3600; ";
+  if (!is_robot_name(config.name)) error.detail += "a name has 1 to 32 letters, digits, - and _; ";
   if (config.profile != "husky" && config.profile != "uav") error.detail += "the profiles are husky and uav; ";
   if (config.flies() && !config.sensors.camera_alone()) error.detail += "a uav carries the camera alone; ";
   if (config.motion.gait.carried_m > 0 && config.sensors.drive)
@@ -99,6 +102,12 @@ Result<Stage> set_up(const SimulationConfig& config) {
 
 }  // namespace
 
+bool is_robot_name(std::string_view name) {
+  constexpr std::size_t kLongest = 32;
+  const auto fits = [](char c) { return (std::isalnum(static_cast<unsigned char>(c)) != 0) || c == '-' || c == '_'; };
+  return !name.empty() && name.size() <= kLongest && std::ranges::all_of(name, fits);
+}
+
 void make_uav(SimulationConfig& config) {
   config.profile = "uav";
   config.sensors = {false, true, false, false, false, false};
@@ -115,7 +124,7 @@ Result<std::vector<RobotSummary>> simulate(const SimulationConfig& config, const
   Workers workers(config.threads);
   std::vector<RobotSummary> summaries;
   for (std::size_t robot = 0; robot < stage->trajectories.size(); ++robot) {
-    const fs::path dir = folder->path() / ("robot_" + std::to_string(robot + 1));
+    const fs::path dir = folder->path() / (config.name + "_" + std::to_string(robot + 1));
     const auto share = [&](double done) {
       if (progress) progress((static_cast<double>(robot) + done) / config.robots);
     };

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <functional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "hal/result.hpp"
@@ -32,6 +33,7 @@ struct SimulationConfig {
   double seconds = 60.0;
   std::uint64_t seed = 1;  ///< paths, noise, dropouts, clocks; the world itself does not depend on it
   std::filesystem::path out;
+  std::string name = "robot";     ///< robots and their folders are called so, with _1, _2, … behind
   int people = 0;                 ///< who walk about; with none, nothing else changes
   bool night = false;             ///< the sun is down and all lamps are off
   std::string profile = "husky";  ///< or uav: it flies, and carries the camera alone
@@ -71,9 +73,12 @@ inline constexpr double kTruthResolution = 0.1;  ///< m, of world.ot
 inline constexpr int kMaxRobots = 16, kMaxPeople = 50;
 inline constexpr double kMaxSeconds = 3600.0;
 
-/// Writes out/robot_1 … out/robot_N, each a recording with the files of its sensors: recording.yaml, lidar.pcap,
-/// camera/, thermal/ and depth/ (data.csv and data/*.png), drive.log, gpio.csv; profile.yaml, the profile that
-/// decodes them; and the truth:
+/// Whether robots can be called so: 1 to 32 letters, digits, - and _.
+[[nodiscard]] bool is_robot_name(std::string_view name);
+
+/// Writes out/robot_1 … out/robot_N (SimulationConfig::name has another word for robot), each a recording with the
+/// files of its sensors: recording.yaml, lidar.pcap, camera/, thermal/ and depth/ (data.csv and data/*.png), drive.log,
+/// gpio.csv; profile.yaml, the profile that decodes them; and the truth:
 ///   ground_truth.tum   T_world_base at 100 Hz on the recording's time line
 ///   world.ot           see Voxels; without people
 ///   people.csv         with people; see Crowd::to_csv

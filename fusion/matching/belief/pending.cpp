@@ -16,7 +16,7 @@ bool contradicts(const Evidence& e, const BeliefConfig& config) {
 
 bool on_new_ground(const Hypothesis& h, const Evidence& e, const BeliefConfig& config) {
   const double more_m2 = std::max(config.new_ground_m2, config.new_ground_share * h.ground_m2);
-  return e.agreeing_m2 >= std::max(config.least_ground_m2, h.ground_m2 + more_m2);
+  return ground_m2(e, config) >= std::max(config.least_ground_m2, h.ground_m2 + more_m2);
 }
 
 /// An order by what the looks are and nothing else: equal rounds then give equal answers, in
@@ -100,13 +100,17 @@ void judge(Hypothesis& h, const Look& look, const Decision& now, double rival, i
   h.reason = agrees ? so_often(h, needed) : h.rivalled ? "another pose may be as good" : now.reason;
   if (h.earned && !agrees) h.agreements = 0;
   if (!agrees || !(h.earned || on_new_ground(h, look.evidence, config))) return;
-  h.ground_m2 = std::max(h.ground_m2, look.evidence.agreeing_m2);
+  h.ground_m2 = std::max(h.ground_m2, ground_m2(look.evidence, config));
   h.agreements += weight_of(h, needed, config);
   h.reason = so_often(h, needed);
   if (h.agreements >= needed) h.standing = Standing::kAccepted;
 }
 
 }  // namespace
+
+double ground_m2(const Evidence& evidence, const BeliefConfig& config) {
+  return std::max(evidence.agreeing_m2, config.ground_of_floor * evidence.agreeing_floor_m2);
+}
 
 Hypothesis& PendingHypotheses::held_or_new(const SE3& T_a_b) {
   const auto it = std::find_if(all_.begin(), all_.end(), [&](const Hypothesis& h) {

@@ -20,9 +20,11 @@ struct BeliefConfig {
   /// Least probability of one that counts twice. Of wrong looks only those at exact copies reach it:
   /// 1 of 298 in half-turned buildings, none of 792 elsewhere (tests/bench/matching_missions).
   double certain = 0.999;
-  double least_ground_m2 = 60;  ///< structure that a look needs to agree, m²
-  /// Structure that a look must add to the last agreement's, as a share and in m²: the larger of
-  /// the two.
+  double least_ground_m2 = 60;  ///< ground that a look needs to agree, m²; see ground_m2()
+  /// What a m² of floor over which structure agrees counts for at least, m² of structure.
+  double ground_of_floor = 0.5;
+  /// Ground that a look must add to the last agreement's, as a share and in m²: the larger of the
+  /// two.
   double new_ground_share = 0.1, new_ground_m2 = 10;
   /// Share of structure in the other's free space from which on a look contradicts.
   double contradicted = 0.06;
@@ -33,6 +35,11 @@ struct BeliefConfig {
   /// are equally good have just below 0.5 each.
   double overthrown = 0.4;
 };
+
+/// How much ground a look agrees on, m² of structure. A LiDAR sees walls up to their tops, so there
+/// it is the structure that agrees. A camera that looks down sees as many places, but low parts of
+/// them. There it is a share of the floor over which structure agrees.
+[[nodiscard]] double ground_m2(const Evidence& evidence, const BeliefConfig& config = {});
 
 /// Standing of a hypothesis.
 enum class Standing { kPending, kAccepted, kDropped };
@@ -46,7 +53,7 @@ struct Hypothesis {
   Standing standing = Standing::kPending;
   std::string reason;      ///< of its standing, for people
   int agreements = 0;      ///< looks that agreed, each on new ground; certain ones count twice
-  double ground_m2 = 0;    ///< structure that agreed in the last of them, m²
+  double ground_m2 = 0;    ///< ground of the last of them, m²
   bool earned = false;     ///< it was accepted before, on ground that was new then
   int contradictions = 0;  ///< last looks in a row that contradicted
   bool rivalled = false;   ///< at the newest look another place was too likely to decide for this one

@@ -24,6 +24,8 @@ constexpr double kUnheld = 0.1;
 constexpr double kMuchConflict = 0.05;     // share of structure in the other map's free space
 constexpr double kLittleUniqueness = 0.2;  // another pose reaches four fifths of the score
 
+constexpr const char* kManyDiffer = "most surfaces that meet do not agree";
+
 double probability(const Evidence& e) {
   const double z = kConstant + kOfFloor * std::log1p(e.agreeing_floor_m2 / kLittleFloor_m2) +
                    kOfConflict * std::sqrt(e.conflict + e.reverse_conflict) + kOfUniqueness * e.uniqueness;
@@ -45,10 +47,10 @@ const char* doubt(const Evidence& e) {
 Decision decide(const Evidence& e, const AcceptanceConfig& config) {
   const double p = probability(e);
   if (e.agreeing_m2 < config.least_agreeing_m2) return refusal(std::min(p, kUnheld), "too little structure in common");
-  if (e.structure_inliers < config.least_structure_inliers)
-    return refusal(std::min(p, kUnheld), "most surfaces that meet do not agree");
+  if (e.structure_inliers < config.hardly_structure_inliers) return refusal(std::min(p, kUnheld), kManyDiffer);
   if (e.weakest_translation < config.least_weakest_translation)
     return refusal(std::min(p, kUnheld), "no surface holds one direction");
+  if (e.structure_inliers < config.least_structure_inliers) return refusal(p, kManyDiffer);
   if (p < config.least_probability) return refusal(p, doubt(e));
   if (e.agreeing_floor_m2 < config.least_floor_m2)
     return refusal(p, "no more in common than two rooms that are alike may have");

@@ -16,6 +16,10 @@ struct AcceptanceConfig {
   /// Of the structure that meets, the share that must agree. A half-turned hall had 0.27. Right poses
   /// that are probable enough have 0.4 and more.
   double least_structure_inliers = 0.35;
+  /// Below this share, a pose is improbable whatever else speaks for it. Between the two, one look
+  /// does not decide, but it counts for PendingHypotheses: of the looks of the fit that lie there and
+  /// are probable enough otherwise, 7 of 7 were right, of streets and of maps by stereo cameras.
+  double hardly_structure_inliers = 0.25;
   /// Least Evidence::weakest_translation. Below it, no surface holds one direction: an endless
   /// corridor has less than 0.02 (tests/fusion/matching/evidence), a lobby more than 0.05.
   double least_weakest_translation = 0.02;

@@ -72,4 +72,15 @@ double Ages::quantile(double q, Time until) const {
   return sorted.empty() ? 0 : sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
 }
 
+void print_items(const team::Team& team) {
+  std::uint64_t sent = 0, received = 0, known = 0;
+  for (const auto& [id, link] : team.exchange().links()) {
+    sent += link.sent_items;
+    received += link.received_items;
+    known += link.repeated_items;
+  }
+  std::printf("  items: sent %llu, received %llu, of these known before %llu\n", static_cast<unsigned long long>(sent),
+              static_cast<unsigned long long>(received), static_cast<unsigned long long>(known));
+}
+
 }  // namespace cairn::bench

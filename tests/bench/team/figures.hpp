@@ -31,6 +31,9 @@ class SentBytes {
   std::array<Kind, peers::kAllParts + 1> kinds_{};  // by the parts that a datagram has
 };
 
+/// What a robot has sent and received, in items.
+void print_items(const team::Team& team);
+
 /// How long it takes from when a robot says something until it is in the map that a teammate shows, or until something
 /// newer of the same tile is. What was said before the map showed anything of the robot does not count.
 class Ages {

@@ -3,44 +3,83 @@
 
 #include <algorithm>
 #include <limits>
+#include <sstream>
+#include <string>
+#include <utility>
 
 #include "drivers/recording/recording_reader.hpp"
 #include "drivers/velodyne/lidar.hpp"
+#include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/app/profile/robot_profile.hpp"
+#include "onboard/perception/cameras/camera_model.hpp"
 
 namespace cairn::bench {
 
 namespace fs = std::filesystem;
 
-RecordedRobot::RecordedRobot(const RobotConfig& robot, const team::TeamConfig& config)
-    : team(config, config.id | std::uint64_t{1} << 32U), robot_(robot, workers_, workers_, monitor_) {}
+std::vector<fs::path> recordings_of(const std::string& folders) {
+  std::vector<fs::path> all;
+  std::istringstream in(folders);
+  for (std::string folder; std::getline(in, folder, ',');) {
+    std::vector<fs::path> robots;
+    for (const auto& entry : fs::directory_iterator(folder))
+      if (fs::exists(entry.path() / recording::kIndexFile)) robots.push_back(entry.path());
+    std::ranges::sort(robots);
+    all.insert(all.end(), robots.begin(), robots.end());
+  }
+  return all;
+}
+
+RecordedRobot::RecordedRobot(const RobotConfig& robot, const team::TeamConfig& config, std::optional<Eyes> eyes)
+    : team(config, config.id | std::uint64_t{1} << 32U),
+      robot_(robot, workers_, workers_, monitor_),
+      eyes_(std::move(eyes)) {}
 
 Result<std::unique_ptr<RecordedRobot>> RecordedRobot::open(const fs::path& dir, const team::TeamConfig& config) {
   const auto recording = recording::load_recording(dir);
   if (!recording) return recording.error();
   auto truth = recording::read_tum(dir / "ground_truth.tum");
   if (!truth) return truth.error();
-  const auto entry = std::ranges::find(recording->sources, recording::kVelodyne, &recording::SourceEntry::kind);
+  auto robot = create(dir, *recording, config);
+  if (!robot) return robot;
+  const auto kind = (*robot)->eyes_ ? recording::kCamera : recording::kVelodyne;
+  const auto entry = std::ranges::find(recording->sources, kind, &recording::SourceEntry::kind);
   if (entry == recording->sources.end() || truth->empty())
-    return Error{Errc::kNotFound, "no LiDAR or no true pose in the recording", dir.string()};
+    return Error{Errc::kNotFound, "no LiDAR, no stereo camera or no true pose in the recording", dir.string()};
   const auto index = static_cast<std::size_t>(entry - recording->sources.begin());
   auto source = recording::open_recorded_source(dir, *recording, index);
   if (!source) return source.error();
-
-  app::RobotProfile profile;
-  profile.mapping.resolution_m = config.resolution_m;
-  RobotConfig robot_config = profile.robot();
-  robot_config.T_base_lidar = entry->T_base_sensor();
-  auto robot = std::unique_ptr<RecordedRobot>(new RecordedRobot(robot_config, config));
-  velodyne::Config lidar;
-  lidar.model = entry->model;
-  auto decoder = velodyne::Lidar::create(lidar, static_cast<SourceId>(index), robot->monitor_);
-  if (!decoder) return decoder.error();
-  robot->decoder_ = *std::move(decoder);
-  robot->source_ = *std::move(source);
-  robot->truth_ = *std::move(truth);
-  robot->start_ = robot->truth_.front().stamp;
+  if (!(*robot)->eyes_) {
+    velodyne::Config lidar;
+    lidar.model = entry->model;
+    auto decoder = velodyne::Lidar::create(lidar, static_cast<SourceId>(index), (*robot)->monitor_);
+    if (!decoder) return decoder.error();
+    (*robot)->decoder_ = *std::move(decoder);
+  }
+  (*robot)->source_ = *std::move(source);
+  (*robot)->truth_ = *std::move(truth);
+  (*robot)->start_ = (*robot)->truth_.front().stamp;
   return robot;
+}
+
+/// LiDARs have the settings of the defaults, stereo cameras those that the recording keeps.
+Result<std::unique_ptr<RecordedRobot>> RecordedRobot::create(const fs::path& dir, const recording::Recording& recording,
+                                                             const team::TeamConfig& config) {
+  const auto chosen = app::choose_profile({}, dir);
+  if (!chosen) return chosen.error();
+  auto stereo = app::open_stereo(chosen->profile, recording.sources);
+  if (!stereo) return stereo.error();
+  app::RobotProfile profile = *stereo ? chosen->profile : app::RobotProfile();
+  profile.mapping.resolution_m = config.resolution_m;
+  RobotConfig robot = profile.robot();
+  std::optional<Eyes> eyes;
+  if (*stereo) {
+    robot.stereo = (*stereo)->setup;
+    eyes = Eyes{.stereo = **std::move(stereo), .map_period = from_seconds(1 / profile.stereo.map_rate_hz)};
+  }
+  const auto lidar = std::ranges::find(recording.sources, recording::kVelodyne, &recording::SourceEntry::kind);
+  if (lidar != recording.sources.end()) robot.T_base_lidar = lidar->T_base_sensor();
+  return std::unique_ptr<RecordedRobot>(new RecordedRobot(robot, config, std::move(eyes)));
 }
 
 Result<void> RecordedRobot::advance(Time now) {
@@ -55,15 +94,35 @@ Result<void> RecordedRobot::advance(Time now) {
     if (packet_.arrival - start_ > now.time_since_epoch()) return {};
     pending_ = false;
     raw_bytes_ += packet_.bytes.size();
-    const auto scan = decoder_->decode(packet_);
-    if (scan && *scan != nullptr) take(**scan, now);
+    if (eyes_)
+      take_picture(now);
+    else if (const auto scan = decoder_->decode(packet_); scan && *scan != nullptr)
+      take_scan(**scan, now);
   }
   return {};
 }
 
-void RecordedRobot::take(const Scan& scan, Time now) {
+void RecordedRobot::take_scan(const Scan& scan, Time now) {
   Budget budget = Budget::steps(1000);
-  if (!robot_.locate(scan, budget, located_)) return;
+  if (robot_.locate(scan, budget, located_)) extend_map(now);
+}
+
+void RecordedRobot::take_picture(Time now) {
+  const auto picture = eyes_->stereo.camera.decode(packet_);
+  if (!picture || !eyes_->stereo.rectifier.rectify(**picture, pair_)) return;
+  Budget budget = Budget::steps(1000);
+  if (!robot_.locate(pair_, budget, located_) || located_.lost || located_.stamp < eyes_->next) return;
+  eyes_->next = located_.stamp + eyes_->map_period;
+  const StereoSetup& setup = eyes_->stereo.setup;
+  eyes_->stereo.dense.measure(pair_, setup.trust.max_range_m, points_eye_);
+  const SE3 T_base_eye = setup.T_base_camera * cameras::T_camera_optical();
+  const Eigen::Matrix3f R = T_base_eye.rotation().cast<float>();
+  const Eigen::Vector3f t = T_base_eye.translation().cast<float>();
+  for (const Eigen::Vector3f& p : points_eye_) located_.points_base.emplace_back(R * p + t);
+  extend_map(now);
+}
+
+void RecordedRobot::extend_map(Time now) {
   drift_on(located_.T_odom_base.mean);
   located_.T_odom_base.mean = T_drift_ * located_.T_odom_base.mean;
   if (!robot_.extend_map(located_)) return;

@@ -26,6 +26,7 @@ struct Foreign {
 };
 constexpr std::array kForRecordings{
     Foreign{"--out", "nothing is recorded; record with: cairn run --config FILE --record DIR"},
+    Foreign{"--name", "the profile of the robot's program has its name"},
     Foreign{"--robots", "start one simulation for each robot, each with its own --to, --can and --estop"},
     Foreign{"--people", "nobody walks in a live world"},
     Foreign{"--night", "a live robot has no camera"},

@@ -124,6 +124,13 @@ int run(Options options) {
   return app::kDone;
 }
 
+CLI::Validator robot_name() {
+  return {[](const std::string& name) -> std::string {
+            return simulator::is_robot_name(name) ? "" : "a name has 1 to 32 letters, digits, - and _";
+          },
+          "NAME"};
+}
+
 void add_motion_option(CLI::App& sub, std::string& motion) {
   sub.add_option("--motion", motion,
                  "how a husky moves: gentle to 1.5 m/s and 60 deg/s, brisk to 2 m/s and 90 deg/s, aggressive to 3 m/s "
@@ -178,6 +185,9 @@ void add_simulate_command(app::Commands& commands) {
   simulator::SimulationConfig& s = options->simulation;
   sub->add_option("--scene", s.scene, "the world")->required()->check(CLI::IsMember(simulator::scene_names()));
   sub->add_option("--out", s.out, "new folder: gets one recording per robot: robot_1, robot_2, …");
+  sub->add_option("--name", s.name, "robots and their folders are called NAME_1, NAME_2, …")
+      ->check(robot_name())
+      ->capture_default_str();
   sub->add_option("--robots", s.robots, "number of robots")
       ->check(CLI::Range(1, simulator::kMaxRobots))
       ->capture_default_str();

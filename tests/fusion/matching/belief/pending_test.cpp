@@ -54,6 +54,19 @@ TEST(Pending, RepeatedAgreementOnNewGroundIs) {
   EXPECT_NEAR(pending.accepted()->T_a_b.mean.translation().x(), 0.05, 1e-12);  // the newest look's
 }
 
+TEST(Pending, WhereStructureIsLowTheFloorUnderItIsTheGround) {
+  const auto seen_from_above = [](double floor_m2) {
+    Look look = agreeing(at(0), 45);
+    look.evidence.agreeing_floor_m2 = floor_m2;
+    return look;
+  };
+  PendingHypotheses small, large;
+  for (const double floor : {85.0, 100.0, 115.0}) small.take({seen_from_above(floor)});
+  EXPECT_EQ(small.all()[0].agreements, 0);
+  for (const double floor : {125.0, 150.0, 180.0}) large.take({seen_from_above(floor)});
+  EXPECT_NE(large.accepted(), nullptr);
+}
+
 Look certain(const SE3& T, double ground_m2) {
   Look look = agreeing(T, ground_m2);
   look.evidence.agreeing_floor_m2 = 250;
@@ -63,11 +76,11 @@ Look certain(const SE3& T, double ground_m2) {
 TEST(Pending, AnAgreementThatIsAllButCertainCountsTwiceButNeverAlone) {
   for (const bool first : {true, false}) {
     PendingHypotheses pending;
-    pending.take({first ? certain(at(0), 100) : agreeing(at(0), 100)});
+    pending.take({first ? certain(at(0), 200) : agreeing(at(0), 200)});
     EXPECT_EQ(pending.accepted(), nullptr);
-    pending.take({certain(at(0), 105)});
+    pending.take({certain(at(0), 205)});
     EXPECT_EQ(pending.accepted(), nullptr) << "the same ground";
-    pending.take({first ? agreeing(at(0), 200) : certain(at(0), 200)});
+    pending.take({first ? agreeing(at(0), 300) : certain(at(0), 300)});
     EXPECT_NE(pending.accepted(), nullptr);
   }
 }

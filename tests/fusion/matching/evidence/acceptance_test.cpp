@@ -27,8 +27,17 @@ TEST(Decide, NeedsEverySettingMet) {
 
 TEST(Decide, LackOfStructureOrOfADirectionIsAtMostAnEvenChance) {
   EXPECT_LE(decide(convincing(), {.least_agreeing_m2 = 301}).probability_correct, 0.5);
-  EXPECT_LE(decide(convincing(), {.least_structure_inliers = 0.81}).probability_correct, 0.5);
+  EXPECT_LE(decide(convincing(), {.hardly_structure_inliers = 0.81}).probability_correct, 0.5);
   EXPECT_LE(decide(convincing(), {.least_weakest_translation = 0.21}).probability_correct, 0.5);
+}
+
+TEST(Decide, SurfacesThatMostlyDifferDoNotDecideButCount) {
+  Evidence rough = convincing();
+  rough.structure_inliers = 0.3;  // a street, or a stereo camera's map
+  EXPECT_FALSE(decide(rough).accepted);
+  EXPECT_EQ(decide(rough).probability_correct, decide(convincing()).probability_correct);
+  rough.structure_inliers = 0.24;
+  EXPECT_LE(decide(rough).probability_correct, 0.1);
 }
 
 TEST(Decide, OneFurnishedRoomIsNotEnoughHoweverWellItFits) {

@@ -18,7 +18,7 @@ Outcome live(std::vector<std::string> arguments) {
 
 TEST(LiveCommand, OptionsOfRecordingsAreRefusedWithARemedy) {
   for (const char* option : {"--out=x", "--robots=2", "--people=1", "--night", "--profile=uav", "--motion=brisk",
-                             "--sensors=all", "--threads=2"}) {
+                             "--sensors=all", "--threads=2", "--name=uav"}) {
     const Outcome outcome = live({option});
     EXPECT_EQ(outcome.exit_code, app::kWrongArguments) << option;
     EXPECT_THAT(outcome.err, HasSubstr("does not go with --live")) << option;
