@@ -252,6 +252,13 @@ std::vector<Row> foreign_rows() {
       {"C30", "a client of robot.sock that does not read for a while",
        "It misses no tile. Of other records it loses some, and counts them.", 0ms, 0ms, N,
        "streams/TileStreamTest.WhoDoesNotReadMissesNoTile"},
+      {"C31", "clients and cairn-ros are killed at random instants, a thousand times",
+       "The core notices nothing but their absence: no event, no open file.", 0ms, 0ms, N,
+       "client_kills/ClientKills.TheCoreNoticesNothingButTheirAbsence"},
+      {"C32", "a mirror of the map is away for 30 s", "It has each tile, to the bit, within 2 s of its return.", 0ms,
+       0ms, N, "streams/TileStreamTest.AfterThirtySecondsAwayAMirrorHasEveryTileWithinTwo"},
+      {"C33", "a picture stream's reader is slow", "It loses whole pictures, and no pose.", 0ms, 0ms, N,
+       "streams/PictureStreamTest.WhoDoesNotReadLosesPicturesAndNoPoses"},
   };
 }
 

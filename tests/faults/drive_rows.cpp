@@ -71,6 +71,9 @@ std::vector<Row> rows_shown_elsewhere() {
       {"D10", "e-stop pressed, on a real kernel",
        "The next safety tick sees it. The stop frame is sent by one of the next two drive ticks.", 0ms, 0ms, S,
        "vm/EStopStopsDrive.ThroughTheRobotsOwnTasksWithinOneControlPeriod"},
+      {"D12", "the wheels' scale in the profile is wrong by more than 15 %",
+       "The wheels are not believed along corridors and over gaps. An event and a note say so, with the right scale.",
+       0ms, 0ms, safety::Mode::kNormal, "odometry/WheelAidTest.WheelsWithAScaleFarOffAreNotBelieved"},
   };
 }
 
