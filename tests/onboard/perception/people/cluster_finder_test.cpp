@@ -51,7 +51,7 @@ TEST(ClusterFinder, AFlatPieceIsNobodyWhateverItsDirection) {
     const Eigen::Vector2f along(std::cos(turn), std::sin(turn)), across(-along.y(), along.x());
     std::vector<Vector3f> round, flat;
     for (int i = 0; i < 200; ++i) {
-      const float at = 0.002F * static_cast<float>(i) - 0.2F, height = 0.3F + 0.008F * static_cast<float>(i);
+      const float at = 0.002F * static_cast<float>(i) - 0.2F, height = 0.3F + 0.008F * static_cast<float>(37 * i % 200);
       const Eigen::Vector2f straight = Eigen::Vector2f(5, 3) + at * along + noise(random) * across;
       const Eigen::Vector2f bent = straight + std::sqrt(0.04F - at * at) * across;
       flat.emplace_back(straight.x(), straight.y(), height);
