@@ -9,11 +9,13 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "fusion/merging/merge.hpp"
+#include "fusion/merging/voxel_positions.hpp"
 #include "hal/clock.hpp"
 #include "hal/files/unfinished_folder.hpp"
 #include "onboard/app/cli/working_line.hpp"
@@ -21,6 +23,7 @@
 #include "onboard/report/figures/map_measures.hpp"
 #include "onboard/report/json/report_json.hpp"
 #include "tools/cli/map/pose_option.hpp"
+#include "tools/cli/map/positions_file.hpp"
 #include "tools/cli/map/save_map.hpp"
 
 namespace cairn::cli {
@@ -32,8 +35,12 @@ constexpr double kReach_voxels = 32768;  // OctoMap's keys have 16 bits
 
 struct Options {
   fs::path a, b, out;
-  std::vector<double> pose;  // x y z roll pitch yaw of b in a
+  std::vector<double> pose;        // x y z roll pitch yaw of b in a
+  std::vector<double> covariance;  // row by row; empty: the pose is exact
+  fs::path positions;              // file; empty: not asked for
   std::string policy{merging::policy_names().front()};
+
+  [[nodiscard]] bool wants_positions() const { return !positions.empty() || !covariance.empty(); }
   bool json = false;
 };
 
@@ -48,16 +55,47 @@ merging::Contributions contributions(std::shared_ptr<const mapping::SemanticOcTr
   return all;
 }
 
-int report(const Options& options, const mapping::SemanticOcTree& fused, double seconds) {
+report::Json to_json(const merging::PositionFigures& f) {
+  return {{"voxels", f.voxels},
+          {"shared", f.shared},
+          {"mean_m", f.mean_m},
+          {"p95_m", f.p95_m},
+          {"shared_mean_m", f.shared_mean_m},
+          {"shared_alone_m", f.shared_alone_m}};
+}
+
+/// Where the fused voxels are. Writes the file, if one is asked for.
+Result<std::optional<merging::PositionFigures>> positions(const Options& options, const mapping::SemanticOcTree& fused,
+                                                          const merging::Contributions& all,
+                                                          const Matrix6& covariance) {
+  if (!options.wants_positions()) return std::optional<merging::PositionFigures>();
+  std::vector<merging::PlacedMap> maps;
+  for (const auto& [robot, contribution] : all)
+    maps.push_back({contribution.map.get(), {contribution.T_fused_map, robot == 1 ? Matrix6::Zero() : covariance}});
+  const auto found = merging::voxel_positions(fused, maps);
+  if (!found) return found.error();
+  if (!options.positions.empty())
+    if (const auto saved = save_positions(*found, options.positions); !saved) return saved.error();
+  return std::optional(merging::position_figures(*found));
+}
+
+int report(const Options& options, const mapping::SemanticOcTree& fused, double seconds,
+           const std::optional<merging::PositionFigures>& places) {
   const report::MapSummary summary = report::summarise(fused);
   if (options.json) {
     report::Json json{{"out", options.out.string()}, {"policy", options.policy}, {"seconds", seconds}};
     json.update(report::to_json(summary));
+    if (places) json["positions"] = to_json(*places);
     return app::print(json);
   }
   std::cout << fmt::format("{}: {} voxels occupied, {} free\n", options.out.string(), summary.occupied, summary.free);
   if (summary.mean_entropy_occupancy)
     std::cout << fmt::format("mean entropy {:.4f} bit over occupied voxels\n", *summary.mean_entropy_occupancy);
+  if (places)
+    std::cout << fmt::format(
+        "a voxel is known to {:.3f} m on average, 95 % to {:.3f} m; the {} that both maps know to {:.3f} m, by one map "
+        "alone to {:.3f} m\n",
+        places->mean_m, places->p95_m, places->shared, places->shared_mean_m, places->shared_alone_m);
   return app::kDone;
 }
 
@@ -83,6 +121,11 @@ int run(const Options& options) {
   if (const auto named = check_map_name(options.out); !named) return app::fail(named.error());
   const auto T_a_b = pose_from_option("--pose", options.pose);
   if (!T_a_b) return app::fail(T_a_b.error());
+  const auto covariance = covariance_from_option("--covariance", options.covariance);
+  if (!covariance) return app::fail(covariance.error());
+  if (const auto named = check_positions_name(options.positions); !named) return app::fail(named.error());
+  if (options.positions == options.out)
+    return app::fail({Errc::kInvalidConfig, "is the same file as --out", "--positions " + options.positions.string()});
   for (const auto& input : {options.a, options.b})
     if (const auto kept = keep_input(input, options.out); !kept) return app::fail(kept.error());
   auto a = mapping::load_map(options.a), b = mapping::load_map(options.b);
@@ -99,7 +142,9 @@ int run(const Options& options) {
   });
   if (!fused) return app::fail(fused.error());
   if (const auto saved = save_map(**fused, options.out); !saved) return app::fail(saved.error());
-  return report(options, **fused, to_seconds(took));
+  const auto places = positions(options, **fused, all, *covariance);
+  if (!places) return app::fail(places.error());
+  return report(options, **fused, to_seconds(took), *places);
 }
 
 }  // namespace
@@ -114,6 +159,12 @@ void add_merge_command(app::Commands& commands) {
       ->delimiter(',')
       ->expected(6)
       ->required();
+  sub->add_option("--covariance", options->covariance,
+                  "of the pose, as cairn match --json prints it: 36 numbers, m and rad; default: the pose is exact")
+      ->delimiter(',')
+      ->expected(36);
+  sub->add_option("--positions", options->positions,
+                  "file to write, .ply: where each occupied voxel is, and how well that is known");
   sub->add_option("--policy", options->policy, "rule for voxels that both maps know")
       ->check(CLI::IsMember(std::vector<std::string>(names.begin(), names.end())))
       ->capture_default_str();

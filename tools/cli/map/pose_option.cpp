@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
 
@@ -11,6 +12,7 @@ namespace {
 
 constexpr double kFullTurn_rad = 2 * std::numbers::pi;
 constexpr double kFarthest_m = 1e5;
+constexpr double kRounded = 1e-6;  // of the largest number: what printing may have changed
 constexpr const char* kNames[] = {"x", "y", "z", "roll", "pitch", "yaw"};
 
 Error refused(const std::string& option, std::string_view cause, std::string detail) {
@@ -33,6 +35,20 @@ Result<SE3> pose_from_option(const std::string& option, const std::vector<double
                                  value * std::numbers::pi / 180));
   }
   return SE3::from_xyz_rpy(Eigen::Map<const Vector6>(xyz_rpy.data()));
+}
+
+Result<Matrix6> covariance_from_option(const std::string& option, const std::vector<double>& row_major) {
+  if (row_major.empty()) return Matrix6(Matrix6::Zero());
+  if (row_major.size() != 36) return refused(option, "a covariance has 36 numbers", "as cairn match --json prints it");
+  const Matrix6 given = Eigen::Map<const Matrix6>(row_major.data());  // symmetric, so the order does not matter
+  if (!given.allFinite()) return refused(option, "a covariance has finite numbers", "");
+  const double scale = given.cwiseAbs().maxCoeff();
+  if ((given - given.transpose()).cwiseAbs().maxCoeff() > kRounded * scale)
+    return refused(option, "a covariance is symmetric", "give all numbers, in the order in which they were printed");
+  const Matrix6 covariance = 0.5 * (given + given.transpose());
+  if (Eigen::SelfAdjointEigenSolver<Matrix6>(covariance).eigenvalues()[0] < -kRounded * scale)
+    return refused(option, "a covariance has no negative eigenvalue", "give the numbers as they were printed");
+  return covariance;
 }
 
 }  // namespace cairn::cli

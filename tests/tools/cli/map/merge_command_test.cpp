@@ -3,6 +3,12 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "hal/files/file.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/figures/map_measures.hpp"
 #include "tests/support/map_pairs.hpp"
@@ -12,6 +18,8 @@ namespace cairn::cli {
 namespace {
 
 using testing::HasSubstr;
+
+constexpr std::uint64_t kAnySize = 100'000'000;  // bytes
 
 Outcome merge(std::vector<std::string> arguments) {
   arguments.insert(arguments.begin(), "merge");
@@ -43,6 +51,49 @@ TEST_F(MergeCommand, KnowsWhatEitherMapKnew) {
   EXPECT_GT(difference->only_b, 1000U);
   EXPECT_EQ(outcome.json()["occupied"], report::summarise(**c).occupied);
   EXPECT_EQ(outcome.json()["policy"], "relative_entropy");
+}
+
+/// A pose that is known to 1 cm and 0.1°.
+std::string small_covariance() {
+  std::string text = "--covariance=";
+  for (int i = 0; i < 36; ++i) text += std::string(i > 0 ? "," : "") + (i % 7 != 0 ? "0" : i < 18 ? "1e-4" : "3e-6");
+  return text;
+}
+
+TEST_F(MergeCommand, AFusedVoxelKnowsItsVariance) {
+  const auto [a, b, out] = std::array{folder / "a.cairn", folder / "b.cairn", folder / "c.cairn"};
+  const Outcome plain = merge({a, b, pose, "--out", out, "--json"});
+  ASSERT_EQ(plain.exit_code, app::kDone) << plain.err;
+  EXPECT_FALSE(plain.json().contains("positions"));
+  const auto map = read_file(out, kAnySize);
+  const Outcome asked =
+      merge({a, b, pose, small_covariance(), "--positions", folder / "p.ply", "--out", out, "--json"});
+  ASSERT_EQ(asked.exit_code, app::kDone) << asked.err;
+  EXPECT_EQ(*map, *read_file(out, kAnySize)) << "asking changes nothing";
+  const auto places = asked.json()["positions"];
+  EXPECT_EQ(places["voxels"], asked.json()["occupied"]);
+  EXPECT_GT(places["shared"].get<int>(), 100);
+  EXPECT_LT(places["shared_mean_m"].get<double>(), 0.8 * places["shared_alone_m"].get<double>());
+  const auto file = read_file(folder / "p.ply", kAnySize);
+  ASSERT_TRUE(file);
+  const std::string text(reinterpret_cast<const char*>(file->data()), file->size());
+  const std::string end = "end_header\n";
+  EXPECT_EQ(text.size() - text.find(end) - end.size(), 25 * places["voxels"].get<std::size_t>());
+}
+
+TEST_F(MergeCommand, ACovarianceThatIsNoneIsRefused) {
+  std::string negative = small_covariance(), skew = negative;
+  negative.replace(negative.find("1e-4"), 4, "-1e-4");
+  skew.replace(skew.find("1e-4,0"), 6, "1e-4,1e-5");
+  for (const std::string& text : {negative, skew, small_covariance() + "x", std::string("--covariance=1,2,3")}) {
+    const Outcome outcome = merge({folder / "a.cairn", folder / "b.cairn", pose, text, "--out", folder / "d.cairn"});
+    EXPECT_EQ(outcome.exit_code, app::kWrongArguments) << text;
+  }
+  for (const char* name : {"p.txt", "d.ply"})
+    EXPECT_EQ(
+        merge({folder / "a.cairn", folder / "b.cairn", pose, "--positions", folder / name, "--out", folder / "d.ply"})
+            .exit_code,
+        app::kWrongArguments);
 }
 
 TEST_F(MergeCommand, APoseThatWouldLoseTheSecondMapIsRefused) {
