@@ -25,7 +25,12 @@ constexpr double kFocalLength = 48;
 const Vector6 kEyeMount = (Vector6() << 0.3, 0, 0.5, 0, 0, 0).finished();
 const Eigen::Vector3d kLow(3.8, 0.1, 0), kHigh(4.2, 0.5, 1.7);  // the body, m in the world
 
-support::World peopled_room() { return test::room().box(kLow, kHigh); }
+/// A body is not flat: its middle is before its shoulders.
+support::World peopled_room() {
+  return test::room()
+      .box(kLow + Eigen::Vector3d(0.1, 0, 0), kHigh)
+      .box(kLow + Eigen::Vector3d(0, 0.12, 0), kHigh - Eigen::Vector3d(0, 0.12, 0));
+}
 
 /// The body's box in the picture at `t`.
 Detection box_at(double t) {
