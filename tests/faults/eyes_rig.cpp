@@ -97,9 +97,13 @@ class Packets final : public Source {
 std::vector<Packet> sweeps() {
   support::World world;
   world.box({-4, -6, 0}, {14, 6, 3}).box({2, 3, 0}, {3, 4, 1.5}).box({-2, -4, 0}, {-1, -3, 1});
+  // Bodies are not flat: a chest before the shoulders, on every side.
   for (const auto& place : kPlaces)
-    world.box({place.x() - 0.5 * kBody.x(), place.y() - 0.5 * kBody.y(), 0},
-              {place.x() + 0.5 * kBody.x(), place.y() + 0.5 * kBody.y(), kBody.z()});
+    for (const Eigen::Vector2d& share : {Eigen::Vector2d(0.5, 1), Eigen::Vector2d(1, 0.4)}) {
+      const Eigen::Vector2d half = 0.5 * share.cwiseProduct(kBody.head<2>());
+      world.box({place.x() - half.x(), place.y() - half.y(), 0},
+                {place.x() + half.x(), place.y() + half.y(), kBody.z()});
+    }
   support::Vlp16 lidar(SE3::from_xyz_rpy(kLidarMount), 0.01, 1);
   std::vector<Packet> packets(kSweeps);
   for (int i = 0; i < kSweeps; ++i) {
