@@ -88,10 +88,10 @@ TEST(TeamDoubt, ScansThatContradictTheMapAreHeldBackAndANewSubmapFollows) {
   EXPECT_NEAR(std::sqrt(C(0, 0)), 300 * 0.01, 0.01);
 }
 
-class FullTeamDoubt : public ::testing::TestWithParam<int> {};
+class TeamDoubtIn : public ::testing::TestWithParam<int> {};
 
 /// How well right and wrong are told apart: recorded, for each scene.
-TEST_P(FullTeamDoubt, ScenesAreNeverInDoubtAndJumpsAlwaysAre) {
+TEST_P(TeamDoubtIn, ScenesAreNeverInDoubtAndJumpsAlwaysAre) {
   const std::vector<support::Scene> scenes{support::office(), support::lobby(), support::carpark(), support::forest()};
   const auto& scene = scenes[static_cast<std::size_t>(GetParam())];
   for (const double from : {0.0, 1.5, 3.0}) {
@@ -107,7 +107,7 @@ TEST_P(FullTeamDoubt, ScenesAreNeverInDoubtAndJumpsAlwaysAre) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenes, FullTeamDoubt, ::testing::Range(0, 4));
+INSTANTIATE_TEST_SUITE_P(FullScenes, TeamDoubtIn, ::testing::Range(0, 4));
 
 }  // namespace
 }  // namespace cairn::team
