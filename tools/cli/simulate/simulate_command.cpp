@@ -178,6 +178,8 @@ void add_camera_options(CLI::App& sub, simulator::StereoConfig& camera, simulato
 
 }  // namespace
 
+// One option a line: a list, not logic.
+// NOLINTNEXTLINE(readability-function-size)
 void add_simulate_command(app::Commands& commands) {
   CLI::App* sub = commands.app.add_subcommand(
       "simulate", "drives robots through a simulated world; writes recordings with ground truth");
