@@ -131,6 +131,16 @@ CLI::Validator robot_name() {
           "NAME"};
 }
 
+void add_world_options(CLI::App& sub, simulator::SimulationConfig& s) {
+  sub.add_option("--people", s.people, "number of people who walk about and cross the robots' paths")
+      ->check(CLI::Range(0, simulator::kMaxPeople))
+      ->capture_default_str();
+  sub.add_flag("--night", s.night, "the sun is down and all lamps are off");
+  sub.add_option("--profile", s.profile, "husky drives; uav flies and carries a camera only")
+      ->check(CLI::IsMember({"husky", "uav"}))
+      ->capture_default_str();
+}
+
 void add_motion_option(CLI::App& sub, std::string& motion) {
   sub.add_option("--motion", motion,
                  "how a husky moves: gentle to 1.5 m/s and 60 deg/s, brisk to 2 m/s and 90 deg/s, aggressive to 3 m/s "
@@ -178,15 +188,13 @@ void add_camera_options(CLI::App& sub, simulator::StereoConfig& camera, simulato
 
 }  // namespace
 
-// One option a line: a list, not logic.
-// NOLINTNEXTLINE(readability-function-size)
 void add_simulate_command(app::Commands& commands) {
   CLI::App* sub = commands.app.add_subcommand(
       "simulate", "drives robots through a simulated world; writes recordings with ground truth");
   const auto options = std::make_shared<Options>();
   simulator::SimulationConfig& s = options->simulation;
   sub->add_option("--scene", s.scene, "the world")->required()->check(CLI::IsMember(simulator::scene_names()));
-  sub->add_option("--out", s.out, "new folder: gets one recording per robot: robot_1, robot_2, …");
+  sub->add_option("--out", s.out, "new folder: gets one recording per robot, NAME_1, NAME_2, …");
   sub->add_option("--name", s.name, "robots and their folders are called NAME_1, NAME_2, …")
       ->check(robot_name())
       ->capture_default_str();
@@ -199,13 +207,7 @@ void add_simulate_command(app::Commands& commands) {
       ->capture_default_str();
   sub->add_option("--seed", s.seed, "seed of paths and noise; the same seed gives the same bytes")
       ->capture_default_str();
-  sub->add_option("--people", s.people, "number of people who walk about and cross the robots' paths")
-      ->check(CLI::Range(0, simulator::kMaxPeople))
-      ->capture_default_str();
-  sub->add_flag("--night", s.night, "the sun is down and all lamps are off");
-  sub->add_option("--profile", s.profile, "husky drives; uav flies and carries a camera only")
-      ->check(CLI::IsMember({"husky", "uav"}))
-      ->capture_default_str();
+  add_world_options(*sub, s);
   add_motion_option(*sub, options->motion);
   sub->add_option("--sensors", options->sensors, "sensors to record, with commas; default: lidar, for a uav camera")
       ->delimiter(',')
