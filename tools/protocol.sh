@@ -12,20 +12,12 @@
 #     --quick     --starts 5 and shorter recordings
 # It takes about 45 minutes on two idle cores, with two OctoMaps, after the build; with --starts 25 a quarter of an hour.
 # This script and protocol_people.sh alone install and use PCL.
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/protocol/common.sh"
 
-seed=1001 out=protocol octomaps=() starts=125 seconds=60
-while (($# > 0)); do
-  case $1 in
-    --seed) seed=$2 && shift 2 ;;
-    --out) out=$2 && shift 2 ;;
-    --octomaps) octomaps=(--octomaps "$2") && shift 2 ;;
-    --starts) starts=$2 && shift 2 ;;
-    --quick) starts=5 seconds=40 && shift ;;
-    -h | --help) sed -n '3,14s/^# //p' "$0" && exit ;;
-    *) echo "protocol.sh: unknown argument '$1' (see --help)" >&2 && exit 2 ;;
-  esac
-done
+seed=1001 out=protocol octomaps='' starts='' seconds=60 quick=''
+take_options "seed out octomaps starts quick!" "$@"
+[[ -z $quick ]] || { seconds=40 && starts=${starts:-5}; }
+starts=${starts:-125}
 
 # Two robots in each scene; one with LiDAR and depth camera.
 record() {
@@ -50,21 +42,15 @@ jobs() {
   done
 }
 
-# step N TEXT: says what comes now, and how long everything before it took.
-step() { printf '%s/4 %s (after %d min %02d s)\n' "$1" "$2" $((SECONDS / 60)) $((SECONDS % 60)) >&2; }
-
-tools/packages.sh build protocol
-source tools/protocol/pcl_headers.sh
-build protocol --target cairn protocol pcl_baselines
-bin=build/protocol/bin cairn=build/protocol/bin/cairn
+build_programs protocol pcl_baselines
 mkdir -p "$out"
 rm -rf "$out/recordings" "$out/pairs"
-step 1 "simulating the recordings"
+step 1/4 "simulating the recordings"
 record
-step 2 "making the pairs of maps"
-"$bin/protocol" pairs --recordings "$out/recordings" "${octomaps[@]}" --seed "$seed" --out "$out/pairs"
-step 3 "matching from $starts of 125 starts"
-jobs | OMP_NUM_THREADS=1 xargs -0 -n 1 -P "$(nproc)" bash -c
-step 4 "the report"
+step 2/4 "making the pairs of maps"
+"$bin/protocol" pairs --recordings "$out/recordings" ${octomaps:+--octomaps "$octomaps"} --seed "$seed" --out "$out/pairs"
+step 3/4 "matching from $starts of 125 starts"
+jobs | at_once
+step 4/4 "the report"
 "$bin/protocol" report --pairs "$out/pairs" --seed "$seed" --out "$out" | tee "$out/protocol.txt"
 echo "The report: $out/protocol.html"

@@ -9,19 +9,10 @@
 #     --seconds   length of the mission (default 30)
 #     --starts    from how many of the 125 start poses PCL's ICP and Cairn match (default 25)
 # It takes about 20 minutes on two idle cores after the build. Most of it is the simulation of the cameras.
-source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/protocol/common.sh"
 
 seed=71001 out=protocol_people seconds=30 starts=25
-while (($# > 0)); do
-  case $1 in
-    --seed) seed=$2 && shift 2 ;;
-    --out) out=$2 && shift 2 ;;
-    --seconds) seconds=$2 && shift 2 ;;
-    --starts) starts=$2 && shift 2 ;;
-    -h | --help) sed -n '3,11s/^# //p' "$0" && exit ;;
-    *) echo "protocol_people.sh: unknown argument '$1' (see --help)" >&2 && exit 2 ;;
-  esac
-done
+take_options "seed out seconds starts" "$@"
 
 # record LIGHT: two robots among eight people, with five pictures a second, as many as the networks look at.
 record() {
@@ -79,18 +70,13 @@ pictures() {
   look night thermal "1 night, thermal camera"
 }
 
-step() { printf '%s/5 %s (after %d min %02d s)\n' "$1" "$2" $((SECONDS / 60)) $((SECONDS % 60)) >&2; }
-
-tools/packages.sh build protocol
-source tools/protocol/pcl_headers.sh
-build protocol --target cairn protocol pcl_baselines
-bin=build/protocol/bin cairn=build/protocol/bin/cairn
+build_programs protocol pcl_baselines
 mkdir -p "$out/runs"
 rm -rf "$out/pairs" "$out/pictures" "$out/runs"/*
 ln -sfn "$PWD/config/models" "$out/runs/models"
-step 1 "simulating the recordings"
+step 1/5 "simulating the recordings"
 for light in day night; do record "$light"; done
-step 2 "mapping"
+step 2/5 "mapping"
 for light in day night; do
   for pipeline in nobody visible both; do
     map "$light" "$pipeline" beginning "$(third 1)"
@@ -98,14 +84,14 @@ for light in day night; do
     map "$light" "$pipeline" final "$(third 3)"
   done
 done
-step 3 "matching from $starts of 125 starts"
+step 3/5 "matching from $starts of 125 starts"
 "$bin/protocol" missions --recordings "$out/recordings" --runs "$out/runs" --out "$out/pairs"
 for pair in "$out"/pairs/*/; do
   [[ $pair != *_nobody_* ]] || printf '%s\0' "$bin/pcl_baselines '$pair' $starts"
   printf '%s\0' "$bin/protocol match '$pair' --starts $starts"
-done | OMP_NUM_THREADS=1 xargs -0 -n 1 -P "$(nproc)" bash -c
-step 4 "the pictures"
+done | at_once
+step 4/5 "the pictures"
 pictures
-step 5 "the report"
+step 5/5 "the report"
 "$bin/protocol" people --pairs "$out/pairs" --pictures "$out/pictures" --seed "$seed" --out "$out" | tee "$out/people.txt"
 echo "The report: $out/people.html"

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// The steps of tools/protocol.sh and tools/protocol_people.sh that need no PCL: protocol pairs | match | report, and
-// missions | match | people.
+// The steps of tools/protocol*.sh that need no PCL: protocol pairs | match | report, missions | match | people, and
+// unlike-pairs | match | unlike.
 #include <CLI/CLI.hpp>
+#include <functional>
 #include <iostream>
 
 #include "tools/protocol/methods/run_methods.hpp"
@@ -9,12 +10,27 @@
 #include "tools/protocol/missions/mission_report.hpp"
 #include "tools/protocol/pairs/make_pairs.hpp"
 #include "tools/protocol/report/report.hpp"
+#include "tools/protocol/unlike/unlike_pairs.hpp"
+#include "tools/protocol/unlike/unlike_report.hpp"
 
 namespace {
 
 namespace fs = std::filesystem;
 using namespace cairn;
 using namespace cairn::protocol;
+
+/// What the command line asks for.
+struct Options {
+  PairsOptions pairs;
+  MissionsOptions missions;
+  UnlikeOptions unlike;
+  fs::path pair;  ///< to be matched
+  std::vector<std::string> methods;
+  int starts = kStarts;
+  fs::path results, pictures, out;
+  unsigned seed = 1;
+  std::function<Result<void>()> job;
+};
 
 /// All methods that the kind of pair asks for where none are named.
 Result<void> match(const fs::path& dir, std::vector<std::string> methods, int starts) {
@@ -30,51 +46,71 @@ Result<void> match(const fs::path& dir, std::vector<std::string> methods, int st
   return save_runs(runs, dir / "ours.json");
 }
 
-int outcome(const Result<void>& result) {
-  if (result) return 0;
-  std::cerr << "protocol: " << to_string(result.error()) << '\n';
-  return 1;
+void add_match(CLI::App& app, Options& o) {
+  CLI::App* sub = app.add_subcommand("match", "matches one pair by our methods, leaves ours.json in its folder");
+  sub->add_option("pair", o.pair, "folder of the pair")->required();
+  sub->add_option("--method", o.methods, "only these");
+  sub->add_option("--starts", o.starts, "so many of the 125, for methods that take long")
+      ->check(CLI::Range(1, kStarts));
+  sub->callback([&o] { o.job = [&o] { return match(o.pair, o.methods, o.starts); }; });
+}
+
+/// With the options that all reports have.
+CLI::App& add_report(CLI::App& app, const char* name, const char* what, Options& o) {
+  CLI::App* sub = app.add_subcommand(name, what);
+  sub->add_option("--pairs", o.results, "folder of the pairs")->required();
+  sub->add_option("--seed", o.seed, "to be told");
+  sub->add_option("--out", o.out, "folder of the report")->required();
+  return *sub;
+}
+
+void add_book(CLI::App& app, Options& o) {
+  CLI::App* make = app.add_subcommand("pairs", "recordings → pairs of maps");
+  make->add_option("--recordings", o.pairs.recordings, "folder of simulated recordings")->required();
+  make->add_option("--octomaps", o.pairs.octomaps, "folder of maps to be cut in halves, too");
+  make->add_option("--seed", o.pairs.seed, "of the halves' faults");
+  make->add_option("--out", o.pairs.out, "gets a folder for each pair")->required();
+  make->callback([&o] { o.job = [&o] { return make_pairs(o.pairs); }; });
+  add_report(app, "report", "pairs with their outcomes → protocol.json and protocol.html", o).callback([&o] {
+    o.job = [&o] { return write_report(o.results, o.seed, o.out); };
+  });
+}
+
+void add_missions(CLI::App& app, Options& o) {
+  CLI::App* make = app.add_subcommand("missions", "runs of two robots among people → pairs of maps");
+  make->add_option("--recordings", o.missions.recordings, "LIGHT/robot_N")->required();
+  make->add_option("--runs", o.missions.runs, "LIGHT/PIPELINE/PHASE/robot_N")->required();
+  make->add_option("--out", o.missions.out, "gets a folder for each pair")->required();
+  make->callback([&o] { o.job = [&o] { return make_missions(o.missions); }; });
+  CLI::App& tell = add_report(app, "people", "pairs of missions with their outcomes → people.json, people.html", o);
+  tell.add_option("--pictures", o.pictures, "folder of PNG files to be shown");
+  tell.callback([&o] { o.job = [&o] { return write_missions(o.results, o.pictures, o.seed, o.out); }; });
+}
+
+void add_unlike(CLI::App& app, Options& o) {
+  CLI::App* make = app.add_subcommand("unlike-pairs", "runs of a UGV and a UAV → pairs of maps");
+  make->add_option("--recordings", o.unlike.recordings, "SCENE/ugv_1 and SCENE/uav_1")->required();
+  make->add_option("--runs", o.unlike.runs, "SCENE/N/ugv_1 and SCENE/N/uav_1")->required();
+  make->add_option("--out", o.unlike.out, "gets a folder for each pair")->required();
+  make->callback([&o] { o.job = [&o] { return make_unlike(o.unlike); }; });
+  add_report(app, "unlike", "pairs of UGV and UAV with their outcomes → unlike.json, unlike.html", o).callback([&o] {
+    o.job = [&o] { return write_unlike(o.results, o.seed, o.out); };
+  });
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  CLI::App app{"the book's protocol of map matching, in steps; see tools/protocol.sh", "protocol"};
+  CLI::App app{"the book's protocols, in steps; see tools/protocol*.sh", "protocol"};
   app.require_subcommand(1);
-  PairsOptions pairs;
-  CLI::App* make = app.add_subcommand("pairs", "recordings → pairs of maps");
-  make->add_option("--recordings", pairs.recordings, "folder of simulated recordings")->required();
-  make->add_option("--octomaps", pairs.octomaps, "folder of maps to be cut in halves, too");
-  make->add_option("--seed", pairs.seed, "of the halves' faults");
-  make->add_option("--out", pairs.out, "gets a folder for each pair")->required();
-  fs::path dir;
-  std::vector<std::string> methods;
-  int starts = kStarts;
-  CLI::App* run = app.add_subcommand("match", "matches one pair by our methods, leaves ours.json in its folder");
-  run->add_option("pair", dir, "folder of the pair")->required();
-  run->add_option("--method", methods, "only these");
-  run->add_option("--starts", starts, "so many of the 125, for methods that take long")->check(CLI::Range(1, kStarts));
-  fs::path results, out;
-  unsigned seed = 1;
-  CLI::App* tell = app.add_subcommand("report", "pairs with their outcomes → protocol.json and protocol.html");
-  tell->add_option("--pairs", results, "folder of the pairs")->required();
-  tell->add_option("--seed", seed, "to be told");
-  tell->add_option("--out", out, "folder of the report")->required();
-  MissionsOptions missions;
-  CLI::App* pair_up = app.add_subcommand("missions", "runs of two robots among people → pairs of maps");
-  pair_up->add_option("--recordings", missions.recordings, "LIGHT/robot_N")->required();
-  pair_up->add_option("--runs", missions.runs, "LIGHT/PIPELINE/PHASE/robot_N")->required();
-  pair_up->add_option("--out", missions.out, "gets a folder for each pair")->required();
-  fs::path pictures;
-  CLI::App* people = app.add_subcommand("people", "pairs of missions with their outcomes → people.json, people.html");
-  people->add_option("--pairs", results, "folder of the pairs")->required();
-  people->add_option("--pictures", pictures, "folder of PNG files to be shown");
-  people->add_option("--seed", seed, "to be told");
-  people->add_option("--out", out, "folder of the report")->required();
+  Options options;
+  add_match(app, options);
+  add_book(app, options);
+  add_missions(app, options);
+  add_unlike(app, options);
   CLI11_PARSE(app, argc, argv);
-  if (*make) return outcome(make_pairs(pairs));
-  if (*run) return outcome(match(dir, methods, starts));
-  if (*pair_up) return outcome(make_missions(missions));
-  if (*people) return outcome(write_missions(results, pictures, seed, out));
-  return outcome(write_report(results, seed, out));
+  const auto done = options.job();
+  if (done) return 0;
+  std::cerr << "protocol: " << to_string(done.error()) << '\n';
+  return 1;
 }

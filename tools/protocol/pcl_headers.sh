@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # shellcheck shell=bash
-# Sourced by tools/protocol.sh and tools/protocol_people.sh. libpcl-dev depends on VTK, Qt and Java, none of which is used
+# Sourced by tools/protocol/common.sh. libpcl-dev depends on VTK, Qt and Java, none of which is used
 # here. Where it is not installed, its headers alone are unpacked into the build's folder.
 unpack_headers() {
   local into=$PWD/build/protocol/pcl package

@@ -10,8 +10,8 @@
 #include <map>
 #include <tuple>
 
-#include "fusion/merging/merge.hpp"
 #include "onboard/report/figures/map_measures.hpp"
+#include "tools/protocol/pairs/merged_pair.hpp"
 
 namespace cairn::protocol {
 namespace {
@@ -33,12 +33,7 @@ constexpr std::array kTitles{Titled{"icp", "ICP (PCL)"},
                              Titled{"default", "Cairn's default"}};
 
 Result<FusedEntropy> fused_entropy(const MapPair& pair, std::string name, merging::Policy policy, const SE3& T_a_b) {
-  merging::Contributions team;
-  team[1] = {1, pair.a, {}};
-  team[2] = {1, pair.b, T_a_b};
-  merging::MergeOptions options;
-  options.policy = policy;
-  const auto fused = merging::merge(team, options);
+  const auto fused = merged_pair(pair, T_a_b, policy);
   if (!fused) return fused.error();
   const report::MapSummary summary = report::summarise(**fused);
   return FusedEntropy{std::move(name), summary.mean_entropy_occupancy.value_or(0),
@@ -54,18 +49,15 @@ Result<void> add_runs(const fs::path& file, std::vector<MethodRun>& runs) {
 }
 
 Result<PairOutcome> load_pair_outcome(const fs::path& dir) {
-  auto pair = load_pair(dir);
-  if (!pair) return pair.error();
-  PairOutcome outcome{*std::move(pair), {}, {}};
-  for (const char* file : {"pcl.json", "ours.json"})
-    if (auto added = add_runs(dir / file, outcome.runs); !added) return added.error();
-  if (outcome.pair.kind == kScene) {
-    auto entropies = fused_entropies(outcome.pair, outcome.run("icp"));
+  auto outcome = load_pair_with_runs(dir);
+  if (!outcome) return outcome.error();
+  if (outcome->pair.kind == kScene) {
+    auto entropies = fused_entropies(outcome->pair, outcome->run("icp"));
     if (!entropies) return entropies.error();
-    outcome.entropies = *std::move(entropies);
+    outcome->entropies = *std::move(entropies);
   }
-  outcome.pair.a.reset();
-  outcome.pair.b.reset();
+  outcome->pair.a.reset();
+  outcome->pair.b.reset();
   return outcome;
 }
 
@@ -155,6 +147,15 @@ Result<std::vector<FusedEntropy>> fused_entropies(const MapPair& pair, const Met
   if (exact != icp->attempts.end())
     if (auto added = add("jessup", merging::Policy::kAverage, exact->T_a_b); !added) return added.error();
   return all;
+}
+
+Result<PairOutcome> load_pair_with_runs(const fs::path& dir) {
+  auto pair = load_pair(dir);
+  if (!pair) return pair.error();
+  PairOutcome outcome{*std::move(pair), {}, {}};
+  for (const char* file : {"pcl.json", "ours.json"})
+    if (auto added = add_runs(dir / file, outcome.runs); !added) return added.error();
+  return outcome;
 }
 
 Result<Outcome> load_outcome(const fs::path& pairs, unsigned seed) {

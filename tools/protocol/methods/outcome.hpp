@@ -54,6 +54,9 @@ struct Outcome {
 /// run.
 [[nodiscard]] Result<std::vector<FusedEntropy>> fused_entropies(const MapPair& pair, const MethodRun* icp);
 
+/// Reads a pair with its maps, and its ours.json and pcl.json (which may be missing).
+[[nodiscard]] Result<PairOutcome> load_pair_with_runs(const std::filesystem::path& dir);
+
 /// Reads the folders of pairs with ours.json and pcl.json (which may be missing), in order of
 /// names, and fuses the scenes.
 [[nodiscard]] Result<Outcome> load_outcome(const std::filesystem::path& pairs, unsigned seed);

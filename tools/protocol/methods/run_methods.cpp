@@ -29,12 +29,14 @@ Result<Attempt> attempt_from(const MapPair& pair, const Matcher& matcher, int st
 
 std::vector<std::string> our_methods(const MapPair& pair) {
   if (pair.kind == kOverlap) return {"edge_icp", "pmm_level1", "pmm", "default"};
-  if (pair.kind == kHeterogeneous) return {"oicp", "em", "default"};
+  if (pair.kind == kHeterogeneous || pair.kind == kUnlike) return {"oicp", "em", "default"};
   if (pair.kind == kMission) return {"default"};
   return {"oicp", "edge_icp", "pmm_level1", "pmm", "em", "default"};
 }
 
-bool has_rms(const MapPair& pair) { return pair.kind == kHeterogeneous || pair.kind == kMission; }
+bool has_rms(const MapPair& pair) {
+  return pair.kind == kHeterogeneous || pair.kind == kMission || pair.kind == kUnlike;
+}
 
 bool is_fast(std::string_view method) { return method == "edge_icp" || method == "pmm_level1" || method == "default"; }
 

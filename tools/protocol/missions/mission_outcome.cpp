@@ -5,10 +5,9 @@
 #include <memory>
 #include <utility>
 
-#include "fusion/merging/merge.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/figures/map_error.hpp"
-#include "tools/protocol/pairs/map_pair.hpp"
+#include "tools/protocol/pairs/merged_pair.hpp"
 #include "tools/protocol/report/figures.hpp"
 
 namespace cairn::protocol {
@@ -18,12 +17,7 @@ namespace fs = std::filesystem;
 
 Result<MergedFigures> merged_figures(const MapPair& pair, const Mission& mission, const mapping::SemanticOcTree& world,
                                      const SE3& T_a_b, merging::Policy policy) {
-  merging::Contributions team;
-  team[1] = {1, pair.a, {}};
-  team[2] = {1, pair.b, T_a_b};
-  merging::MergeOptions options;
-  options.policy = policy;
-  const auto merged = merging::merge(team, options);
+  const auto merged = merged_pair(pair, T_a_b, policy);
   if (!merged) return merged.error();
   const auto error = report::map_error(**merged, world, {mission.T_world_a, MergedFigures::kGhostM, 1});
   if (!error) return error.error();

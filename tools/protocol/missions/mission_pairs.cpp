@@ -2,11 +2,10 @@
 #include "tools/protocol/missions/mission_pairs.hpp"
 
 #include <algorithm>
-#include <vector>
 
-#include "drivers/recording/formats/trajectory_file.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "tools/protocol/missions/mission.hpp"
+#include "tools/protocol/missions/run_frame.hpp"
 #include "tools/protocol/missions/told_states.hpp"
 #include "tools/protocol/pairs/map_pair.hpp"
 
@@ -16,27 +15,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char *kFirst = "robot_1", *kSecond = "robot_2";
-
-struct Frame {
-  SE3 T_world_odom;
-  double seconds = 0;  ///< from the first true pose to the run's last one
-  double share = 0;    ///< of the whole recording
-};
-
-Result<Frame> frame_of(const fs::path& run, const fs::path& recording) {
-  const auto poses = recording::read_tum(run / "trajectory.tum");
-  if (!poses) return poses.error();
-  const auto truth = recording::read_tum(recording / "ground_truth.tum");
-  if (!truth) return truth.error();
-  if (poses->empty() || truth->empty()) return Error{Errc::kMalformed, "no pose", run.string(), {}, {}};
-  const Time start = poses->front().stamp;
-  const auto at = std::lower_bound(truth->begin(), truth->end(), start,
-                                   [](const recording::StampedPose& p, Time t) { return p.stamp < t; });
-  if (at == truth->end()) return Error{Errc::kMalformed, "the truth ends before the run", run.string(), {}, {}};
-  const double seconds = to_seconds(poses->back().stamp - truth->front().stamp);
-  return Frame{at->pose * poses->front().pose.inverse(), seconds,
-               seconds / to_seconds(truth->back().stamp - truth->front().stamp)};
-}
 
 /// Of the LiDAR's packets and the cameras' pictures.
 std::uint64_t raw_bytes(const fs::path& recording) {
@@ -49,8 +27,8 @@ std::uint64_t raw_bytes(const fs::path& recording) {
 }
 
 /// What one robot adds to a mission; the larger figures stay.
-Result<Frame> add_robot(const fs::path& run, const fs::path& recording, Mission& mission) {
-  auto frame = frame_of(run, recording);
+Result<RunFrame> add_robot(const fs::path& run, const fs::path& recording, Mission& mission) {
+  auto frame = run_frame(run, recording);
   if (!frame) return frame.error();
   const auto states = told_state_bytes(run);
   if (!states) return states.error();

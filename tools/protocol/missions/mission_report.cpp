@@ -7,29 +7,15 @@
 #include <iostream>
 
 #include "hal/files/file.hpp"
-#include "onboard/report/page/html_text.hpp"
-#include "onboard/report/page/report_style.hpp"
+#include "tools/protocol/report/page_parts.hpp"
 #include "tools/protocol/report/plot.hpp"
 
 namespace cairn::protocol {
 namespace {
 
 namespace fs = std::filesystem;
-namespace html = report::html;
 
 constexpr std::uint64_t kMaxPictureBytes = 32U << 20U;  // a bound on memory
-constexpr const char* kMissionStyle =
-    ".note { color: var(--soft); font-size: 13px; margin: 10px 0 0; } .notes span { color: var(--soft); } "
-    "figure img { max-width: 100%; }";
-
-std::string captioned(const std::string& title, const std::string& inside) {
-  return fmt::format("<figure><figcaption>{}</figcaption>{}</figure>", html::escape(title), inside);
-}
-
-std::string part(const std::string& title, const std::string& figures, const std::string& below) {
-  return fmt::format("<section><h2>{}</h2><div class=\"charts\">{}</div>{}</section>", html::escape(title), figures,
-                     below);
-}
 
 /// y of each outcome by seconds, of one approach by one light.
 template <class Value>
@@ -56,9 +42,9 @@ std::string rms_curves(const std::vector<MissionOutcome>& all) {
     for (std::size_t k = 0; k < kApproaches.size(); ++k)
       lines.push_back(line_of(all, light, k, std::string(kApproaches.at(k).title), kColours.at(k),
                               [](const MissionOutcome& o) { return o.rms_m(); }));
-    figures += captioned(light, line_plot({"s", 0, last, false}, {"m", 0, most, false}, lines.front().x, lines));
+    figures += figure(light, line_plot({"s", 0, last, false}, {"m", 0, most, false}, lines.front().x, lines));
   }
-  return part("RMS of matched voxels", figures, legend(lines));
+  return charts_section("RMS of matched voxels", figures, legend(lines));
 }
 
 std::string bytes_curves(const std::vector<MissionOutcome>& all) {
@@ -74,9 +60,9 @@ std::string bytes_curves(const std::vector<MissionOutcome>& all) {
     lines = {curve("raw", 0, &Mission::raw_bytes), curve("map", 9, &Mission::map_bytes),
              curve("states of people", 4, &Mission::states_bytes)};
     const double last = lines.front().x.empty() ? 1 : lines.front().x.back();
-    figures += captioned(light, line_plot({"s", 0, last, false}, {"MB", kLeast, kMost, true}, lines.front().x, lines));
+    figures += figure(light, line_plot({"s", 0, last, false}, {"MB", kLeast, kMost, true}, lines.front().x, lines));
   }
-  return part("Data of a robot (book: Fig. 6.11)", figures, legend(lines));
+  return charts_section("Data of a robot (book: Fig. 6.11)", figures, legend(lines));
 }
 
 std::string pictures_section(const fs::path& folder) {
@@ -87,18 +73,8 @@ std::string pictures_section(const fs::path& folder) {
   std::ranges::sort(files);
   std::string figures;
   for (const fs::path& file : files)
-    if (const auto png = read_file(file, kMaxPictureBytes))
-      figures += captioned(file.stem().string(), fmt::format("<img alt=\"{}\" src=\"data:image/png;base64,{}\">",
-                                                             html::escape(file.stem().string()), html::base64(*png)));
-  return figures.empty() ? figures : part("What the robots see (book: Fig. 6.7 to 6.10)", figures, "");
-}
-
-std::string claims_list(const std::vector<Claim>& claims) {
-  std::string items;
-  for (const Claim& c : claims)
-    items += fmt::format("<li class=\"{}\">{}<span>: {}</span></li>", c.holds ? "good" : "bad", html::escape(c.claim),
-                         html::escape((c.holds ? "" : "not so here, ") + c.figures));
-  return fmt::format("<section><h2>What is asked of Cairn</h2><ul class=\"notes\">{}</ul></section>", items);
+    if (const auto png = read_file(file, kMaxPictureBytes)) figures += picture(file.stem().string(), *png);
+  return figures.empty() ? figures : charts_section("What the robots see (book: Fig. 6.7 to 6.10)", figures);
 }
 
 Json to_json(const MissionOutcome& o) {
@@ -129,20 +105,17 @@ Json missions_json(const std::vector<MissionOutcome>& all, unsigned seed) {
 }
 
 std::string missions_page(const std::vector<MissionOutcome>& all, unsigned seed, const fs::path& pictures) {
-  std::string page = fmt::format(
-      "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width\"><title>Mapping among people: the "
-      "protocol</title><style>{}{}{}</style></head><body><main>",
-      html::kStyle, kPlotStyle, kMissionStyle);
-  page += fmt::format(
-      "<header><h1>Mapping among people, by day and by night</h1><p>Yue &amp; Wang, Collaborative Perception, "
-      "Localization and Mapping for Autonomous Systems, ch. 6; two robots in a simulated forest. Seed {}.</p></header>",
-      seed);
-  page += claims_list(mission_claims(all)) + to_html(people_rms_table(all)) + rms_curves(all);
+  std::string page = page_head(
+      "Mapping among people: the protocol", "Mapping among people, by day and by night",
+      fmt::format("Yue &amp; Wang, Collaborative Perception, Localization and Mapping for Autonomous Systems, "
+                  "ch. 6; two robots in a simulated forest. Seed {}.",
+                  seed));
+  page +=
+      claims_section("What is asked of Cairn", mission_claims(all)) + to_html(people_rms_table(all)) + rms_curves(all);
   page += to_html(merged_table(all)) + to_html(bytes_table(all)) + bytes_curves(all) + pictures_section(pictures);
-  return page +
-         "<footer>Maps: Cairn's runs at 0.1 m, with its own odometry. ICP is PCL's: pairs within 2 m, at most 30 "
-         "iterations. Starts: x and y ±2 m, yaw ±15°, around the true pose.</footer></main></body></html>\n";
+  return page + page_end(
+                    "Maps: Cairn's runs at 0.1 m, with its own odometry. ICP is PCL's: pairs within 2 m, at most 30 "
+                    "iterations. Starts: x and y ±2 m, yaw ±15°, around the true pose.");
 }
 
 Result<void> write_missions(const fs::path& pairs, const fs::path& pictures, unsigned seed, const fs::path& out) {
@@ -150,8 +123,7 @@ Result<void> write_missions(const fs::path& pairs, const fs::path& pictures, uns
   if (!all) return all.error();
   for (const Table& table : {people_rms_table(*all), merged_table(*all), bytes_table(*all)})
     std::cout << to_text(table);
-  for (const Claim& c : mission_claims(*all))
-    std::cout << (c.holds ? "holds:        " : "does not hold: ") << c.claim << ": " << c.figures << '\n';
+  std::cout << to_text(mission_claims(*all));
   if (auto written = write_file_atomic(out / "people.json", missions_json(*all, seed).dump(1) + '\n'); !written)
     return written;
   return write_file_atomic(out / "people.html", missions_page(*all, seed, pictures));

@@ -89,6 +89,34 @@ struct BookPeopleRms {
 };
 inline constexpr std::array kBookPeopleRms{BookPeopleRms{"day", {0.4221, 0.3411, 0.3256}, {0.4004, 0.3354, 0.3183}},
                                            BookPeopleRms{"night", {0.4247, 0.3171, 0.2980}, {0.4173, 0.3095, 0.2908}}};
+/// Mean entropies of two robots' maps and of the fused one (Table 7.5). The text at hand has lost
+/// the table's rows. Read column by column, as here, the overall value lies between the other two
+/// everywhere. Read row by row it lies below both.
+struct BookFused {
+  std::string_view place;
+  std::array<double, 3> occupancy, label, overall;  ///< map 1, map 2, fused
+};
+inline constexpr std::array kBookFused{
+    BookFused{"open car park, two UGVs", {.4030, .3689, .3439}, {.3088, .3239, .2833}, {.3291, .3349, .3098}},
+    BookFused{"WKW lobby, two UGVs", {.3929, .3653, .3267}, {.3285, .3327, .2930}, {.3476, .3527, .3157}},
+    BookFused{"UAV and UGV", {.3712, .3429, .3078}, {.2849, .2937, .2715}, {.3161, .3229, .2895}}};
+
+/// Two labels of one voxel and the fused one (Tables 7.3 and 7.4); classes are trainIds.
+struct BookLabels {
+  std::string_view table;
+  unsigned class_1;
+  double p_1;
+  unsigned class_2;
+  double p_2;
+  unsigned fused_class;
+  double fused_p;
+};
+inline constexpr unsigned kRoad = 0, kCar = 13;
+inline constexpr std::array kBookLabels{
+    BookLabels{"7.3", kRoad, .638, kCar, .973, kCar, .894},   BookLabels{"7.3", kRoad, .711, kCar, .985, kCar, .969},
+    BookLabels{"7.3", kRoad, .834, kCar, .992, kCar, .977},   BookLabels{"7.4", kRoad, .695, kRoad, .773, kRoad, .784},
+    BookLabels{"7.4", kRoad, .810, kRoad, .855, kRoad, .886}, BookLabels{"7.4", kRoad, .906, kRoad, .924, kRoad, .943}};
+
 /// Mean correspondences of a LiDAR voxel indoors (section 5.5.2): at the start and 20 s later.
 inline constexpr std::array kBookCorrespondences{3.57, 2.15};
 

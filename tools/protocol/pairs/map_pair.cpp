@@ -140,8 +140,8 @@ Result<void> save_pair(const MapPair& pair, const std::filesystem::path& dir) {
   std::error_code code;
   std::filesystem::create_directories(dir, code);
   if (code) return Error{Errc::kIo, "cannot make the folder", dir.string(), {}, code.message()};
-  if (auto saved = mapping::save_ot(*pair.a, dir / "a.ot"); !saved) return saved;
-  if (auto saved = mapping::save_ot(*pair.b, dir / "b.ot"); !saved) return saved;
+  if (auto saved = mapping::save_cairn(*pair.a, dir / "a.cairn"); !saved) return saved;
+  if (auto saved = mapping::save_cairn(*pair.b, dir / "b.cairn"); !saved) return saved;
   const Json json = {{"name", pair.name},       {"scene", pair.scene},       {"kind", pair.kind},
                      {"overlap", pair.overlap}, {"voxels_a", pair.voxels_a}, {"voxels_b", pair.voxels_b},
                      {"edges_a", pair.edges_a}, {"edges_b", pair.edges_b},   {"T_a_b", pose_to_json(pair.T_a_b)}};
@@ -149,9 +149,9 @@ Result<void> save_pair(const MapPair& pair, const std::filesystem::path& dir) {
 }
 
 Result<MapPair> load_pair(const std::filesystem::path& dir) {
-  auto a = mapping::load_map(dir / "a.ot"), b = mapping::load_map(dir / "b.ot");
-  if (!a) return at((dir / "a.ot").string(), a.error());
-  if (!b) return at((dir / "b.ot").string(), b.error());
+  auto a = mapping::load_map(dir / "a.cairn"), b = mapping::load_map(dir / "b.cairn");
+  if (!a) return at((dir / "a.cairn").string(), a.error());
+  if (!b) return at((dir / "b.cairn").string(), b.error());
   const auto bytes = read_file(dir / "pair.json", kMaxJsonBytes);
   if (!bytes) return bytes.error();
   try {

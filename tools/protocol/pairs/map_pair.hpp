@@ -21,6 +21,8 @@ inline constexpr const char* kOverlap = "overlap";  ///< the same, cut to less a
 inline constexpr const char* kHeterogeneous = "heterogeneous";
 /// Table 6.2: two robots among people.
 inline constexpr const char* kMission = "mission";
+/// Tables 5.2 and 7.5: a by the LiDAR of a UGV, b by the stereo camera of a UAV, both growing.
+inline constexpr const char* kUnlike = "unlike";
 
 /// Two maps of one place and where b's frame lies in a's.
 struct MapPair {
@@ -38,7 +40,7 @@ struct MapPair {
 /// Fills in overlap and counts from the maps.
 void measure(MapPair& pair);
 
-/// A folder with a.ot, b.ot and pair.json. Errors: those of the disk; kMalformed.
+/// A folder with a.cairn, b.cairn and pair.json. Labels are kept. Errors: those of the disk; kMalformed.
 [[nodiscard]] Result<void> save_pair(const MapPair& pair, const std::filesystem::path& dir);
 [[nodiscard]] Result<MapPair> load_pair(const std::filesystem::path& dir);
 

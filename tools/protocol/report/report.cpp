@@ -6,6 +6,7 @@
 #include "hal/files/file.hpp"
 #include "tools/protocol/report/claims.hpp"
 #include "tools/protocol/report/figures.hpp"
+#include "tools/protocol/report/page_parts.hpp"
 #include "tools/protocol/report/tables.hpp"
 
 namespace cairn::protocol {
@@ -69,8 +70,7 @@ Result<void> write_report(const std::filesystem::path& pairs, unsigned seed, con
   const auto outcome = load_outcome(pairs, seed);
   if (!outcome) return outcome.error();
   for (const Table& table : all_tables(*outcome)) std::cout << to_text(table);
-  for (const Claim& c : claims_of(*outcome))
-    std::cout << (c.holds ? "holds:        " : "does not hold: ") << c.claim << ": " << c.figures << '\n';
+  std::cout << to_text(claims_of(*outcome));
   if (auto written = write_file_atomic(out / "protocol.json", to_json(*outcome).dump(1) + '\n'); !written)
     return written;
   return write_file_atomic(out / "protocol.html", to_page(*outcome));

@@ -4,9 +4,8 @@
 #include <algorithm>
 #include <map>
 
-#include "onboard/report/page/html_text.hpp"
-#include "onboard/report/page/report_style.hpp"
 #include "tools/protocol/report/claims.hpp"
+#include "tools/protocol/report/page_parts.hpp"
 #include "tools/protocol/report/plot.hpp"
 #include "tools/protocol/report/report.hpp"
 #include "tools/protocol/report/tables.hpp"
@@ -14,21 +13,9 @@
 namespace cairn::protocol {
 namespace {
 
-constexpr const char* kPageStyle =
-    ".note { color: var(--soft); font-size: 13px; margin: 10px 0 0; } .notes span { color: var(--soft); }";
-
 std::size_t colour_of(std::string_view method) {
   const auto all = table_methods();
   return static_cast<std::size_t>(std::find(all.begin(), all.end(), method) - all.begin());
-}
-
-std::string figure(const std::string& title, const std::string& svg) {
-  return fmt::format("<figure><figcaption>{}</figcaption>{}</figure>", report::html::escape(title), svg);
-}
-
-std::string section(const std::string& title, const std::string& figures, const std::string& below) {
-  return fmt::format("<section><h2>{}</h2><div class=\"charts\">{}</div>{}</section>", report::html::escape(title),
-                     figures, below);
 }
 
 template <class Value>
@@ -52,9 +39,10 @@ std::string error_boxes(const Outcome& outcome) {
     figures += figure(scene->pair.name + ", error in heading and tilt",
                       boxes_of(*scene, {"°", 0.01, 100, true}, [](const Attempt& a) { return a.error.deg; }));
   }
-  return section("Errors from all starts (book: Fig. 4.11)", figures,
-                 "<p class=\"note\">Box: middle half of the starts, line: median, diamond: mean, whiskers: within 1.5 "
-                 "box heights, dots: beyond. Logarithmic; what is smaller or larger stands at the edge.</p>");
+  return charts_section(
+      "Errors from all starts (book: Fig. 4.11)", figures,
+      "<p class=\"note\">Box: middle half of the starts, line: median, diamond: mean, whiskers: within 1.5 "
+      "box heights, dots: beyond. Logarithmic; what is smaller or larger stands at the edge.</p>");
 }
 
 std::string success_curves(const Outcome& outcome) {
@@ -76,7 +64,7 @@ std::string success_curves(const Outcome& outcome) {
     figures += figure(scene->pair.name, line_plot({"distance of the start, m", 0, 3, false},
                                                   {"success, %", 0, 100, false}, {0, 0.5, 1, 1.5, 2, 2.5, 3}, lines));
   }
-  return section("Success against the start's offset (book: Fig. 4.12)", figures, legend(names));
+  return charts_section("Success against the start's offset (book: Fig. 4.12)", figures, legend(names));
 }
 
 /// By scene, of each method the points (overlap, y).
@@ -114,43 +102,34 @@ std::string overlap_curves(const Outcome& outcome) {
     figures += figure(scene + ", success", line_plot(x, {"%", 0, 100, false}, marks, successes.at(scene)));
     names = lines;
   }
-  return section("Less and less overlap (book: Fig. 4.10)", figures, legend(names));
+  return charts_section("Less and less overlap (book: Fig. 4.10)", figures, legend(names));
 }
 
-std::string claims_section(const Outcome& outcome, const std::string& title, bool books) {
-  std::string items;
-  for (const Claim& c : claims_of(outcome))
-    if (c.books == books)
-      items += fmt::format("<li class=\"{}\">{}<span>: {}</span></li>", c.holds ? "good" : "bad",
-                           report::html::escape(c.claim),
-                           report::html::escape((c.holds ? "" : "not so here, ") + c.figures));
-  return items.empty() ? items : fmt::format("<section><h2>{}</h2><ul class=\"notes\">{}</ul></section>", title, items);
+std::vector<Claim> claims_by(const Outcome& outcome, bool books) {
+  auto claims = claims_of(outcome);
+  std::erase_if(claims, [&](const Claim& c) { return c.books != books; });
+  return claims;
 }
 
 }  // namespace
 
 std::string to_page(const Outcome& outcome) {
-  std::string page = fmt::format(
-      "<!doctype html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width\"><title>Map matching: the "
-      "protocol</title><style>{}{}{}</style></head><body><main>",
-      report::html::kStyle, kPlotStyle, kPageStyle);
-  page += fmt::format(
-      "<header><h1>Map matching: the book's protocol</h1><p>Yue &amp; Wang, Collaborative Perception, Localization and "
-      "Mapping for Autonomous Systems, ch. 3 to 5; 125 starts: x and y ±2 m by 1 m, yaw ±15° by 7.5°. Seed {}.</p>"
-      "</header>",
-      outcome.seed);
-  page +=
-      claims_section(outcome, "What is asked of Cairn", false) + claims_section(outcome, "What the book says", true);
+  std::string page = page_head(
+      "Map matching: the protocol", "Map matching: the book's protocol",
+      fmt::format("Yue &amp; Wang, Collaborative Perception, Localization and Mapping for Autonomous Systems, ch. 3 to "
+                  "5; 125 starts: x and y ±2 m by 1 m, yaw ±15° by 7.5°. Seed {}.",
+                  outcome.seed));
+  page += claims_section("What is asked of Cairn", claims_by(outcome, false)) +
+          claims_section("What the book says", claims_by(outcome, true));
   const auto tables = all_tables(outcome);
   for (std::size_t i = 0; i < 5; ++i) page += to_html(tables[i]);
   page += error_boxes(outcome) + success_curves(outcome);
   for (std::size_t i = 5; i < tables.size(); ++i) page += to_html(tables[i]);
   page += overlap_curves(outcome);
-  return page +
-         "<footer>Maps: recordings of the simulator, points placed by the true poses, Cairn's mapping at 0.1 m; cut "
-         "across the building to the overlap. PCL 1.13: pairs within 2 m, at most 30 iterations, otherwise its "
-         "defaults. CPU time of one thread.</footer></main></body></html>\n";
+  return page + page_end(
+                    "Maps: recordings of the simulator, points placed by the true poses, Cairn's mapping at 0.1 m; cut "
+                    "across the building to the overlap. PCL 1.13: pairs within 2 m, at most 30 iterations, otherwise "
+                    "its defaults. CPU time of one thread.");
 }
 
 }  // namespace cairn::protocol
