@@ -27,9 +27,14 @@ record() {
   rm -rf "$out/recording"
 }
 
-# profile RECORDING: its own, with the voxels of the book's chapter 7.
+# profile RECORDING: its own, with the voxels of the book's chapter 7, and without the network that looks for people.
 profile() {
-  awk '/^  resolution_m:/ { next } { print } /^mapping:/ { print "  resolution_m: 0.2" }' "$1/profile.yaml"
+  awk '
+    /^  [a-z_]+:/ { section = $1 }
+    /^  resolution_m:/ { next }
+    section == "detection:" && /^    (model|sha256):/ { sub(/: .*/, ": \"\"") }
+    { print }
+    /^mapping:/ { print "  resolution_m: 0.2" }' "$1/profile.yaml"
 }
 
 # map SCENE FUSION: the runs of both robots until then. The network has no say in the geometry: it is asked at the end.

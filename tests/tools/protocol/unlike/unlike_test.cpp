@@ -13,7 +13,7 @@ namespace {
 using testing::HasSubstr;
 using testing::Not;
 
-MethodRun run(const char* method, double rms_m) {
+MethodRun one_start(const char* method, double rms_m) {
   MethodRun r{method, 0.1, {}, {}};
   r.attempts.push_back({kExactStart, {}, {0.05, 0.2}, 0.2, 10, true, rms_m});
   return r;
@@ -24,7 +24,7 @@ Entropies entropies(double occupancy, double label) {
 }
 
 /// Two scenes with three fusions each; `fused`: the entropies of the fused map, those of the robots are 0.4 and 0.3.
-std::vector<UnlikeOutcome> outcomes(double fused) {
+std::vector<UnlikeOutcome> two_missions(double fused) {
   std::vector<UnlikeOutcome> all;
   for (const char* scene : {"carpark", "street"})
     for (int fusion = 1; fusion <= 3; ++fusion) {
@@ -32,7 +32,7 @@ std::vector<UnlikeOutcome> outcomes(double fused) {
       o.outcome.pair.name = std::string(scene) + '_' + std::to_string(fusion);
       o.outcome.pair.scene = scene;
       o.outcome.pair.kind = kUnlike;
-      o.outcome.runs = {run("oicp", 0.3), run("em", 0.25 - 0.01 * fusion), run("default", 0.2)};
+      o.outcome.runs = {one_start("oicp", 0.3), one_start("em", 0.25 - 0.01 * fusion), one_start("default", 0.2)};
       o.outcome.runs[1].correspondences = 4 - fusion;
       o.moment = {fusion, 10.0 * fusion};
       o.attempt = o.outcome.runs[2].attempts[0];
@@ -54,13 +54,14 @@ int broken(const std::vector<Claim>& claims, const std::string& about) {
 }
 
 TEST(Unlike, TheFusedMapMustBeSurerThanEitherRobots) {
-  EXPECT_EQ(broken(unlike_claims(outcomes(0.29)), "entropy"), 0);
-  EXPECT_EQ(broken(unlike_claims(outcomes(0.30)), "entropy"), 12) << "occupancy and label; both of them are at 0.33";
-  EXPECT_EQ(broken(unlike_claims(outcomes(0.38)), "entropy"), 18);
+  EXPECT_EQ(broken(unlike_claims(two_missions(0.29)), "entropy"), 0);
+  EXPECT_EQ(broken(unlike_claims(two_missions(0.30)), "entropy"), 12)
+      << "occupancy and label; both of them are at 0.33";
+  EXPECT_EQ(broken(unlike_claims(two_missions(0.38)), "entropy"), 18);
 }
 
 TEST(Unlike, WhatTheBookSaysIsMeasured) {
-  const auto all = outcomes(0.2);
+  const auto all = two_missions(0.2);
   EXPECT_EQ(broken(unlike_claims(all), "RMS"), 0);
   EXPECT_EQ(broken(unlike_claims(all), "correspondences"), 0);
   EXPECT_EQ(broken(unlike_claims(all), "takes less time"), 0);
@@ -74,22 +75,22 @@ TEST(Unlike, WhatTheBookSaysIsMeasured) {
 }
 
 TEST(Unlike, TheLabelsOfTheBookNeedAChosenShare) {
-  const auto claims = unlike_claims(outcomes(0.2));
+  const auto claims = unlike_claims(two_missions(0.2));
   EXPECT_EQ(broken(claims, "with one share chosen"), 0);
   EXPECT_EQ(broken(claims, "with nothing chosen"), 2);
 }
 
 TEST(Unlike, RowsAreAsLongAsTheirHeaders) {
-  for (const Table& table : unlike_tables(outcomes(0.2))) {
+  for (const Table& table : unlike_tables(two_missions(0.2))) {
     EXPECT_FALSE(table.rows.empty()) << table.title;
     for (const auto& row : table.rows) EXPECT_EQ(row.size(), table.header.size()) << table.title;
   }
-  EXPECT_THAT(to_text(fused_table(outcomes(0.2))), HasSubstr("0.4000"));
-  EXPECT_THAT(to_text(fusions_table(outcomes(0.2))), HasSubstr("street, 3"));
+  EXPECT_THAT(to_text(fused_table(two_missions(0.2))), HasSubstr("0.4000"));
+  EXPECT_THAT(to_text(fusions_table(two_missions(0.2))), HasSubstr("street, 3"));
 }
 
 TEST(Unlike, AMethodThatDidNotRunIsADash) {
-  auto all = outcomes(0.2);
+  auto all = two_missions(0.2);
   for (UnlikeOutcome& o : all) o.outcome.runs.erase(o.outcome.runs.begin(), o.outcome.runs.begin() + 2);
   EXPECT_EQ(unlike_rms_table(all).rows.front().at(2), "–");
   EXPECT_EQ(broken(unlike_claims(all), "RMS"), 0);
@@ -97,7 +98,7 @@ TEST(Unlike, AMethodThatDidNotRunIsADash) {
 }
 
 TEST(Unlike, ThePageStandsAlone) {
-  const std::string page = unlike_page(outcomes(0.5), 72001);
+  const std::string page = unlike_page(two_missions(0.5), 72001);
   for (const char* mark : {"<script", "href=", "url(", "nan"}) EXPECT_THAT(page, Not(HasSubstr(mark)));
   for (const char* mark : {"Seed 72001, flights 72002.", "Table 7.5", "Fig. 5.13", "Fig. 5.14", "<svg", "not so here",
                            "data:image/png;base64,AQI="})
@@ -105,7 +106,7 @@ TEST(Unlike, ThePageStandsAlone) {
 }
 
 TEST(Unlike, JsonHasTheFieldsThatScriptsRelyOn) {
-  const Json json = unlike_json(outcomes(0.2), 5);
+  const Json json = unlike_json(two_missions(0.2), 5);
   EXPECT_EQ(json.at("seed"), 5);
   EXPECT_EQ(json.at("fusions").size(), 6U);
   EXPECT_EQ(json["fusions"][0].at("methods")[1].at("correspondences"), 3);
