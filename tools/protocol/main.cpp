@@ -39,7 +39,7 @@ Result<void> match(const fs::path& dir, std::vector<std::string> methods, int st
   if (methods.empty()) methods = our_methods(*pair);
   std::vector<MethodRun> runs;
   for (const std::string& method : methods) {
-    auto run = run_method(*pair, method, is_fast(method) ? kStarts : starts);
+    auto run = run_method(*pair, method, is_fast(method) && pair->kind != kUnlike ? kStarts : starts);
     if (!run) return at(method, run.error());
     runs.push_back(*std::move(run));
   }
@@ -50,7 +50,7 @@ void add_match(CLI::App& app, Options& o) {
   CLI::App* sub = app.add_subcommand("match", "matches one pair by our methods, leaves ours.json in its folder");
   sub->add_option("pair", o.pair, "folder of the pair")->required();
   sub->add_option("--method", o.methods, "only these");
-  sub->add_option("--starts", o.starts, "so many of the 125, for methods that take long")
+  sub->add_option("--starts", o.starts, "so many of the 125; what is fast gets all, but for unlike robots")
       ->check(CLI::Range(1, kStarts));
   sub->callback([&o] { o.job = [&o] { return match(o.pair, o.methods, o.starts); }; });
 }

@@ -28,10 +28,12 @@ struct EntropiesOfThree {
 
 /// The entropies of Table 7.5.
 struct FusedEntropies {
-  /// All that each map knows. Occupancy is fused by (7.19), labels by (7.20) with all 19
-  /// probabilities.
+  /// Of all occupied voxels, fused by the book's rules. Each voxel of b goes to the nearest of a, by
+  /// place, occupancy and class (7.15). The book leaves out how far that may be: here the diagonal
+  /// of a voxel. Then occupancies are fused by (7.19) and labels, with all 19 probabilities, by
+  /// (7.20).
   EntropiesOfThree whole;
-  EntropiesOfThree shared;  ///< the same over the voxels that both robots call occupied
+  EntropiesOfThree shared;  ///< the same over the voxels that have a partner
   EntropiesOfThree told;    ///< of maps in the form that robots exchange, fused as a team does
 };
 
@@ -41,9 +43,8 @@ struct FusedPair {
   std::unique_ptr<mapping::SemanticOcTree> told_map;
 };
 
-/// Fuses a pair whose maps have one resolution, with b where `T_a_b` says. Errors: those of
-/// merged_pair(); kLimit for a map whose voxels cannot be listed; kInvalidConfig for two
-/// resolutions.
+/// Fuses a pair whose maps have one resolution, with b where `T_a_b` says. Errors: kLimit for a map whose voxels cannot
+/// be listed; kInvalidConfig for two resolutions.
 [[nodiscard]] Result<FusedPair> fuse_pair(const MapPair& pair, const SE3& T_a_b);
 
 }  // namespace cairn::protocol

@@ -14,10 +14,12 @@ Claim below_both(std::string claim, double a, double b, double fused) {
   return {std::move(claim), fmt::format("{:.4f} against {:.4f} and {:.4f}", fused, a, b), fused < a && fused < b};
 }
 
-/// Of occupancy, label and both.
+/// Of occupancy, label and both. Nothing is claimed of what no voxel has.
 void add_entropies(const std::string& where, const EntropiesOfThree& e, std::vector<Claim>& claims) {
+  if (e.fused.occupied == 0) return;
   claims.push_back(below_both(where + ": the fused entropy of occupancy is below each robot's own", e.a.occupancy,
                               e.b.occupancy, e.fused.occupancy));
+  if (e.fused.labelled == 0) return;
   claims.push_back(below_both(where + ": the fused entropy of labels is below each robot's own", e.a.label, e.b.label,
                               e.fused.label));
   claims.push_back(below_both(where + ": the fused entropy of both is below each robot's own", e.a.overall(),
@@ -93,7 +95,7 @@ std::vector<Claim> unlike_claims(const std::vector<UnlikeOutcome>& all) {
   for (const UnlikeOutcome& o : all)
     if (o.entropies) add_entropies(o.scene(), o.entropies->whole, claims);
   for (const UnlikeOutcome& o : all)
-    if (o.entropies) add_entropies(o.scene() + ", voxels of both robots", o.entropies->shared, claims);
+    if (o.entropies) add_entropies(o.scene() + ", voxels with a partner", o.entropies->shared, claims);
   for (const UnlikeOutcome& o : all)
     if (o.entropies) add_entropies(o.scene() + ", as a team fuses", o.entropies->told, claims);
   for (const char* table : {"7.3", "7.4"}) add_labels(table, claims);

@@ -38,8 +38,9 @@ Table entropies_table(const std::vector<UnlikeOutcome>& all, std::string title, 
     const EntropiesOfThree& e = *o.entropies.*part;
     std::vector<std::string> row{o.scene()};
     append(row, each(e, [](const Entropies& x) { return x.occupancy; }));
-    append(row, each(e, [](const Entropies& x) { return x.label; }));
-    append(row, each(e, [](const Entropies& x) { return x.overall(); }));
+    if (e.fused.labelled > 0) append(row, each(e, [](const Entropies& x) { return x.label; }));
+    if (e.fused.labelled > 0) append(row, each(e, [](const Entropies& x) { return x.overall(); }));
+    row.resize(table.header.size() - 2, "–");
     row.push_back(fmt::format("{} / {} / {}", e.a.occupied, e.b.occupied, e.fused.occupied));
     row.push_back(fmt::format("{} / {} / {}", e.a.labelled, e.b.labelled, e.fused.labelled));
     table.rows.push_back(std::move(row));
@@ -63,7 +64,8 @@ std::array<const UnlikeOutcome*, 3> three_times(const std::vector<const UnlikeOu
 Table fused_table(const std::vector<UnlikeOutcome>& all) {
   Table table = entropies_table(
       all, "Mean entropy of each robot's map and of the fused one (book: Table 7.5)",
-      "At the end of the mission. Occupancy: binary, bit, over occupied voxels, fused by (7.19). Label: over 19 "
+      "At the end of the mission. Each of the UAV's voxels goes to the nearest of the UGV's, by (7.15), within a "
+      "voxel's diagonal. Occupancy: binary, bit, over occupied voxels, fused by (7.19). Label: over 19 "
       "classes, as a part of log2(19), over labelled voxels, fused by (7.20). Overall: the mean over all these values. "
       "The book leaves out the form of its entropy and how it makes its overall value. Its numbers are from other "
       "places. The text at hand has lost the table's rows: they are read column by column here.",
@@ -79,8 +81,8 @@ Table fused_table(const std::vector<UnlikeOutcome>& all) {
 }
 
 Table shared_table(const std::vector<UnlikeOutcome>& all) {
-  return entropies_table(all, "The same over the voxels that both robots call occupied",
-                         "Labels: where both robots have one. Here all three means are over the same voxels.",
+  return entropies_table(all, "The same over the voxels that have a partner",
+                         "Labels: where both robots have one. Several of the UAV's voxels may go to one of the UGV's.",
                          &FusedEntropies::shared);
 }
 

@@ -59,7 +59,7 @@ TEST(FusedEntropies, WhatBothKnowBecomesSurer) {
 }
 
 TEST(FusedEntropies, WhatOneRobotAloneKnowsStaysAsItIs) {
-  const auto e = fused(pair_of(row_of(0, 8, kCarClass, 20), row_of(8, 4, kRoadClass, 5)));
+  const auto e = fused(pair_of(row_of(0, 8, kCarClass, 20), row_of(20, 4, kRoadClass, 5)));
   EXPECT_EQ(e.whole.fused.occupied, 12U);
   EXPECT_NEAR(e.whole.fused.occupancy, binary(1), 1e-6);
   EXPECT_NEAR(e.whole.fused.label, (8 * e.whole.a.label + 4 * e.whole.b.label) / 12, 1e-6);
@@ -73,6 +73,25 @@ TEST(FusedEntropies, LabelsOfVoxelsWithoutAPartnersLabelAreNotCompared) {
   EXPECT_EQ(e.whole.b.labelled, 0U);
   EXPECT_EQ(e.whole.fused.labelled, 8U);
   EXPECT_EQ(e.whole.b.label, 0);
+}
+
+TEST(FusedEntropies, AVoxelGoesToTheNeighbourOfItsClass) {
+  auto two = row_of(0, 1, kRoadClass, 20);
+  mapping::LabelEvidence car;
+  car.add(kCarClass, 20);
+  auto* beside = two->updateNode(0.3, 0.1, 0.1, 1.0F, false);
+  beside->setLogOdds(1.0F);
+  beside->set_label_id(car.id());
+  const auto e = fused(pair_of(two, row_of(0, 1, kCarClass, 20)));
+  EXPECT_EQ(e.whole.fused.occupied, 2U);
+  EXPECT_EQ(e.shared.fused.labelled, 1U);
+  EXPECT_LT(e.shared.fused.label, e.shared.a.label) << "both say car";
+}
+
+TEST(FusedEntropies, BeyondAVoxelsDiagonalNothingIsFused) {
+  const auto e = fused(pair_of(row_of(0, 1, kCarClass, 20), row_of(2, 1, kCarClass, 20)));
+  EXPECT_EQ(e.whole.fused.occupied, 2U);
+  EXPECT_EQ(e.shared.fused.occupied, 0U);
 }
 
 TEST(FusedEntropies, TheOtherMapIsMovedFirst) {
