@@ -27,9 +27,11 @@ void add_entropies(const std::string& where, const EntropiesOfThree& e, std::vec
 }
 
 void add_poses(const std::string& scene, const std::vector<const UnlikeOutcome*>& fusions, std::vector<Claim>& claims) {
-  const PoseError& error = fusions.back()->attempt.error;
+  const Attempt& last = fusions.back()->attempt;
   claims.push_back({scene + ": the match of the last fusion is within 0.6 m and 6° of the truth",
-                    fmt::format("{:.3f} m, {:.2f}°", error.m, error.deg), error.success()});
+                    fmt::format("{:.3f} m, {:.2f}°", last.error.m, last.error.deg), last.error.success()});
+  claims.push_back({scene + ": the match of the last fusion is accepted, as right",
+                    last.accepted ? "accepted" : "not accepted", last.accepted && last.error.success()});
 }
 
 void add_times(const std::string& scene, const std::vector<const UnlikeOutcome*>& fusions, std::vector<Claim>& claims) {

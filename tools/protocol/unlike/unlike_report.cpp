@@ -164,11 +164,10 @@ std::string unlike_page(const std::vector<UnlikeOutcome>& all, unsigned seed) {
       to_html(fused_table(all)) + to_html(shared_table(all)) + to_html(told_table(all)) + to_html(label_rows_table());
   page += pictures_section(all);
   page += to_html(unlike_rms_table(all)) + correspondences_curves(all) + time_curves(all) + to_html(fusions_table(all));
-  return page +
-         page_end(
-             "Maps: Cairn's runs at 0.2 m, with its own odometry and its own segmentation network. They are fused "
-             "where the default method finds that they lie, from the true pose. Other starts: x and y ±2 m, yaw "
-             "±15° around it.");
+  return page + page_end(
+                    "Maps: Cairn's runs at 0.2 m, with its own odometry and segmentation network. They are fused "
+                    "where the default method finds that they lie, from the true pose. Other starts: x and y ±2 m, yaw "
+                    "±15° around it.");
 }
 
 Result<void> write_unlike(const fs::path& pairs, unsigned seed, const fs::path& out) {

@@ -156,9 +156,9 @@ Table fusions_table(const std::vector<UnlikeOutcome>& all) {
       "Each fusion of the mission (book: Figs. 5.13 and 5.14)",
       "Correspondences: of a voxel of the sparser map, by EM. Seconds: CPU time of one thread for features, a "
       "match and merging. Off: the default method's pose from the true one; the truth is that of the first pose, "
-      "so the drift of odometry is in it.",
+      "so the drift of odometry is in it. Accepted: what the method itself says of it.",
       {"", "seconds of mission", "voxels UGV", "UAV", "overlap", "correspondences", "s with OICP", "EM", "default",
-       "of it merging", "off, m", "°"},
+       "of it merging", "off, m", "°", "accepted"},
       {}};
   for (const UnlikeOutcome& o : all) {
     const MethodRun* em = o.outcome.run("em");
@@ -169,7 +169,8 @@ Table fusions_table(const std::vector<UnlikeOutcome>& all) {
                           em != nullptr ? fmt::format("{:.2f}", em->correspondences.value_or(1)) : "–",
                           fmt::format("{:.2f}", o.seconds("oicp")), fmt::format("{:.2f}", o.seconds("em")),
                           fmt::format("{:.2f}", o.seconds("default")), fmt::format("{:.3f}", o.merge_s),
-                          fmt::format("{:.3f}", o.attempt.error.m), fmt::format("{:.2f}", o.attempt.error.deg)});
+                          fmt::format("{:.3f}", o.attempt.error.m), fmt::format("{:.2f}", o.attempt.error.deg),
+                          o.attempt.accepted ? "yes" : "no"});
   }
   return table;
 }
