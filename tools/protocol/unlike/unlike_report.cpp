@@ -43,18 +43,18 @@ std::vector<double> marks_of(const std::vector<Line>& lines) {
 }
 
 std::string correspondences_curves(const std::vector<UnlikeOutcome>& all) {
-  std::vector<Line> lines;
-  double last = 1;
-  for (const std::string& scene : scenes_of(all))
-    lines.push_back(line_of(all, scene, scene, lines.size(), [&](const UnlikeOutcome& o) {
-      last = std::max(last, 1.0 * o.moment.fusion);
+  constexpr double kBookMost = 4;  // the book's axis
+  std::string figures;
+  for (const std::string& scene : scenes_of(all)) {
+    const Line line = line_of(all, scene, scene, 8, [](const UnlikeOutcome& o) {
       const MethodRun* em = o.outcome.run("em");
       return em != nullptr ? em->correspondences.value_or(1) : 1;
-    }));
-  const std::string plot = line_plot({"fusion", 0, last, false}, {"voxels", 0, std::max(4.0, greatest(lines)), false},
-                                     marks_of(lines), lines);
-  return charts_section("Voxels with which a voxel of the sparser map is paired (book: Fig. 5.13)",
-                        figure("mean, by EM", plot), legend(lines));
+    });
+    const double last = line.x.empty() ? 1 : line.x.back();
+    figures += figure(scene, line_plot({"fusion", 0, last, false},
+                                       {"voxels", 0, std::max(kBookMost, greatest({line})), false}, line.x, {line}));
+  }
+  return charts_section("Voxels with which EM pairs a voxel of the sparser map, mean (book: Fig. 5.13)", figures);
 }
 
 std::string time_curves(const std::vector<UnlikeOutcome>& all) {

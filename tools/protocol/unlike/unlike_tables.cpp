@@ -26,28 +26,31 @@ void append(std::vector<std::string>& row, const std::array<std::string, 3>& cel
   row.insert(row.end(), cells.begin(), cells.end());
 }
 
-/// Two rows for each scene: the binary entropy with labels and both, and the book's form of occupancy.
+std::array<std::string, 3> counts(const EntropiesOfThree& e, std::uint64_t Entropies::*voxels) {
+  return {fmt::format("{}", e.a.*voxels), fmt::format("{}", e.b.*voxels), fmt::format("{}", e.fused.*voxels)};
+}
+
+/// Three rows for each scene: the binary entropy with labels and both, the book's form of occupancy, and over how many
+/// voxels the means are.
 Table entropies_table(const std::vector<UnlikeOutcome>& all, std::string title, std::string note, Part part) {
   Table table{std::move(title),
               std::move(note),
-              {"", "occupancy UGV", "UAV", "fused", "label UGV", "UAV", "fused", "overall UGV", "UAV", "fused",
-               "voxels", "labels"},
+              {"", "occupancy UGV", "UAV", "fused", "label UGV", "UAV", "fused", "overall UGV", "UAV", "fused"},
               {}};
   for (const UnlikeOutcome& o : all) {
     if (!o.entropies) continue;
     const EntropiesOfThree& e = *o.entropies.*part;
-    std::vector<std::string> row{o.scene()};
+    std::vector<std::string> row{o.scene()}, book_form{o.scene() + ", −p log2 p"}, voxels{o.scene() + ", voxels"};
     append(row, each(e, [](const Entropies& x) { return x.occupancy; }));
     if (e.fused.labelled > 0) append(row, each(e, [](const Entropies& x) { return x.label; }));
     if (e.fused.labelled > 0) append(row, each(e, [](const Entropies& x) { return x.overall(); }));
-    row.resize(table.header.size() - 2, "–");
-    row.push_back(fmt::format("{} / {} / {}", e.a.occupied, e.b.occupied, e.fused.occupied));
-    row.push_back(fmt::format("{} / {} / {}", e.a.labelled, e.b.labelled, e.fused.labelled));
-    table.rows.push_back(std::move(row));
-    std::vector<std::string> book_form{o.scene() + ", −p log2 p"};
     append(book_form, each(e, [](const Entropies& x) { return x.book; }));
-    book_form.resize(table.header.size(), "–");
-    table.rows.push_back(std::move(book_form));
+    append(voxels, counts(e, &Entropies::occupied));
+    append(voxels, counts(e, &Entropies::labelled));
+    for (auto* added : {&row, &book_form, &voxels}) {
+      added->resize(table.header.size(), "–");
+      table.rows.push_back(std::move(*added));
+    }
   }
   return table;
 }
