@@ -52,6 +52,7 @@ void add_book(const std::string& scene, const std::vector<const UnlikeOutcome*>&
     const MethodRun *oicp = o->outcome.run("oicp"), *em = o->outcome.run("em");
     if (oicp == nullptr || em == nullptr) continue;
     const double a = figures_of(oicp->attempts).rms_m, b = figures_of(em->attempts).rms_m;
+    if (a <= 0 || b <= 0) continue;  // no voxel had a partner
     rms += fmt::format("{}{:.4f} against {:.4f}", any ? ", " : "", b, a);
     em_better = em_better && b < a;
     if (!any) first = b;

@@ -41,10 +41,10 @@ Table entropies_table(const std::vector<UnlikeOutcome>& all, std::string title, 
     if (!o.entropies) continue;
     const EntropiesOfThree& e = *o.entropies.*part;
     std::vector<std::string> row{o.scene()}, book_form{o.scene() + ", −p log2 p"}, voxels{o.scene() + ", voxels"};
-    append(row, each(e, [](const Entropies& x) { return x.occupancy; }));
+    if (e.fused.occupied > 0) append(row, each(e, [](const Entropies& x) { return x.occupancy; }));
     if (e.fused.labelled > 0) append(row, each(e, [](const Entropies& x) { return x.label; }));
     if (e.fused.labelled > 0) append(row, each(e, [](const Entropies& x) { return x.overall(); }));
-    append(book_form, each(e, [](const Entropies& x) { return x.book; }));
+    if (e.fused.occupied > 0) append(book_form, each(e, [](const Entropies& x) { return x.book; }));
     append(voxels, counts(e, &Entropies::occupied));
     append(voxels, counts(e, &Entropies::labelled));
     for (auto* added : {&row, &book_form, &voxels}) {
@@ -122,12 +122,12 @@ Table label_rows_table() {
 }
 
 Table unlike_rms_table(const std::vector<UnlikeOutcome>& all) {
-  Table table{
-      "RMS of matched voxels of a UGV's and a UAV's map, m (book: Table 5.2)",
-      "Voxels with a partner within 1 m, mean over the starts. The book's numbers (OICP / its own) are of other "
-      "robots and places.",
-      {"", "seconds", "OICP", "EM", "Cairn's default", "success OICP, %", "EM", "default"},
-      {}};
+  Table table{"RMS of matched voxels of a UGV's and a UAV's map, m (book: Table 5.2)",
+              "Voxels with a partner within 1 m, mean over the starts; –: no voxel has one. The book's numbers (OICP / "
+              "its own) are of other "
+              "robots and places.",
+              {"", "seconds", "OICP", "EM", "Cairn's default", "success OICP, %", "EM", "default"},
+              {}};
   for (const std::string& scene : scenes_of(all)) {
     const auto times = three_times(fusions_of(all, scene));
     for (std::size_t i = 0; i < times.size(); ++i) {
@@ -137,7 +137,7 @@ Table unlike_rms_table(const std::vector<UnlikeOutcome>& all) {
       for (const char* method : {"oicp", "em", "default"}) {
         const MethodRun* run = times.at(i)->outcome.run(method);
         const Figures f = run != nullptr ? figures_of(run->attempts) : Figures{};
-        row.push_back(run != nullptr ? decimals(f.rms_m) : "–");
+        row.push_back(f.rms_m > 0 ? decimals(f.rms_m) : "–");
         successes.push_back(run != nullptr ? fmt::format("{:.0f}", 100 * f.success) : "–");
       }
       row.insert(row.end(), successes.begin(), successes.end());

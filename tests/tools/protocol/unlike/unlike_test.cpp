@@ -97,6 +97,18 @@ TEST(Unlike, AMethodThatDidNotRunIsADash) {
   EXPECT_THAT(unlike_page(all, 1), HasSubstr("</html>"));
 }
 
+TEST(Unlike, WhatNoVoxelHasIsADashAndNoClaim) {
+  auto all = two_missions(0.2);
+  all[2].entropies->shared = {};
+  all[2].entropies->whole.fused.labelled = 0;
+  for (MethodRun& r : all[0].outcome.runs) r.attempts[0].rms_m = 0;
+  EXPECT_EQ(shared_table(all).rows.front().at(1), "–");
+  EXPECT_EQ(fused_table(all).rows.front().at(4), "–");
+  EXPECT_EQ(unlike_rms_table(all).rows.front().at(2), "–");
+  EXPECT_EQ(unlike_claims(two_missions(0.2)).size() - unlike_claims(all).size(), 5U);
+  EXPECT_EQ(broken(unlike_claims(all), "RMS"), 0);
+}
+
 TEST(Unlike, ThePageStandsAlone) {
   const std::string page = unlike_page(two_missions(0.5), 72001);
   for (const char* mark : {"<script", "href=", "url(", "nan"}) EXPECT_THAT(page, Not(HasSubstr(mark)));
