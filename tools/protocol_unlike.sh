@@ -4,7 +4,7 @@
 # Maps both as their missions go on, matches and fuses the maps, and leaves unlike.json and unlike.html.
 #   tools/protocol_unlike.sh [--seed K] [--out DIR] [--seconds S] [--fusions N] [--starts N] [--scenes "NAME…"]
 #     --seed      of the drives and their noise; that of the flights is one more (default 72001)
-#     --out       default: protocol_unlike/; recordings that are there already are used again
+#     --out       default: protocol_unlike/; recordings of the same seed and length are used again
 #     --seconds   length of the missions (default 24)
 #     --fusions   how often the maps are fused, spread evenly over a mission (default 6)
 #     --starts    from how many of the 125 start poses OICP, EM and Cairn's default match (default 5)
@@ -51,7 +51,9 @@ map() {
 }
 
 build_programs release
-mkdir -p "$out/profiles"
+[[ $(cat "$out/recordings/of" 2>/dev/null) == "seed $seed, $seconds s" ]] || rm -rf "$out/recordings"
+mkdir -p "$out/profiles" "$out/recordings"
+echo "seed $seed, $seconds s" >"$out/recordings/of"
 rm -rf "$out/pairs" "$out/runs"
 ln -sfn "$PWD/config/models" "$out/profiles/models"
 step 1/4 "simulating the recordings"
