@@ -17,6 +17,7 @@
 #include "onboard/app/live/stop_signal.hpp"
 #include "onboard/client/map_mirror.hpp"
 #include "onboard/client/view/costmap.hpp"
+#include "tools/cli/map/costmap_lines.hpp"
 #include "tools/cli/stream/core_stream.hpp"
 
 namespace cairn::cli {
@@ -28,7 +29,8 @@ using client::Costmap;
 struct CostmapArguments {
   fs::path socket, out;
   client::CostmapConfig robot;
-  bool json = false;
+  double rate_hz = 2, seconds = 0;
+  bool json = false, follow = false;
 };
 
 /// The own map of a core, and where its robot is.
@@ -106,7 +108,34 @@ int save(const CostmapArguments& a, const Surroundings& found) {
   return app::kDone;
 }
 
+/// A line now and then, until `seconds` are over or Ctrl-C comes.
+int follow(const CostmapArguments& a) {
+  client::SubscribeMessage wants;
+  wants.add(clients::Stream::kOwnTiles);
+  wants.add(clients::Stream::kPose);
+  Surroundings found;
+  std::optional<Time> next;
+  const Time end = a.seconds > 0 ? LiveClock().now() + from_seconds(a.seconds) : Time::max();
+  const auto take = [&](client::StreamMessage& message) -> Result<bool> {
+    const bool pose = std::holds_alternative<client::PoseMessage>(message);
+    if (const auto taken = found.take(message); !taken) return taken.error();
+    if (!pose || !found.complete() || (next && found.pose().stamp < *next)) return LiveClock().now() < end;
+    next = found.pose().stamp + from_seconds(1 / a.rate_hz);
+    const client::PlannerView view(found.mirror(), nullptr, std::nullopt);
+    std::cout << costmap_line(view, found.pose(), a.robot).dump() << std::endl;
+    return LiveClock().now() < end && std::cout.good();
+  };
+  const auto read = read_core(a.socket, wants, take, [&]() -> Result<bool> {
+    if (LiveClock().now() >= end) return false;
+    return next ? Result<bool>(true) : found.idle();
+  });
+  return read ? app::kDone : app::fail(at(a.socket.string(), read.error()));
+}
+
 int make(const CostmapArguments& a) {
+  if (a.follow) return follow(a);
+  if (a.out.empty())
+    return app::fail({Errc::kInvalidConfig, "name a file with --out, or follow the robot with --follow", {}, {}, {}});
   if (a.out.extension() != ".pgm")
     return app::fail({Errc::kInvalidConfig, "a costmap is a .pgm with a .yaml beside it", a.out.string(), {}, {}});
   client::SubscribeMessage wants;
@@ -128,14 +157,19 @@ void add_costmap_command(app::Commands& commands, CLI::App& map) {
   auto a = std::make_shared<CostmapArguments>();
   sub->add_option("--socket", a->socket, "socket of the core: robot.sock in the folder of its --sockets")
       ->default_val(client::kRobotSocket);
-  sub->add_option("--out", a->out, "picture to write, .pgm; its .yaml goes beside it")->required();
+  auto* out = sub->add_option("--out", a->out, "picture to write, .pgm; its .yaml goes beside it");
   const auto number = [&](const char* name, double& value, double most, const char* what) {
     sub->add_option(name, value, what)->check(CLI::Range(0.0, most))->capture_default_str();
   };
   number("--size", a->robot.size_m, 200, "edge of the square around the robot, m");
   number("--height", a->robot.height_m, 10, "clearance that the robot needs above the ground, m");
   number("--step", a->robot.step_m, 2, "highest step that it climbs, m");
-  sub->add_flag("--json", a->json, "one JSON object on stdout");
+  auto* json = sub->add_flag("--json", a->json, "one JSON object on stdout");
+  auto* follow = sub->add_flag("--follow", a->follow, "instead of a picture: a line of JSON now and then, until Ctrl-C")
+                     ->excludes(out)
+                     ->excludes(json);
+  sub->add_option("--rate", a->rate_hz, "lines a second")->check(CLI::Range(0.1, 10.0))->default_val(2)->needs(follow);
+  sub->add_option("--seconds", a->seconds, "ends after so long")->check(app::above_zero)->needs(follow);
   sub->callback([&commands, a] { commands.job = [a] { return make(*a); }; });
 }
 

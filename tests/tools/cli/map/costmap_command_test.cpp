@@ -58,6 +58,25 @@ TEST(MapCostmap, IsAPictureThatAMapServerReads) {
   EXPECT_THAT(yaml, HasSubstr("image: costmap.pgm\nmode: trinary\nresolution: 0.2\norigin: [-1.6"));
 }
 
+TEST(MapCostmap, CanBeFollowedInAnyLanguage) {
+  const Outcome o = test::run_beside_core(
+      add_map_command, {"map", "costmap", "--follow", "--size", "4", "--rate", "10", "--seconds", "0.5"}, map_a_floor);
+  ASSERT_EQ(o.exit_code, app::kDone) << o.err;
+  std::stringstream lines(o.out);
+  std::string line;
+  ASSERT_TRUE(std::getline(lines, line)) << "at least one";
+  const auto json = nlohmann::json::parse(line);
+  EXPECT_EQ(json["cells"], 20);
+  EXPECT_EQ(json["cost"].get<std::string>().size(), 4U * ((400 + 2) / 3));
+  EXPECT_EQ(json["distance_cm"].get<std::string>().size(), 4U * ((800 + 2) / 3));
+  EXPECT_NEAR(json["nearest_m"].get<double>(), 0.3, 0.15) << "the floor under base_link";
+}
+
+TEST(MapCostmap, WithoutAPictureItHasToFollow) {
+  EXPECT_EQ(run(add_map_command, {"map", "costmap"}).exit_code, app::kWrongArguments);
+  EXPECT_EQ(run(add_map_command, {"map", "costmap", "--rate", "3", "--out", "a.pgm"}).exit_code, app::kWrongArguments);
+}
+
 TEST(MapCostmap, OtherPicturesAreRefused) {
   const TemporaryFolder folder;
   const Outcome o = run(add_map_command, {"map", "costmap", "--out", (folder / "costmap.png").string()});
