@@ -2,7 +2,9 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 
+#include "hal/geo_fix.hpp"
 #include "hal/image.hpp"
 #include "hal/labels.hpp"
 #include "hal/packet.hpp"
@@ -44,6 +46,10 @@ class ScanDecoder {
   virtual const Scan* expire(Time now) = 0;
   /// Closes the running scan at the end of the data. Null if it is empty.
   virtual const Scan* flush() = 0;
+  /// A pulse per second, which the sensor gets as well, rose at `at`. Pulses come for as long as they are regular.
+  virtual void note_second(Time /*at*/) {}
+  /// Where a satellite receiver that speaks through the sensor was, once for each fix. None: nothing new.
+  virtual std::optional<GeoFix> take_fix() { return std::nullopt; }
 
  protected:
   ScanDecoder() = default;

@@ -41,6 +41,7 @@ void declare(config::Section& s, CaptureConfig& c) {
   s.integer("width", c.width, {1, kMaxSide}, "px", "of the whole frame: both eyes, telemetry rows and all");
   s.integer("height", c.height, {1, kMaxSide}, "px", "of the whole frame");
   s.number("rate_hz", c.rate_hz, {0.1, 1000}, "1/s", "frames; the device may grant another rate");
+  s.flag("triggered", c.triggered, "gpio.trigger_line exposes it: pictures have the time of their pulse");
   s.integer("buffers", c.buffers, {2, 32}, "", "frames that the kernel may fill before one is taken");
 }
 

@@ -15,6 +15,7 @@ struct CaptureConfig {
   int height = 376;             ///< pixels of the whole frame
   double rate_hz = 15;          ///< frames per second; the device may grant another rate
   int buffers = 4;              ///< frames that the kernel may fill before one is taken
+  bool triggered = false;       ///< the trigger line exposes it: the pulse before a frame is the time of its exposure
 };
 
 /// A colour camera: alone, or two side by side in one picture (ZED: 2 × 672×376). Section `camera` of the profile.

@@ -15,11 +15,12 @@ void declare(config::Section& s, Config& c) {
            "the contact must stay closed so long to count as released");
   s.number("estop_rearm_ms", c.estop_rearm_ms, {0, 10000}, "ms", "and so long before arming is allowed");
   s.text("trigger_line", c.trigger_line,
-         "output for the cameras' trigger; empty: none; cairn run claims the line and sends no pulses yet");
-  s.number("trigger_rate_hz", c.trigger_rate_hz, {0.1, 1000}, "Hz", "pulses per second; not used by cairn run yet");
-  s.number("trigger_pulse_ms", c.trigger_pulse_ms, {0.05, 1000}, "ms", "length of a pulse; not used by cairn run yet");
+         "output for the trigger of cameras that are `triggered`; cairn run pulses it; empty: none");
+  s.number("trigger_rate_hz", c.trigger_rate_hz, {0.1, 1000}, "Hz", "pulses per second");
+  s.number("trigger_pulse_ms", c.trigger_pulse_ms, {0.05, 1000}, "ms", "length of a pulse, to 2 ms");
   s.text("pps_line", c.pps_line,
-         "input of a pulse per second; empty: none; its edges are recorded and set no clock yet");
+         "input of the pulse per second that the LiDAR gets, too: sets its stamps with lidar.time_source pps; empty: "
+         "none");
 }
 
 Result<void> check(const Config& c) {

@@ -45,7 +45,8 @@ void wait(Duration time) {
 
 }  // namespace
 
-FileLines::FileLines(const Config& config, SourceId source, const Clock& clock) : source_(source), clock_(clock) {
+FileLines::FileLines(const Config& config, SourceId source, const Clock& clock)
+    : GpioLines(source, clock), clock_(clock) {
   const std::filesystem::path folder = config.chip.substr(kFileChip.size());
   for (const LineUse& use : uses_of(config))
     if (!use.name.empty())
@@ -80,17 +81,14 @@ Result<Poll> FileLines::next(Packet& packet, Duration timeout) {
 }
 
 bool FileLines::look(Packet& packet) {
+  if (take_pulse(packet)) return true;
   for (std::size_t i = 0; i < kLines; ++i) {
     File& file = files_.at(i);
     if (file.path.empty() || file.output) continue;
     const auto level = this->level(static_cast<Line>(i));
     if (!level || *level == file.level) continue;  // level() tells of a line that is lost
     file.level = *level;
-    encode_event({.line = static_cast<Line>(i), .level = *level, .sampled = false, .sequence = 0}, packet);
-    packet.source = source_;
-    packet.sequence = counters_.events++;
-    packet.arrival = clock_.now();
-    packet.truncated = false;
+    fill(packet, {.line = static_cast<Line>(i), .level = *level}, clock_.now());
     return true;
   }
   return false;

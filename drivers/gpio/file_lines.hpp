@@ -43,7 +43,6 @@ class FileLines final : public GpioLines {
   bool look(Packet& packet);
 
   std::array<File, kLines> files_;
-  SourceId source_;
   const Clock& clock_;
 };
 

@@ -43,4 +43,29 @@ Error line_error(std::string_view cause, const Config& config, std::string_view 
   return {missing ? Errc::kNotFound : Errc::kIo, cause, std::move(where), {}, std::move(detail)};
 }
 
+Result<void> GpioLines::pulse(Line line, bool level) {
+  if (auto done = set(line, level); !done) return done;
+  if (Edge* edge = clock_ != nullptr ? pulsed_.back() : nullptr) {
+    *edge = {{.line = line, .level = level}, clock_->now()};
+    pulsed_.push();
+  }
+  return {};
+}
+
+bool GpioLines::take_pulse(Packet& packet) {
+  const Edge* edge = pulsed_.front();
+  if (edge == nullptr) return false;
+  fill(packet, edge->event, edge->at);
+  pulsed_.pop();
+  return true;
+}
+
+void GpioLines::fill(Packet& packet, const LineEvent& event, Time at) {
+  encode_event(event, packet);
+  packet.source = source_;
+  packet.sequence = counters_.events++;
+  packet.truncated = false;
+  packet.arrival = at;
+}
+
 }  // namespace cairn::gpio

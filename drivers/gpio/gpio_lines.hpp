@@ -10,6 +10,7 @@
 #include "drivers/gpio/line_event.hpp"
 #include "hal/clock.hpp"
 #include "hal/ports.hpp"
+#include "hal/spsc_queue.hpp"
 
 namespace cairn::gpio {
 
@@ -26,11 +27,29 @@ class GpioLines : public Source {
   virtual Result<bool> level(Line line) = 0;
   /// Sets an output. Errors as level().
   virtual Result<void> set(Line line, bool level) = 0;
+  /// set(), and next() gives the edge as it gives those of inputs, so that it is recorded.
+  Result<void> pulse(Line line, bool level);
   [[nodiscard]] const Counters& counters() const { return counters_; }
 
  protected:
   GpioLines() = default;
+  /// `clock` must outlive it.
+  GpioLines(SourceId source, const Clock& clock) : source_(source), clock_(&clock) {}
+  /// The oldest edge of pulse() that next() has not given. To be asked first.
+  bool take_pulse(Packet& packet);
+  /// Fills the packet of an edge.
+  void fill(Packet& packet, const LineEvent& event, Time at);
+
   Counters counters_;
+
+ private:
+  struct Edge {
+    LineEvent event;
+    Time at{};
+  };
+  SourceId source_{};
+  const Clock* clock_ = nullptr;  // null: pulses are not told
+  SpscQueue<Edge> pulsed_{8};     // more than come between two calls of next()
 };
 
 /// Opens the configured lines for this program alone. `clock` must outlive them. Errors: kInvalidConfig, kNotFound

@@ -37,7 +37,7 @@ int flags_of(const LineUse& use) {
 class Libgpiod1Lines final : public GpioLines {
  public:
   Libgpiod1Lines(Config config, Chip chip, SourceId source, const Clock& clock)
-      : config_(std::move(config)), chip_(std::move(chip)), source_(source), clock_(clock) {}
+      : GpioLines(source, clock), config_(std::move(config)), chip_(std::move(chip)), clock_(clock) {}
 
   Result<void> request() {
     for (const LineUse& use : uses_of(config_)) {
@@ -54,6 +54,7 @@ class Libgpiod1Lines final : public GpioLines {
   }
 
   Result<Poll> next(Packet& packet, Duration timeout) override {
+    if (take_pulse(packet)) return Poll::kPacket;
     const auto ns = std::max<std::int64_t>(0, timeout.count());
     const timespec limit{ns / 1'000'000'000, ns % 1'000'000'000};
     if (ppoll(waiting_.data(), waits_, &limit, nullptr) <= 0) return Poll::kTimeout;
@@ -87,18 +88,13 @@ class Libgpiod1Lines final : public GpioLines {
     gpiod_line_event event{};
     if (gpiod_line_event_read(lines_[static_cast<std::size_t>(line)], &event) != 0)
       return line_error("cannot read an event of the GPIO line", config_, name_of(line));
-    encode_event({line, event.event_type == GPIOD_LINE_EVENT_RISING_EDGE, false, 0}, packet);
-    packet.source = source_;
-    packet.sequence = counters_.events++;
-    packet.truncated = false;
-    packet.arrival =
-        plausible_stamp(event.ts.tv_sec * 1'000'000'000 + event.ts.tv_nsec, clock_.now(), counters_.unstamped);
+    fill(packet, {line, event.event_type == GPIOD_LINE_EVENT_RISING_EDGE, false, 0},
+         plausible_stamp(event.ts.tv_sec * 1'000'000'000 + event.ts.tv_nsec, clock_.now(), counters_.unstamped));
     return Poll::kPacket;
   }
 
   Config config_;
   Chip chip_;
-  SourceId source_;
   const Clock& clock_;
   std::array<gpiod_line*, kLines> lines_{};
   std::array<pollfd, kLines> waiting_{};

@@ -76,7 +76,7 @@ class Libgpiod2Lines final : public GpioLines {
   static constexpr std::size_t kKernelEvents = 256;
 
   Libgpiod2Lines(Config config, Chip chip, SourceId source, const Clock& clock)
-      : config_(std::move(config)), chip_(std::move(chip)), source_(source), clock_(clock) {
+      : GpioLines(source, clock), config_(std::move(config)), chip_(std::move(chip)), clock_(clock) {
     offsets_.fill(-1);
   }
 
@@ -106,6 +106,7 @@ class Libgpiod2Lines final : public GpioLines {
   }
 
   Result<Poll> next(Packet& packet, Duration timeout) override {
+    if (take_pulse(packet)) return Poll::kPacket;
     if (!request_) return Poll::kTimeout;
     const int ready = gpiod_line_request_wait_edge_events(request_.get(), std::max<std::int64_t>(0, timeout.count()));
     if (ready < 0 && errno != EINTR) return line_error("cannot wait for events", config_, {});
@@ -118,12 +119,9 @@ class Libgpiod2Lines final : public GpioLines {
     if (line == kLines) return Poll::kTimeout;
     const bool rising = gpiod_edge_event_get_event_type(event) == GPIOD_EDGE_EVENT_RISING_EDGE;
     const auto sequence = static_cast<std::uint32_t>(gpiod_edge_event_get_line_seqno(event));
-    encode_event({static_cast<Line>(line), rising, false, sequence}, packet);
-    packet.source = source_;
-    packet.sequence = counters_.events++;
-    packet.truncated = false;
-    packet.arrival = plausible_stamp(static_cast<std::int64_t>(gpiod_edge_event_get_timestamp_ns(event)), clock_.now(),
-                                     counters_.unstamped);
+    const auto stamp = static_cast<std::int64_t>(gpiod_edge_event_get_timestamp_ns(event));
+    fill(packet, {static_cast<Line>(line), rising, false, sequence},
+         plausible_stamp(stamp, clock_.now(), counters_.unstamped));
     return Poll::kPacket;
   }
 
@@ -151,7 +149,6 @@ class Libgpiod2Lines final : public GpioLines {
   Chip chip_;
   Request request_;
   Buffer buffer_;
-  SourceId source_;
   const Clock& clock_;
   std::array<int, kLines> offsets_{};  // on the chip; −1: not configured
 };

@@ -10,8 +10,7 @@
 namespace cairn::gpio {
 
 /// When the output of the camera trigger goes up and down. Missed pulses are left out, and the phase stays. The pulse
-/// is made by software, so the scheduler can delay it. Take the time of exposure from the camera, or from a trigger
-/// line that is looped back to an input.
+/// is made by software, so the scheduler can delay it: what counts is the time when the line was set.
 class Trigger {
  public:
   explicit Trigger(const Config& config);

@@ -114,6 +114,17 @@ DeviceTime::Stamp Lidar::stamp(const DataPacket& data, Time arrival) {
   return device_time_.update(data.timestamp_us, arrival, model_.packet_span(data.dual()), exact);
 }
 
+/// The device's microseconds within the second, from the pulse that began it. Seconds since a pulse are the computer's:
+/// its clock is 0.1 ms off after a second at worst.
+std::optional<Time> Lidar::by_second(const DataPacket& data, Time arrival) const {
+  if (!second_ || arrival - *second_ > kPositionTimeout) return std::nullopt;
+  constexpr Duration kSecond = std::chrono::seconds(1);
+  const Duration within = std::chrono::microseconds(data.timestamp_us % 1'000'000);
+  const Duration since = arrival - *second_ - within;
+  const auto seconds = (since + (since < Duration{} ? -kSecond / 2 : kSecond / 2)) / kSecond;
+  return *second_ + within + seconds * kSecond;
+}
+
 /// The device's UTC, and where the time source asks for it, that on the robot's time line.
 std::optional<Time> Lidar::exact_time(const DataPacket& data, Time arrival) {
   using std::chrono::duration_cast, std::chrono::microseconds;
@@ -121,7 +132,9 @@ std::optional<Time> Lidar::exact_time(const DataPacket& data, Time arrival) {
   const std::int64_t reference_us =
       utc_offset_ ? to_us(arrival.time_since_epoch() + *utc_offset_) : nmea_utc_us_ + to_us(arrival - nmea_arrival_);
   counters_.utc_us = resolve_utc_us(data.timestamp_us, reference_us);
-  if (config_.time_source != "pps" || !utc_offset_) return std::nullopt;
+  if (config_.time_source != "pps") return std::nullopt;
+  if (const auto exact = by_second(data, arrival)) return exact;
+  if (!utc_offset_) return std::nullopt;
   const Time exact{microseconds(*counters_.utc_us) - *utc_offset_};
   const Duration gap = arrival - exact;
   if (gap > DeviceTime::kExactTolerance || gap < -DeviceTime::kExactTolerance)
@@ -225,6 +238,10 @@ void Lidar::note_nmea(const PositionPacket& position, Time arrival) {
   if (nmea->utc_us && nmea->valid) {
     nmea_utc_us_ = *nmea->utc_us;
     nmea_arrival_ = arrival;
+  }
+  if (nmea->valid && nmea->place && fix_time_ != nmea->time_of_day_us) {
+    fix_time_ = nmea->time_of_day_us;
+    fix_ = {arrival, nmea->place->latitude_deg, nmea->place->longitude_deg};
   }
   const bool hour_known = utc_offset_ || nmea_utc_us_ != 0;
   if (position.pps == PpsState::kLocked && nmea->valid && hour_known) {

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "drivers/velodyne/config.hpp"
 #include "drivers/velodyne/data_packet.hpp"
@@ -44,7 +45,7 @@ struct Counters {
 
   double rpm = 0;  ///< latest
   std::optional<PpsState> pps;
-  std::optional<NmeaTime> nmea;             ///< of the latest good sentence
+  std::optional<NmeaFix> nmea;              ///< of the latest good sentence
   std::optional<std::int64_t> utc_us;       ///< of the latest data packet, while PPS is locked
   int top_board_c = 0, bottom_board_c = 0;  ///< °C, latest
 };
@@ -61,6 +62,10 @@ class Lidar final : public ScanDecoder {
   Result<const Scan*> decode(const Packet& packet) override;
   const Scan* expire(Time now) override;
   const Scan* flush() override;
+  /// With the time source "pps", while the sensor is locked to the same pulses: they set the stamps, whatever the
+  /// clock of this computer says.
+  void note_second(Time at) override { second_ = at; }
+  std::optional<GeoFix> take_fix() override { return std::exchange(fix_, std::nullopt); }
 
   /// UTC − Time of this computer or recording, if known. It gives the hour of the device's UTC. With the time source
   /// "pps" it also puts the device's UTC on the robot's time line.
@@ -82,6 +87,7 @@ class Lidar final : public ScanDecoder {
   void note_mode(const DataPacket& data, Time arrival);
   DeviceTime::Stamp stamp(const DataPacket& data, Time arrival);
   std::optional<Time> exact_time(const DataPacket& data, Time arrival);
+  [[nodiscard]] std::optional<Time> by_second(const DataPacket& data, Time arrival) const;
   void note_jump(Time arrival);
   void note_nmea(const PositionPacket& position, Time arrival);
   void count_lost(Duration step, double azimuth_deg);
@@ -105,6 +111,9 @@ class Lidar final : public ScanDecoder {
   std::optional<Time> locked_at_;  // arrival of the last position packet that said locked and valid
   std::int64_t nmea_utc_us_ = 0;   // latest valid date and time, and when it arrived
   Time nmea_arrival_{};
+  std::optional<Time> second_;            // the newest pulse
+  std::optional<GeoFix> fix_;             // not taken yet
+  std::optional<std::int64_t> fix_time_;  // of day, of the last fix: a sentence is sent again and again
   bool late_noted_ = false;
   bool mode_noted_ = false;
   bool product_noted_ = false;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "drivers/velodyne/nmea.hpp"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <chrono>
@@ -63,6 +64,30 @@ std::optional<std::int64_t> date_us(std::string_view field) {
   return std::chrono::microseconds(std::chrono::sys_days{date}.time_since_epoch()).count();
 }
 
+/// So many digits of degrees, then minutes with a fraction → degrees. `most`: degrees.
+std::optional<double> angle_deg(std::string_view field, std::size_t digits, int most) {
+  if (field.size() < digits + 2) return std::nullopt;
+  const auto degrees = number(field.substr(0, digits)), whole = number(field.substr(digits, 2));
+  if (!degrees || !whole || *whole >= 60) return std::nullopt;
+  double minutes = *whole, weight = 0.1;
+  if (field.size() > digits + 2 && field[digits + 2] != '.') return std::nullopt;
+  for (const char digit : field.substr(std::min(field.size(), digits + 3))) {
+    if (digit < '0' || digit > '9') return std::nullopt;
+    minutes += weight * (digit - '0');
+    weight /= 10;
+  }
+  const double angle = *degrees + minutes / 60;
+  return angle <= most ? std::optional(angle) : std::nullopt;
+}
+
+/// latitude, N or S, longitude, E or W
+std::optional<GeoPlace> place_from(std::span<const std::string_view, 4> f) {
+  const auto latitude = angle_deg(f[0], 2, 90), longitude = angle_deg(f[2], 3, 180);
+  const bool north = f[1] == "N", east = f[3] == "E";
+  if (!latitude || !longitude || (!north && f[1] != "S") || (!east && f[3] != "W")) return std::nullopt;
+  return GeoPlace{north ? *latitude : -*latitude, east ? *longitude : -*longitude};
+}
+
 /// The text between '$' and '*' when its checksum is right.
 Result<std::string_view> checked_body(std::string_view text) {
   text = text.substr(0, kMaxSentence);
@@ -77,23 +102,23 @@ Result<std::string_view> checked_body(std::string_view text) {
   return body;
 }
 
-Result<NmeaTime> from_rmc(const Fields& f) {
+Result<NmeaFix> from_rmc(const Fields& f) {
   const auto time = time_of_day_us(f[1]);
   const auto date = date_us(f[9]);
   if (!time || !date || (f[2] != "A" && f[2] != "V")) return Error{Errc::kMalformed, "RMC sentence has a bad field"};
-  return NmeaTime{f[2] == "A", *time, *date + *time};
+  return NmeaFix{f[2] == "A", *time, *date + *time, place_from(std::span(f).subspan<3, 4>())};
 }
 
-Result<NmeaTime> from_gga(const Fields& f) {
+Result<NmeaFix> from_gga(const Fields& f) {
   const auto time = time_of_day_us(f[1]);
   const auto quality = number(f[6]);
   if (!time || !quality) return Error{Errc::kMalformed, "GGA sentence has a bad field"};
-  return NmeaTime{*quality > 0, *time, std::nullopt};
+  return NmeaFix{*quality > 0, *time, std::nullopt, place_from(std::span(f).subspan<2, 4>())};
 }
 
 }  // namespace
 
-Result<NmeaTime> parse_nmea(std::string_view text) {
+Result<NmeaFix> parse_nmea(std::string_view text) {
   const auto body = checked_body(text);
   if (!body) return body.error();
   const Fields fields = split(*body);

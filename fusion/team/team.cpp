@@ -18,6 +18,8 @@ namespace {
 // Contradictions show within some batches.
 constexpr Duration kNoticedIn = std::chrono::seconds(3);
 
+constexpr double kAnywhere = 1e8;  // m², rad²: nothing is known
+
 peers::ExchangeConfig with_voxels(peers::ExchangeConfig config, double resolution_m) {
   config.voxel_um = static_cast<std::uint32_t>(std::lround(1e6 * resolution_m));
   return config;
@@ -34,7 +36,31 @@ Team::Team(const TeamConfig& config, peers::Epoch epoch)
       plan_(config.match, config.least_tiles),
       map_(config.resolution_m, config.policy) {
   exchange_.set_interest([this](RobotId peer, RobotId robot) { return interest_of(peer, robot); });
-  if (config.deployment) exchange_.say(peers::ItemId::deployment(), encode(peers::Deployment{*config.deployment}));
+  if (config.deployment) deploy(*config.deployment, false);
+}
+
+void Team::deploy(const UncertainPose& T_site_odom, bool firm) {
+  if (by_person_) return;
+  if (firm && firm_ == 0) firm_ = 1;
+  say_deployment({.T_ref_odom = T_site_odom, .firm = firm_});
+}
+
+Result<void> Team::put(const UncertainPose& T_ref_odom, RobotId ref) {
+  const auto layer = exchange_.layers().find(ref);
+  if (ref != 0 && layer == exchange_.layers().end()) return Error{Errc::kNotFound, "nothing is known of this teammate"};
+  const peers::Epoch epoch = ref == 0 ? 0 : layer->second.epoch;
+  by_person_ = true;
+  say_deployment({.T_ref_odom = T_ref_odom, .ref = ref, .ref_epoch = epoch, .firm = ++firm_});
+  return {};
+}
+
+void Team::forget_place() {
+  if (!std::exchange(by_person_, false)) return;
+  say_deployment({.T_ref_odom = {SE3(), kAnywhere * Matrix6::Identity()}, .firm = ++firm_});
+}
+
+void Team::say_deployment(const peers::Deployment& deployment) {
+  exchange_.say(peers::ItemId::deployment(), encode(deployment));
 }
 
 void Team::begin(peers::Epoch epoch) {
@@ -43,6 +69,8 @@ void Team::begin(peers::Epoch epoch) {
   check_ = {};
   seen_ = {};
   doubted_.reset();
+  firm_ = 0;
+  by_person_ = false;
   exchange_.begin(epoch);
 }
 
@@ -100,6 +128,7 @@ void Team::publish(const IndexedEdge& edge) { exchange_.say(peers::ItemId::edge(
 /// Those that owe nothing to comparisons.
 void Team::publish_edges() {
   for (const IndexedEdge& edge : surveyed_.edges(exchange_.layers())) publish(edge);
+  for (const IndexedEdge& edge : heed_firm(view(), compared_)) publish(edge);
   for (const IndexedEdge& edge : deployment_edges(view(), compared_)) publish(edge);
 }
 

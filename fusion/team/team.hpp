@@ -81,6 +81,15 @@ class Team {
   /// robot's map is in doubt, nothing of it is published. What was mapped while scans contradicted it never is, and
   /// another submap begins afterwards.
   void judge(bool lost, Time now);
+  /// Where the robot's odom frame lies in a frame that the whole team shares, by a survey or by satellites. Maps do not
+  /// overrule a `firm` one. Without effect while what a person has said holds.
+  void deploy(const UncertainPose& T_site_odom, bool firm);
+  /// A person says where the robot's odom frame lies: in that of a teammate, or, with `ref` 0, in the frame that the
+  /// whole team shares. Pairs of which this tells something separate, and merge again where the maps confirm it. Error
+  /// kNotFound: nothing is known of the teammate.
+  Result<void> put(const UncertainPose& T_ref_odom, peers::RobotId ref);
+  /// What a person has said is taken back.
+  void forget_place();
   /// Where a peer's odom frame lies in this robot's by something else than maps: a survey, a marker that
   /// both saw. It is published until it is claimed otherwise, also after either robot has begun anew. It
   /// must agree with what the maps say. `probability`: that it is right, 0…1.
@@ -124,6 +133,7 @@ class Team {
   [[nodiscard]] const peers::Exchange& exchange() const { return exchange_; }
 
  private:
+  void say_deployment(const peers::Deployment& deployment);
   void publish(const IndexedEdge& edge);
   void publish_edges();
   void begin_doubt(Time now);
@@ -144,6 +154,8 @@ class Team {
   Time doubt_began_{};
   bool contradicted_ = false;  // in the present doubt
   HeldBack held_back_;
+  std::uint32_t firm_ = 0;  // of what was said last of where the robot is
+  bool by_person_ = false;  // that was
   SurveyedPoses surveyed_;
   TeamTiles tiles_;
   bool claims_changed_ = true;

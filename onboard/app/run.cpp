@@ -54,7 +54,7 @@ Result<Door> open_door(const RunOptions& options, RobotProfile& profile, const C
   if (const auto taken = take_schedule(options, *door); !taken) return taken.error();
   if (options.live() && !options.recording.empty()) forget_recorded(recording::kCommands, *door);
   if (const auto made = make_socket_folder(options.sockets); !made) return made.error();
-  if (!options.sockets.empty() && options.recording.empty())
+  if (options.live() && !options.sockets.empty())
     if (const auto served = serve_commands(options.sockets, profile, clock, *door); !served) return served.error();
   if (options.peers)
     if (const auto joined = join_team(profile, clock, *door); !joined) return joined.error();

@@ -25,7 +25,7 @@ enum class Regime : std::uint8_t {
 /// What one tick was given and decided, in numbered slots whose meaning is the task's own. An idle tick leaves zero in
 /// every slot.
 struct TickRecord {
-  static constexpr std::size_t kSlots = 16;
+  static constexpr std::size_t kSlots = 20;
   std::uint64_t index = 0;    ///< of the release
   std::uint32_t skipped = 0;  ///< releases passed since the tick before
   std::array<std::int32_t, kSlots> slots{};

@@ -259,6 +259,9 @@ std::vector<Row> foreign_rows() {
        0ms, N, "streams/TileStreamTest.AfterThirtySecondsAwayAMirrorHasEveryTileWithinTwo"},
       {"C33", "a picture stream's reader is slow", "It loses whole pictures, and no pose.", 0ms, 0ms, N,
        "streams/PictureStreamTest.WhoDoesNotReadLosesPicturesAndNoPoses"},
+      {"C34", "the trigger of a triggered camera is silent",
+       "Its pictures keep the time of their arrival. An event says so.", 0ms, 0ms, N,
+       "app/ReceiveTaskTest.ATriggeredPictureHasTheTimeOfItsPulse"},
   };
 }
 

@@ -40,7 +40,7 @@ class CoreRig {
     graph_.connect(drive_.status, safety_->drive, {.capacity = 64});
     graph_.connect(safety_->decisions, drive_.decisions, {.capacity = 64});
     graph_.connect(drive_.rearms, safety_->rearms, {.capacity = 8});
-    safety_->watch_estop({}, line, SourceId{1}, &line, {});
+    safety_->use_lines({}, line, SourceId{1}, &line, {});
     moves_ = drive_.attach(drive::test::two_nodes(), wire_, SourceId{0}, &wire_, {}).has_value();
     commands.keep_answers = false;
     drive_.obey_commands(commands, SourceId{2}, &commands, {});

@@ -213,6 +213,9 @@ std::vector<Row> peer_rows() {
       shown_by("P27", "odometry was lost and has found the map again",
                "The team is told nothing for 3 s. If scans then agree with the map, all of it is shared.",
                "peers/SubmapCheck.LostOdometryIsADoubtForAWhileAfterwards"),
+      shown_by("P28", "robots were merged in a wrong place, and a person or satellites say where they are",
+               "They separate at once. Maps do not overrule it. They merge again where maps confirm it.",
+               "team/FullTeamPlacedByPerson.SeparatesRobotsUntilTheMapsConfirmIt"),
   };
 }
 

@@ -96,7 +96,7 @@ class EStopRig {
     fitted.drive = fitted.estop = fitted.watched[static_cast<std::size_t>(safety::Watched::kFeedback)] = true;
     safety.emplace(safety::FailsafeConfig{}, fitted);
     edges.reserve(1000);
-    safety->watch_estop(gpio_, *lines_, SourceId{2}, lines_.get(), [this](const Packet& p) { note(p); });
+    safety->use_lines(gpio_, *lines_, SourceId{2}, lines_.get(), [this](const Packet& p) { note(p); });
     (void)drive_.attach(drive::test::two_nodes(), *link_, SourceId{0}, link_.get(), {});
     drive_.obey_commands(*commands_, SourceId{3}, commands_.get(), {});
     far_end.emplace(*peer_, clock);

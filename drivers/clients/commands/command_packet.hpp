@@ -14,8 +14,8 @@
 // byte says that the client came or went. Every other one is the record of a command.
 namespace cairn::clients {
 
-/// More than a command has: 69 bytes of body with the longest name.
-inline constexpr std::size_t kMaxCommandBytes = Record::kHeaderBytes + 80;
+/// More than a command has: 142 bytes of body with the longest names.
+inline constexpr std::size_t kMaxCommandBytes = Record::kHeaderBytes + 160;
 inline constexpr std::byte kClientLeft{0}, kClientJoined{1};
 
 [[nodiscard]] inline bool is_joined(const Packet& packet) {

@@ -2,6 +2,7 @@
 #include "drivers/clients/messages/command.hpp"
 
 #include <array>
+#include <numbers>
 
 #include "drivers/clients/messages/record.hpp"
 #include "hal/bytes.hpp"
@@ -9,7 +10,7 @@
 namespace cairn::clients {
 namespace {
 
-constexpr std::array<std::string_view, 7> kVerbs{"", "velocity", "hold", "arm", "disarm", "stop", "release"};
+constexpr std::array<std::string_view, 8> kVerbs{"", "velocity", "hold", "arm", "disarm", "stop", "release", "place"};
 constexpr std::array<std::string_view, 9> kOutcomes{"",      "done",    "limited", "held",    "not_holder",
                                                     "stale", "invalid", "refused", "replaced"};
 
@@ -22,7 +23,27 @@ std::optional<Enum> known(std::optional<std::uint8_t> code, const Names& names) 
 
 Error malformed(std::string_view cause) { return {Errc::kMalformed, cause, {}, {}, {}}; }
 
+void append_placement(std::vector<std::byte>& out, const Placement& place) {
+  append_text(out, place.frame);
+  for (const double value : {place.x, place.y, place.yaw, place.sigma_m, place.sigma_rad}) append_le(out, value);
+}
+
+std::optional<Placement> read_placement(ByteReader& in) {
+  const auto frame = read_text<32>(in);
+  const auto x = in.read<double>(), y = in.read<double>(), yaw = in.read<double>();
+  const auto sigma_m = in.read<double>(), sigma_rad = in.read<double>();
+  if (!frame || !sigma_rad) return std::nullopt;
+  return Placement{*frame, *x, *y, *yaw, *sigma_m, *sigma_rad};
+}
+
 }  // namespace
+
+bool Placement::possible() const {
+  const auto within = [](double value, double least, double most) { return value >= least && value <= most; };
+  return within(x, -kFarthest_m, kFarthest_m) && within(y, -kFarthest_m, kFarthest_m) &&
+         within(yaw, -2 * std::numbers::pi, 2 * std::numbers::pi) && within(sigma_m, kLeastSigma_m, kMostSigma_m) &&
+         within(sigma_rad, kLeastSigma_rad, std::numbers::pi);
+}
 
 std::string_view to_string(Command::Verb verb) { return kVerbs.at(static_cast<std::size_t>(verb)); }
 std::string_view to_string(Answer::Outcome outcome) { return kOutcomes.at(static_cast<std::size_t>(outcome)); }
@@ -36,6 +57,7 @@ void encode(const Command& command, std::vector<std::byte>& out) {
   append_le(out, command.w);
   append_le(out, command.epoch);
   append_text(out, command.who);
+  if (command.verb == Command::Verb::kPlace) append_placement(out, command.place);
   end_record(out);
 }
 
@@ -49,9 +71,11 @@ Result<Command> decode_command(std::span<const std::byte> message) {
   const auto v = in.read<double>(), w = in.read<double>();
   const auto epoch = in.read<std::uint32_t>();
   const auto who = read_text<32>(in);
-  if (!verb || !sent || !valid_for || !v || !w || !epoch || !who || in.remaining() != 0)
+  const bool places = verb == Command::Verb::kPlace;
+  const auto place = places ? read_placement(in) : std::optional(Placement{});
+  if (!verb || !sent || !valid_for || !v || !w || !epoch || !who || !place || in.remaining() != 0)
     return malformed("no command can be like this");
-  return Command{*verb, record->sequence, Time{Duration{*sent}}, Duration{*valid_for}, *v, *w, *epoch, *who};
+  return Command{*verb, record->sequence, Time{Duration{*sent}}, Duration{*valid_for}, *v, *w, *epoch, *who, *place};
 }
 
 void encode(const Answer& answer, std::uint32_t sequence, std::vector<std::byte>& out) {

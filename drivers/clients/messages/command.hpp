@@ -16,6 +16,23 @@ namespace cairn::clients {
 /// Who commands, for messages to others.
 using ClientName = ShortText<32>;
 
+/// Where the robot is, by somebody who knows. Height, roll and pitch are the robot's own.
+struct Placement {
+  /// The frame of a team's map, and the only name in `frame` that is no robot's.
+  static constexpr std::string_view kTeam = "team";
+  static constexpr double kFarthest_m = 100'000, kLeastSigma_m = 0.01, kMostSigma_m = 1000, kLeastSigma_rad = 0.001;
+
+  ShortText<32> frame{};          ///< a teammate: its odom; kTeam; empty: the frame of the team's start poses
+  double x = 0, y = 0;            ///< of base_link, metres
+  double yaw = 0;                 ///< of base_link, rad
+  double sigma_m = kMostSigma_m;  ///< of x and of y; with kMostSigma_m, what was said before is taken back
+  double sigma_rad = 3.14;        ///< of yaw
+
+  [[nodiscard]] bool possible() const;
+  [[nodiscard]] bool takes_back() const { return sigma_m == kMostSigma_m; }
+  friend bool operator==(const Placement&, const Placement&) = default;
+};
+
 /// One request.
 struct Command {
   enum class Verb : std::uint8_t {
@@ -25,6 +42,7 @@ struct Command {
     kDisarm = 4,    ///< stop and disable the motors, until kArm
     kStop = 5,      ///< the same from anybody, without the lease
     kRelease = 6,   ///< give the lease back
+    kPlace = 7,     ///< tell the team where the robot is, without the lease
   };
   /// No velocity is valid for longer: a commander that is gone must not move the robot.
   static constexpr Duration kMostValid = std::chrono::milliseconds(200);
@@ -36,6 +54,7 @@ struct Command {
   double v = 0, w = 0;       ///< m/s forward, rad/s to the left, of base_link
   std::uint32_t epoch = 0;   ///< for kArm: of the stop that it ends, as the last answer said
   ClientName who;
+  Placement place{};  ///< for kPlace
 
   friend bool operator==(const Command&, const Command&) = default;
 };
@@ -50,7 +69,7 @@ struct Answer {
     kNotHolder = 4,  ///< another client commands: `holder`
     kStale = 5,      ///< sent too long ago, or after a later one
     kInvalid = 6,    ///< no number, or valid for too long
-    kRefused = 7,    ///< cannot be armed: `why`
+    kRefused = 7,    ///< cannot be armed, or placed: `why`
     kReplaced = 8,   ///< a later command came before this one was used
   };
   Outcome outcome = Outcome::kDone;

@@ -20,7 +20,7 @@ bool GrowingMatch::due(const MapFeatures& a, const MapFeatures& b) {
 }
 
 void GrowingMatch::update(const MapFeatures& a, const MapFeatures& b, Budget& budget,
-                          const std::optional<UncertainPose>& given) {
+                          const std::optional<UncertainPose>& given, bool firm) {
   const auto guess = given && worth_following(*given) ? given : std::nullopt;
   if (std::min(a.fine().size(), b.fine().size()) < config_.least_surfels) return;
   const DefaultMatcher matcher(a, b, config_.matcher);
@@ -49,7 +49,19 @@ void GrowingMatch::update(const MapFeatures& a, const MapFeatures& b, Budget& bu
     if (guess) search(guess, config_.most_near);
     search({}, config_.most_found);
   }
+  denied_.reset();
+  if (given && firm) deny(looks, *given);
   hypotheses_.take(std::move(looks), guess);
+}
+
+/// A look that is not taken leaves its place as it was, so both must not mix: firm word begins with a new match.
+void GrowingMatch::deny(std::vector<Look>& looks, const UncertainPose& firm) {
+  const auto elsewhere = [&](const Look& look) { return !agrees(firm, look.T_a_b.mean); };
+  for (const Look& look : looks) {
+    const Decision decision = decide(look.evidence, config_.matcher.acceptance);
+    if (!denied_ && elsewhere(look) && decision.probability_correct >= config_.belief.agrees) denied_ = look.T_a_b.mean;
+  }
+  std::erase_if(looks, elsewhere);
 }
 
 }  // namespace cairn::matching

@@ -33,17 +33,22 @@ class GrowingMatch {
 
   /// To be called when the maps have grown. It waits while a map holds too little. A guess of T_a_b
   /// (see guess.hpp) is searched first. The search everywhere follows all the same, because the
-  /// guess may be wrong.
+  /// guess may be wrong. Places elsewhere than a `firm` guess are never believed.
   void update(const MapFeatures& a, const MapFeatures& b, Budget& budget,
-              const std::optional<UncertainPose>& guess = {});
+              const std::optional<UncertainPose>& guess = {}, bool firm = false);
 
   [[nodiscard]] const PendingHypotheses& hypotheses() const { return hypotheses_; }
+  /// T_a_b of a likely place that a firm guess denied in the last update.
+  [[nodiscard]] const std::optional<SE3>& denied() const { return denied_; }
 
  private:
   /// Whether a search is due. If so, it counts as done.
   [[nodiscard]] bool due(const MapFeatures& a, const MapFeatures& b);
 
+  void deny(std::vector<Look>& looks, const UncertainPose& firm);
+
   GrowingMatchConfig config_;
+  std::optional<SE3> denied_;
   PendingHypotheses hypotheses_;
   std::size_t searched_a_ = 0, searched_b_ = 0;  // surfels at the last search
 };

@@ -23,7 +23,7 @@
 namespace cairn::peers {
 
 inline constexpr std::size_t kMaxDatagram = 1200;
-inline constexpr std::uint8_t kFormat = 4;
+inline constexpr std::uint8_t kFormat = 5;
 
 /// "I am here." It is also sent to robots that were never heard of.
 struct Hello {

@@ -69,7 +69,10 @@ std::vector<std::byte> encode(const Edge& edge) {
 
 std::vector<std::byte> encode(const Deployment& deployment) {
   std::vector<std::byte> out;
-  append_pose(out, deployment.T_site_odom);
+  append_le(out, deployment.ref);
+  append_le(out, deployment.ref_epoch);
+  append_le(out, deployment.firm);
+  append_pose(out, deployment.T_ref_odom);
   return out;
 }
 
@@ -82,10 +85,14 @@ Result<Submap> decode_submap(std::span<const std::byte> bytes) {
 
 Result<Deployment> decode_deployment(std::span<const std::byte> bytes) {
   ByteReader in(bytes);
+  const auto ref = in.read<RobotId>();
+  const auto ref_epoch = in.read<Epoch>();
+  const auto firm = in.read<std::uint32_t>();
   const auto pose = read_pose(in);
-  if (!pose || in.remaining() != 0 || pose->covariance.llt().info() != Eigen::Success)
+  if (!pose || in.remaining() != 0 || pose->covariance.llt().info() != Eigen::Success ||
+      (*ref == 0) != (*ref_epoch == 0))
     return Error{Errc::kMalformed, "not a deployment"};
-  return Deployment{*pose};
+  return Deployment{*pose, *ref, *ref_epoch, *firm};
 }
 
 Result<Edge> decode_edge(std::span<const std::byte> bytes) {

@@ -27,10 +27,15 @@ struct Edge {
   float probability = 0;  ///< that it is right, 0…1
 };
 
-/// Where the robot was put down: its odom frame in a metric frame, z up, that the whole team shares. It comes from a
-/// survey, a marked place or a GPS fix, and may be wrong.
+/// Where the robot's odom frame lies by something else than maps: a survey, a marked place, a GPS fix, or a person. It
+/// may be wrong.
 struct Deployment {
-  UncertainPose T_site_odom;
+  UncertainPose T_ref_odom;
+  RobotId ref = 0;      ///< in whose odom frame it lies; 0: in a metric frame, z up, that the whole team shares
+  Epoch ref_epoch = 0;  ///< of that robot's beginning; 0 without one
+  /// Above 0, maps do not overrule it: a person or satellites say so. Counts up with each word that makes what was
+  /// found before void. 0: it is only a guess, as of the profile.
+  std::uint32_t firm = 0;
 };
 
 /// Payloads of items. Poses as seven doubles (translation, quaternion x y z w with w ≥ 0), covariances as the 21 floats

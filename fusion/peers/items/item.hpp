@@ -20,7 +20,7 @@ enum class ItemKind : std::uint8_t {
   kTile = 0,        ///< own observations of one tile of a submap; payload: encode_tile()
   kSubmap = 1,      ///< where a submap lies in the robot's odom frame; payload: encode(Submap)
   kEdge = 2,        ///< where another robot's submap lies in the publisher's; payload: encode(Edge)
-  kDeployment = 3,  ///< where the publisher's odom frame lies in one that all share; payload: encode(Deployment)
+  kDeployment = 3,  ///< where the publisher's odom frame lies, not by maps; payload: encode(Deployment)
 };
 
 /// Names one thing that a robot publishes something about.

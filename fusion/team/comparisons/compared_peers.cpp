@@ -20,6 +20,20 @@ ComparedPeer& ComparedPeers::at(peers::RobotId peer, peers::Epoch own_epoch, pee
   return compared;
 }
 
+std::optional<IndexedEdge> ComparedPeers::heed(peers::RobotId peer, std::uint64_t firm) {
+  ComparedPeer& compared = peers_.at(peer);
+  if (compared.firm == firm) return std::nullopt;
+  refinements_.forget(peer);
+  auto withdrawn = compared.edge.update(std::nullopt);
+  compared = ComparedPeer{.own_epoch = compared.own_epoch,
+                          .peer_epoch = compared.peer_epoch,
+                          .firm = firm,
+                          .match = std::make_unique<matching::GrowingMatch>(),
+                          .worth = MatchWorth(worth_),
+                          .edge = compared.edge};
+  return withdrawn;
+}
+
 const ComparedPeer* ComparedPeers::find(peers::RobotId peer) const {
   const auto found = peers_.find(peer);
   return found == peers_.end() ? nullptr : &found->second;
@@ -29,7 +43,8 @@ ComparedPeer* ComparedPeers::of(const MatchJob& job, peers::Epoch own_epoch) {
   const auto found = peers_.find(job.peer);
   if (found == peers_.end()) return nullptr;
   ComparedPeer& compared = found->second;
-  const bool same = compared.own_epoch == job.own_epoch && compared.peer_epoch == job.peer_epoch;
+  const bool same =
+      compared.own_epoch == job.own_epoch && compared.peer_epoch == job.peer_epoch && compared.firm == job.firm;
   return same && job.own_epoch == own_epoch ? &compared : nullptr;
 }
 

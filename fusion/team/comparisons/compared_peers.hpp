@@ -26,6 +26,7 @@ struct PlaceStanding {
 /// What the comparisons of this robot's map with one peer's have come to.
 struct ComparedPeer {
   peers::Epoch own_epoch = 0, peer_epoch = 0;       ///< of the maps
+  std::uint64_t firm = 0;                           ///< see firmness()
   std::unique_ptr<matching::GrowingMatch> match{};  ///< of the whole maps; null while a job has it
   MatchWorth worth{};                               ///< of the next comparison
   Time refined = Time::min();                       ///< when submaps were last looked for
@@ -43,6 +44,9 @@ class ComparedPeers {
   /// The peer's entry. It begins empty, and is emptied when one of the two robots has begun anew. The
   /// index of its edge stays.
   [[nodiscard]] ComparedPeer& at(peers::RobotId peer, peers::Epoch own_epoch, peers::Epoch peer_epoch);
+  /// Firm word has come of where a peer is: what comparisons found before is forgotten. Returns the edge that withdraws
+  /// what was published, if anything was. at() knows the peer. `firm`: see firmness(); the same again changes nothing.
+  [[nodiscard]] std::optional<IndexedEdge> heed(peers::RobotId peer, std::uint64_t firm);
   /// Null for a peer that at() was never called for.
   [[nodiscard]] const ComparedPeer* find(peers::RobotId peer) const;
   /// The peer that a job is about; null if one of the two robots has begun anew since.

@@ -31,7 +31,7 @@ void run(MatchJob& job, Budget& budget) {
   if (job.refinement)
     refine(*job.refinement, *own, *other, budget);
   else
-    job.match->update(*own, *other, budget, job.guess);
+    job.match->update(*own, *other, budget, job.guess, job.firm > 0);
 }
 
 }  // namespace cairn::team

@@ -26,6 +26,7 @@ struct Refinement {
 struct MatchJob {
   peers::RobotId peer = 0;
   peers::Epoch own_epoch = 0, peer_epoch = 0;       ///< of the maps
+  std::uint64_t firm = 0;                           ///< see firmness()
   PublishedTiles own{}, other{};                    ///< this robot's and the peer's
   std::unique_ptr<matching::GrowingMatch> match{};  ///< for whole maps; null for submaps
   std::optional<UncertainPose> guess{};             ///< T_own_other, for whole maps

@@ -70,6 +70,7 @@ std::optional<MatchJob> MatchPlan::of_whole_maps(const TeamView& team, ComparedP
   return MatchJob{.peer = best.id,
                   .own_epoch = best.peer->own_epoch,
                   .peer_epoch = best.peer->peer_epoch,
+                  .firm = best.peer->firm,
                   .own = whole_map(team, team.self()),
                   .other = whole_map(team, best.id),
                   .match = std::move(best.peer->match),
@@ -89,6 +90,7 @@ std::optional<MatchJob> MatchPlan::of_submaps(const TeamView& team, ComparedPeer
     return MatchJob{.peer = id,
                     .own_epoch = peer.own_epoch,
                     .peer_epoch = peer.peer_epoch,
+                    .firm = peer.firm,
                     .own = submap_of(team, team.self(), submaps->own),
                     .other = submap_of(team, id, submaps->other),
                     .refinement = Refinement{.submaps = *submaps, .guess = *guess}};

@@ -24,7 +24,7 @@ bool can_move(const Commander::Situation& now) {
 
 }  // namespace
 
-Commander::Commander() { replies_.reserve(kMostReplies); }
+Commander::Commander(const Abilities& abilities) : abilities_(abilities) { replies_.reserve(kMostReplies); }
 
 Answer* Commander::reply(std::uint16_t client, const Command& command, Outcome outcome, const Situation& now) {
   if (replies_.size() == kMostReplies) return nullptr;
@@ -87,6 +87,8 @@ void Commander::give_lease_back() {
 }
 
 void Commander::obey(std::uint16_t client, const Command& command, const Situation& now) {
+  if (command.verb == Verb::kPlace) return take_place(client, command, now);
+  if (!abilities_.drives) return refuse(client, command, Outcome::kRefused, "this robot has no drive", now);
   if (command.verb == Verb::kStop) return stop(client, command, now);
   if (!lease(client, command, now.now))
     return refuse(client, command, Outcome::kNotHolder, "another client commands; only stop is open to all", now);
@@ -102,6 +104,7 @@ void Commander::obey(std::uint16_t client, const Command& command, const Situati
       break;
     case Verb::kHold:
     case Verb::kStop:
+    case Verb::kPlace:
       valid_until_ = Time::min();
       said_ = now.now;
       break;
@@ -141,8 +144,19 @@ void Commander::take_arm(std::uint16_t client, const Command& command, const Sit
   orders_.arm = command.epoch;
 }
 
+/// Of two in one tick, the later one is told.
+void Commander::take_place(std::uint16_t client, const Command& command, const Situation& now) {
+  if (!abilities_.in_team)
+    return refuse(client, command, Outcome::kRefused, "this robot is in no team: the core runs without --peers", now);
+  if (!command.place.possible())
+    return refuse(client, command, Outcome::kInvalid, "a place is within 100 km, known to 1 cm at best", now);
+  orders_.place = command.place;
+  (void)reply(client, command, Outcome::kDone, now);
+}
+
 void Commander::stop(std::uint16_t client, const Command& command, const Situation& now) {
-  orders_ = {.stop = true, .arm = {}};
+  orders_.stop = true;
+  orders_.arm.reset();
   said_.reset();
   if (Answer* answer = reply(client, command, Outcome::kDone, now)) answer->stopped = true;
 }

@@ -37,7 +37,8 @@ class Commander {
   /// What a tick has to do, beside driving.
   struct Orders {
     bool stop = false;
-    std::optional<std::uint32_t> arm;  ///< the epoch of the stop that is to end
+    std::optional<std::uint32_t> arm;         ///< the epoch of the stop that is to end
+    std::optional<clients::Placement> place;  ///< what the team is to be told
   };
   /// What one client is to be told.
   struct Reply {
@@ -45,7 +46,13 @@ class Commander {
     clients::Answer answer;
   };
 
-  Commander();
+  /// What the robot has that can be commanded.
+  struct Abilities {
+    bool drives = true;
+    bool in_team = false;
+  };
+
+  explicit Commander(const Abilities& abilities);
 
   /// Takes one packet of the command socket. What cannot be a command is ignored.
   void take(const Packet& packet, const Situation& now);
@@ -84,6 +91,7 @@ class Commander {
   void obey(std::uint16_t client, const clients::Command& command, const Situation& now);
   void take_velocity(std::uint16_t client, const clients::Command& command, const Situation& now);
   void take_arm(std::uint16_t client, const clients::Command& command, const Situation& now);
+  void take_place(std::uint16_t client, const clients::Command& command, const Situation& now);
   void stop(std::uint16_t client, const clients::Command& command, const Situation& now);
   void conclude_arming(const Situation& now);
   void conclude_velocity(const Situation& now, const DriveCommand& told);
@@ -91,6 +99,7 @@ class Commander {
   void refuse(std::uint16_t client, const clients::Command& command, Outcome outcome, std::string_view why,
               const Situation& now);
 
+  Abilities abilities_;
   std::array<Known, clients::CommandSocket::kMostClients> known_{};
   Holder holder_;
   Orders orders_;

@@ -8,7 +8,7 @@ namespace cairn::app {
 
 Result<void> serve_commands(const std::filesystem::path& sockets, const RobotProfile& profile, const Clock& clock,
                             Door& door) {
-  if (!fitted_with(door.recording.sources, profile).drive) return {};
+  if (!fitted_with(door.recording.sources, profile).drive && profile.team.id == 0) return {};
   recording::SourceEntry entry;
   entry.id = to_string(recording::kCommands);
   entry.kind = recording::kCommands;

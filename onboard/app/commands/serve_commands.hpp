@@ -13,9 +13,9 @@ namespace cairn::app {
   return sockets / "command.sock";
 }
 
-/// Adds command.sock to the door of a live run, where the robot has a drive that may be armed. Commands of a played
-/// recording are forgotten: clients say other things now. `clock` must outlive the door. Errors: those of
-/// CommandSocket::open().
+/// Adds command.sock to the door of a live run, where the robot has a drive that may be armed, or is in a team.
+/// Commands of a played recording are forgotten: clients say other things now. `clock` must outlive the door. Errors:
+/// those of CommandSocket::open().
 Result<void> serve_commands(const std::filesystem::path& sockets, const RobotProfile& profile, const Clock& clock,
                             Door& door);
 

@@ -105,6 +105,20 @@ Result<void> calibrate_cameras(RobotProfile& p, const std::filesystem::path& fol
   return Error{Errc::kInvalidConfig, "faults in the profile", {}, {}, faults};
 }
 
+/// A camera that waits for pulses which nobody sends gives no picture.
+Result<void> check_trigger(const RobotProfile& p) {
+  if (!p.gpio.driver.trigger_line.empty()) return {};
+  std::string faults;
+  const auto name = [&](const char* section, bool triggered) {
+    if (triggered) faults += std::string("\n") + section + ".capture.triggered is set, but gpio.trigger_line is not";
+  };
+  name("camera", p.camera.driver.capture.triggered);
+  name("thermal", p.thermal.driver.capture.triggered);
+  name("depth", p.depth.driver.capture.triggered);
+  if (faults.empty()) return {};
+  return Error{Errc::kInvalidConfig, "faults in the profile", {}, {}, faults.substr(1)};
+}
+
 }  // namespace
 
 Result<RobotProfile> load_profile(const std::filesystem::path& path, RobotProfile profile) {
@@ -116,6 +130,7 @@ Result<RobotProfile> load_profile(const std::filesystem::path& path, RobotProfil
   if (auto sound = check(profile.failsafe); !sound) return at(path.string(), sound.error());
   if (auto sound = check(profile.perception); !sound) return at(path.string(), sound.error());
   if (auto sound = check(profile.team); !sound) return at(path.string(), sound.error());
+  if (auto sound = check_trigger(profile); !sound) return at(path.string(), sound.error());
   if (auto sound = check_mounts(profile); !sound) return at(path.string(), sound.error());
   if (auto sound = calibrate_cameras(profile, path.parent_path()); !sound) return at(path.string(), sound.error());
   return profile;

@@ -35,6 +35,14 @@ void declare(config::Section& s, DeploymentProfile& p) {
   s.number("sigma_deg", p.sigma_deg, {0.01, 180}, "deg", "standard deviation of yaw_deg; 180: it is not known");
 }
 
+void declare(config::Section& s, SatelliteProfile& p) {
+  s.number("origin_latitude_deg", p.origin_latitude_deg, {-89, 89}, "deg",
+           "of a place that the team agrees on, WGS 84, north is positive; both 0: satellites are not used");
+  s.number("origin_longitude_deg", p.origin_longitude_deg, {-180, 180}, "deg", "of the same place; east is positive");
+  s.number("sigma_m", p.sigma_m, {0.01, 1000}, "m",
+           "standard deviation of the receiver, each coordinate; between high buildings it is 10 m and more");
+}
+
 void declare(config::Section& s, TeamProfile& p) {
   s.integer("id", p.id, {0, 65535}, "", "the robot's number, unique in its team; 0: it is in no team");
   s.text("socket", p.socket, "local socket, shared with the peer process (cairn-peers --socket)");
@@ -49,6 +57,8 @@ void declare(config::Section& s, TeamProfile& p) {
   s.group("deployment", p.deployment,
           "where the robot is put down, in a metric frame that its team shares: a guess that the maps must confirm; if "
           "it is good to a voxel and half a degree, maps are merged before they overlap");
+  s.group("satellites", p.satellites,
+          "the receiver at the LiDAR tells where the robot is, instead of a deployment; maps do not overrule it");
   s.number("submap_m", p.submap_m, {5, 1'000'000}, "m",
            "length of the path through one submap; the map may bend between submaps");
   s.number("drift_percent", p.drift_percent, {0.01, 20}, "%", "drift of odometry per axis, of the path");
@@ -64,8 +74,10 @@ Result<void> check(const TeamProfile& profile) {
     faults = "deployment.sigma_m is missing: the standard deviation of the place; with a tape measure: 0.05";
   if (d.sigma_m != 0 && d.sigma_m < kMinSigma_m)
     faults = "deployment.sigma_m is below 0.001: no place is known to a millimetre";
-  if (d.sigma_m != 0 && profile.id == 0)
-    faults += std::string(faults.empty() ? "" : "\n") + "deployment is set, but id is not";
+  const auto fault = [&](const char* text) { faults += std::string(faults.empty() ? "" : "\n") + text; };
+  if (d.sigma_m != 0 && profile.id == 0) fault("deployment is set, but id is not");
+  if (profile.satellites.on() && d.sigma_m != 0) fault("deployment and satellites are both set: choose one");
+  if (profile.satellites.on() && profile.id == 0) fault("satellites is set, but id is not");
   if (faults.empty()) return {};
   return Error{Errc::kInvalidConfig, "faults in the section team", {}, {}, faults};
 }

@@ -24,6 +24,16 @@ struct DeploymentProfile {
 
 void declare(config::Section& section, DeploymentProfile& profile);
 
+/// The satellite receiver at the LiDAR tells where the robot is, in a frame with this origin: x east, y north.
+struct SatelliteProfile {
+  double origin_latitude_deg = 0, origin_longitude_deg = 0;  ///< WGS 84, the same on all robots; both 0: not used
+  double sigma_m = 3;                                        ///< of the receiver, each coordinate
+
+  [[nodiscard]] bool on() const { return origin_latitude_deg != 0 || origin_longitude_deg != 0; }
+};
+
+void declare(config::Section& section, SatelliteProfile& profile);
+
 /// A robot's place in its team; `cairn run --peers` takes part.
 struct TeamProfile {
   int id = 0;                                    ///< its own in the team; 0: it has none
@@ -36,6 +46,7 @@ struct TeamProfile {
   double body_radius_m = 0.6;                    ///< of the upright cylinder around the robot
   double body_height_m = 0.9;                    ///< of its top, above base_link
   DeploymentProfile deployment;
+  SatelliteProfile satellites;
 };
 
 void declare(config::Section& section, TeamProfile& profile);

@@ -32,16 +32,12 @@ Result<void> connect_drive(RobotTasks& tasks, const RunContext& context, Input& 
 Result<void> connect(RobotTasks& tasks, const RunContext& context, Input& input, SourceId id, Recorder* recorder,
                      const scheduler::Feed::Tap& received) {
   const RobotProfile& profile = context.profile;
-  if (input.entry.kind == recording::kGpio && tasks.fitted.estop) {
-    tasks.safety.watch_estop(profile.gpio.driver, *input.source, id, input.lines,
-                             tap(recorder, kWaitingEdges, scheduler::Feed::kSmall));
+  if (input.entry.kind == recording::kGpio) {
+    tasks.safety.use_lines(profile.gpio.driver, *input.source, id, input.lines,
+                           tap(recorder, kWaitingEdges, scheduler::Feed::kSmall));
     return {};
   }
-  if (input.entry.kind == recording::kCommands) {
-    tasks.drive.obey_commands(*input.source, id, input.answers,
-                              tap(recorder, kWaitingCommands, clients::kMaxCommandBytes));
-    return {};
-  }
+  if (input.entry.kind == recording::kCommands) return {};  // see connect_commands()
   if (input.entry.kind == recording::kDrive) return connect_drive(tasks, context, input, id, recorder);
   if (input.entry.kind == recording::kPeers)
     tasks.team->team().attach(*input.source, id, input.peers, tap(recorder, kWaitingPackets, peer_link::kMaxPacket));
@@ -50,13 +46,37 @@ Result<void> connect(RobotTasks& tasks, const RunContext& context, Input& input,
   return {};
 }
 
+void name_triggered(const RobotProfile& profile, ReceiveTask& receive) {
+  const auto name = [&](recording::SensorKind kind, const auto& driver) {
+    if (driver.capture.triggered) receive.expose_by_trigger(kind, from_seconds(driver.latency_ms * 1e-3));
+  };
+  name(recording::kCamera, profile.camera.driver);
+  name(recording::kThermal, profile.thermal.driver);
+  name(recording::kDepth, profile.depth.driver);
+}
+
+/// After the drive, which they may command.
+void connect_commands(RobotTasks& tasks, const RunContext& context, Recorder* recorder) {
+  const RunOptions& options = context.options;
+  const bool played = options.live() && !options.recording.empty();  // a recorded drive moves nothing
+  std::size_t id = 0;
+  for (Input& input : context.door.inputs) {
+    const auto source = static_cast<SourceId>(id++);
+    if (input.entry.kind == recording::kCommands)
+      tasks.drive.obey_commands(*input.source, source, input.answers,
+                                tap(recorder, kWaitingCommands, clients::kMaxCommandBytes), !played);
+  }
+}
+
 }  // namespace
 
 Result<void> connect_inputs(RobotTasks& tasks, const RunContext& context, Recorder* recorder) {
+  name_triggered(context.profile, tasks.receive);
   const auto received = tap(recorder, kWaitingPackets, 0);  // one queue for all that one thread receives
   std::size_t id = 0;
   for (Input& input : context.door.inputs)
     if (auto done = connect(tasks, context, input, static_cast<SourceId>(id++), recorder, received); !done) return done;
+  connect_commands(tasks, context, recorder);
   return {};
 }
 

@@ -69,13 +69,17 @@ Result<void> DriveTask::attach(const drive::Config& config, Source& source, Sour
 
 // Errors of the socket are its clients' own.
 DriveTask::Commands::Commands(Source& source, SourceId id, std::size_t slot, clients::AnswerPort* port,
-                              scheduler::Feed::Tap tap)
+                              scheduler::Feed::Tap tap, const Commander::Abilities& abilities)
     : feed(
           source, id, slot, [](Time, const Error&) {}, std::move(tap)),
+      commander(abilities),
       answers(port) {}
 
-void DriveTask::obey_commands(Source& source, SourceId id, clients::AnswerPort* answers, scheduler::Feed::Tap tap) {
-  commands_ = std::make_unique<Commands>(source, id, commands_slot, answers, std::move(tap));
+void DriveTask::obey_commands(Source& source, SourceId id, clients::AnswerPort* answers, scheduler::Feed::Tap tap,
+                              bool moves) {
+  commands_ = std::make_unique<Commands>(
+      source, id, commands_slot, answers, std::move(tap),
+      Commander::Abilities{.drives = moves && drive_ != nullptr, .in_team = places.connected()});
   set_planner([this](Time now) { return commands_->commander.wanted(now); });
 }
 
@@ -89,12 +93,7 @@ std::uint64_t DriveTask::missing_packets() const {
 }
 
 void DriveTask::tick(Tick& tick) {
-  if (drive_ == nullptr || tick.regime() == Regime::kDrain) {
-    while (decisions.take(tick) != nullptr) {
-    }
-    tick.end_of_input();
-    return;
-  }
+  if (drive_ == nullptr || tick.regime() == Regime::kDrain) return tick_without_drive(tick);
   link_->begin(tick);
   obey(tick);
   if (commands_) obey_commander(tick);
@@ -105,6 +104,25 @@ void DriveTask::tick(Tick& tick) {
   publish(tick);
   publish_wheels(tick);
   if (link_->feed.ended() && (!commands_ || commands_->feed.ended())) tick.end_of_input();
+}
+
+/// A robot without a drive can be told where it is.
+void DriveTask::tick_without_drive(Tick& tick) {
+  while (const safety::FailsafeDecision* decision = decisions.take(tick)) decision_ = *decision;
+  const bool heard = commands_ && tick.regime() != Regime::kDrain;
+  if (heard) {
+    obey_commander(tick);
+    answer(tick.release());
+  }
+  if (!heard || commands_->feed.ended()) tick.end_of_input();
+}
+
+template <class T>
+void DriveTask::hand_on(scheduler::OutputPort<T>& port, const T& value, Tick& tick) {
+  if (T* out = port.back(tick)) {
+    *out = value;
+    port.push(tick);
+  }
 }
 
 void DriveTask::obey(Tick& tick) {
@@ -129,11 +147,8 @@ void DriveTask::obey_commander(Tick& tick) {
   while (const Packet* packet = commands_->feed.take(tick)) commander.take(*packet, situation(tick.release()));
   const Commander::Orders orders = commander.take_orders();
   if (orders.stop) drive_->stop(DriveCause::kRequested, tick.release());
-  if (!orders.arm) return;
-  if (RearmRequest* request = rearms.back(tick)) {
-    request->epoch = *orders.arm;
-    rearms.push(tick);
-  }
+  if (orders.arm) hand_on(rearms, RearmRequest{.epoch = *orders.arm}, tick);
+  if (orders.place) hand_on(places, *orders.place, tick);
 }
 
 void DriveTask::answer(Time now) {

@@ -56,6 +56,7 @@ class DriveTask final : public scheduler::Task {
 
   const std::size_t commands_slot = take_slots();  ///< packets of the command socket taken
   scheduler::OutputPort<RearmRequest> rearms{*this, "rearms"};
+  scheduler::OutputPort<clients::Placement> places{*this, "places"};  ///< for the team
 
   /// Says where the robot is to move, at a time; none: nowhere. The task sets the epoch of the command. Called in every
   /// tick, on the task's thread.
@@ -66,8 +67,11 @@ class DriveTask final : public scheduler::Task {
   Result<void> attach(const drive::Config& config, Source& source, SourceId id, drive::CanLink* bus,
                       scheduler::Feed::Tap tap);
   void set_planner(Planner planner) { planner_ = std::move(planner); }
-  /// Clients of the command socket are the planner. `source` and `answers` (null in a replay) must outlive the task.
-  void obey_commands(Source& source, SourceId id, clients::AnswerPort* answers, scheduler::Feed::Tap tap);
+  /// Clients of the command socket are the planner. `source` and `answers` (null in a replay) must outlive the task. To
+  /// be called after attach(): without it, the robot has no drive that could be commanded.
+  /// `moves`: false, where the drive is one of a recording.
+  void obey_commands(Source& source, SourceId id, clients::AnswerPort* answers, scheduler::Feed::Tap tap,
+                     bool moves = true);
   /// Live: the status of the drive goes to `latest`, too, with every tick. To be called before the run; `latest` must
   /// outlive the task.
   void publish_to(LatestValue<std::optional<DriveStatus>>& latest) { published_to_ = &latest; }
@@ -86,7 +90,8 @@ class DriveTask final : public scheduler::Task {
 
  private:
   struct Commands {
-    Commands(Source& source, SourceId id, std::size_t slot, clients::AnswerPort* port, scheduler::Feed::Tap tap);
+    Commands(Source& source, SourceId id, std::size_t slot, clients::AnswerPort* port, scheduler::Feed::Tap tap,
+             const Commander::Abilities& abilities);
     scheduler::Feed feed;
     Commander commander;
     clients::AnswerPort* answers;
@@ -95,7 +100,12 @@ class DriveTask final : public scheduler::Task {
   void obey_commander(scheduler::Tick& tick);
   void answer(Time now);
   void command(Time now);
-  [[nodiscard]] Commander::Situation situation(Time now) const { return {now, decision_, drive_->status()}; }
+  void tick_without_drive(scheduler::Tick& tick);
+  template <class T>
+  static void hand_on(scheduler::OutputPort<T>& port, const T& value, scheduler::Tick& tick);
+  [[nodiscard]] Commander::Situation situation(Time now) const {
+    return {now, decision_, drive_ ? drive_->status() : DriveStatus{}};
+  }
   void publish(scheduler::Tick& tick);
   void publish_wheels(scheduler::Tick& tick);
   void tell_clients();

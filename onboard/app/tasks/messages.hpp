@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 
+#include "drivers/gpio/line_event.hpp"
 #include "hal/labels.hpp"
 #include "hal/packet.hpp"
 #include "hal/point_cloud.hpp"
@@ -25,6 +26,12 @@ struct ArrivedScan {
 struct ArrivedMotion {
   LocatedScan scan;
   Time arrival{};  ///< of the last byte of the scan
+};
+
+/// A rising edge of a GPIO line. From safety, which reads the lines, to receive.
+struct LineEdge {
+  gpio::Line line{};
+  Time at{};
 };
 
 /// A picture as it came, not decoded. From receive to who looks at it.

@@ -11,6 +11,14 @@ namespace cairn::app {
 
 using scheduler::Tick;
 
+namespace {
+
+constexpr std::size_t kPulses = 64;  // a fast trigger's, of the time that a picture takes
+// From the pulse to the picture: exposure, readout and transfer.
+constexpr Duration kLongestExposure = std::chrono::milliseconds(500);
+
+}  // namespace
+
 ReceiveTask::ReceiveTask(Monitor& monitor) : monitor_(monitor), decode_stage_(monitor.stage("decode")) {}
 
 bool ReceiveTask::add(Input& input, SourceId id, scheduler::Feed::Tap tap) {
@@ -23,6 +31,8 @@ bool ReceiveTask::add(Input& input, SourceId id, scheduler::Feed::Tap tap) {
                       right ? std::nullopt : watched_as(input.entry.kind),
                       right ? decltype(Sensor::pictures){} : ports_of(input.entry.kind),
                       input.entry.kind});
+  const auto triggered = std::ranges::find(triggered_, input.entry.kind, &Triggered::kind);
+  if (triggered != triggered_.end() && !right) sensors_.back().triggered = triggered->latency;
   return true;
 }
 
@@ -44,6 +54,7 @@ void ReceiveTask::show(const Packet& picture, PictureOutlet& outlet) {
 }
 
 void ReceiveTask::tick(Tick& tick) {
+  read_lines(tick);
   bool ended = true;
   for (Sensor& sensor : sensors_) {
     while (const Packet* packet = sensor.feed.take(tick)) receive(*packet, sensor, tick);
@@ -73,6 +84,29 @@ void ReceiveTask::receive(const Packet& packet, Sensor& sensor, Tick& tick) {
   decode(packet, sensor, tick);
 }
 
+void ReceiveTask::read_lines(Tick& tick) {
+  while (const LineEdge* edge = lines.take(tick)) {
+    if (edge->line == gpio::Line::kTrigger) {
+      pulses_.push_back(edge->at);
+      if (pulses_.size() > kPulses) pulses_.pop_front();
+      continue;
+    }
+    if (!seconds_.pulse(edge->at) || seconds_.state(edge->at) != gpio::PpsMonitor::State::kLocked) continue;
+    for (Sensor& sensor : sensors_)
+      if (sensor.decoder != nullptr) sensor.decoder->note_second(edge->at);
+  }
+}
+
+/// The pulse nearest to when the picture was taken, by what is known of its delay. None: the trigger has been quiet for
+/// longer than a picture takes.
+std::optional<Time> ReceiveTask::pulse_of(Time arrival, Duration latency) const {
+  std::optional<Time> best;
+  const auto off = [&](Time pulse) { return std::chrono::abs(pulse - (arrival - latency)); };
+  for (const Time pulse : pulses_)
+    if (pulse <= arrival && arrival - pulse < kLongestExposure && (!best || off(pulse) < off(*best))) best = pulse;
+  return best;
+}
+
 /// Pictures are handed on even if they repeat: whoever looks at them judges them.
 void ReceiveTask::take_undecoded(const Packet& packet, Sensor& sensor, Tick& tick) {
   const bool is_camera = sensor.pictures[0] != nullptr;
@@ -80,9 +114,18 @@ void ReceiveTask::take_undecoded(const Packet& packet, Sensor& sensor, Tick& tic
     monitor_.event(packet.arrival, "camera", "stuck: the same picture again and again");
   else if (sensor.watched)
     note(*sensor.watched, packet.arrival);
-  if (sensor.shown != nullptr) show(packet, *sensor.shown);
+  const auto pulse = sensor.triggered ? pulse_of(packet.arrival, *sensor.triggered) : std::nullopt;
+  if (pulse) {
+    exposed_ = packet;
+    exposed_.arrival = *pulse + *sensor.triggered;
+  } else if (sensor.triggered) {
+    monitor_.event(packet.arrival, "camera",
+                   "a picture without a pulse of the trigger: it has the time of its arrival");
+  }
+  const Packet& picture = pulse ? exposed_ : packet;
+  if (sensor.shown != nullptr) show(picture, *sensor.shown);
   for (auto* port : sensor.pictures)
-    if (port != nullptr) hand_on(packet, *port, tick);
+    if (port != nullptr) hand_on(picture, *port, tick);
 }
 
 void ReceiveTask::decode(const Packet& packet, Sensor& sensor, Tick& tick) {
@@ -91,6 +134,7 @@ void ReceiveTask::decode(const Packet& packet, Sensor& sensor, Tick& tick) {
     return sensor.decoder->decode(packet);
   }();
   ++(scan ? sensor.accepted : sensor.refused);
+  if (const auto fix = sensor.decoder->take_fix()) hand_on(*fix, tick);
   if (!scan)
     monitor_.event(packet.arrival, "decode", scan.error().cause);
   else
@@ -126,6 +170,13 @@ void ReceiveTask::hand_on(const Scan* scan, Tick& tick, bool at_the_end) {
   out->scan = *scan;
   out->arrival = figures_.end;
   scans.push(tick);
+}
+
+void ReceiveTask::hand_on(const GeoFix& fix, Tick& tick) {
+  GeoFix* out = fixes.back(tick);
+  if (out == nullptr) return;  // the next one comes in a second
+  *out = fix;
+  fixes.push(tick);
 }
 
 /// Perception takes the newest. Where it is behind, what finds no place would only be older when its turn comes.

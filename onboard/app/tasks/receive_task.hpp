@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "drivers/gpio/pulses.hpp"
 #include "hal/monitor.hpp"
 #include "hal/relaxed_counter.hpp"
 #include "onboard/app/door/door.hpp"
@@ -34,6 +35,8 @@ class ReceiveTask final : public scheduler::Task {
   scheduler::OutputPort<ArrivedPicture> watched{*this, "watched"};  ///< of the colour camera, for who looks for people
   scheduler::OutputPort<ArrivedPicture> thermals{*this, "thermals"};  ///< of the thermal camera, for the same
   scheduler::OutputPort<ArrivedPicture> eyes{*this, "eyes"};          ///< of the colour camera, for visual odometry
+  scheduler::OutputPort<GeoFix> fixes{*this, "fixes"};                ///< of a satellite receiver at the LiDAR
+  scheduler::InputPort<LineEdge> lines{*this, "lines"};
 
   /// What came in. Of the task's thread, or after the run. Any thread may read the counters.
   struct Figures {
@@ -46,6 +49,10 @@ class ReceiveTask final : public scheduler::Task {
   explicit ReceiveTask(Monitor& monitor);
   /// `input` must outlive the task. False: there are kMaxInputs already.
   bool add(Input& input, SourceId id, scheduler::Feed::Tap tap);
+
+  /// Pictures of this kind are exposed by the trigger line. They are handed on as if they had come `latency` after
+  /// their pulse, so that it is the time of their exposure. To be called before add().
+  void expose_by_trigger(recording::SensorKind kind, Duration latency) { triggered_.push_back({kind, latency}); }
 
   /// Live: pictures of the first camera of this kind go to `outlet`, too, while they are wanted. To be called before
   /// the run; `outlet` must outlive the task. False: there is none.
@@ -66,17 +73,21 @@ class ReceiveTask final : public scheduler::Task {
     std::optional<safety::Watched> watched;  // without a decoder: every packet is good data of this kind
     PicturePorts pictures;                   // where its packets go
     recording::SensorKind kind;
-    PictureOutlet* shown = nullptr;  // null: to no client
+    std::optional<Duration> triggered{};  // from the pulse to what counts as arrival
+    PictureOutlet* shown = nullptr;       // null: to no client
     safety::StuckWatch stuck{};
     safety::PictureSample sample{};
     safety::RejectionWatch rejection{};
     std::uint64_t accepted = 0, refused = 0;  // packets of a decoder
   };
   void receive(const Packet& packet, Sensor& sensor, scheduler::Tick& tick);
+  void read_lines(scheduler::Tick& tick);
+  [[nodiscard]] std::optional<Time> pulse_of(Time arrival, Duration latency) const;
   void take_undecoded(const Packet& packet, Sensor& sensor, scheduler::Tick& tick);
   void decode(const Packet& packet, Sensor& sensor, scheduler::Tick& tick);
   void judge(Time now);
   void hand_on(const Scan* scan, scheduler::Tick& tick, bool at_the_end);
+  void hand_on(const GeoFix& fix, scheduler::Tick& tick);
   static void show(const Packet& picture, PictureOutlet& outlet);
   static void hand_on(const Packet& picture, scheduler::OutputPort<ArrivedPicture>& to, scheduler::Tick& tick);
   [[nodiscard]] PicturePorts ports_of(recording::SensorKind kind);
@@ -85,6 +96,14 @@ class ReceiveTask final : public scheduler::Task {
 
   Monitor& monitor_;
   StageStats& decode_stage_;
+  struct Triggered {
+    recording::SensorKind kind;
+    Duration latency;
+  };
+  std::vector<Triggered> triggered_;
+  std::deque<Time> pulses_;  // of the trigger, the newest
+  gpio::PpsMonitor seconds_;
+  Packet exposed_;  // a picture with the time of its pulse
   std::deque<Sensor> sensors_;
   Figures figures_;
   SensorsSeen seen_;

@@ -68,7 +68,7 @@ RobotTasks::RobotTasks(std::span<const recording::SourceEntry> sources, const Ro
   if (has_kind(sources, recording::kDepth) && profile.depth.map.rate_hz > 0)
     add_depth(profile, options.live(), monitor);
   if (has_kind(sources, recording::kPeers)) {
-    team.emplace(graph, profile, mapping.tiles, mapping.mates, monitor);
+    team.emplace(graph, profile, TeamTasks::Others{mapping.tiles, mapping.mates, drive.places, receive.fixes}, monitor);
     team->team().spare([this] { return mapping.shed(); });
     if (previous.resumed) team->team().go_on();
     mapping.share_resumed_tiles();
@@ -102,6 +102,7 @@ void RobotTasks::add_eyes(StereoEyes eyes, const RobotProfile& profile, const Ru
 
 void RobotTasks::connect_safety(const ScheduleProfile& schedule) {
   graph.connect(receive.seen, safety.sensors, {.capacity = kWaitingNews, .lag = kSensorsLag});
+  graph.connect(safety.lines, receive.lines, {.capacity = kWaitingNews, .lag = kNextTick});
   graph.connect(drive.status, safety.drive, {.capacity = kWaitingNews, .lag = kNextTick});
   const Duration lag = 2 * (odometry ? schedule.odometry : schedule.visual_odometry).deadline();
   graph.connect(odometry ? odometry->status : visual->status, safety.odometry, {.capacity = kWaitingNews, .lag = lag});

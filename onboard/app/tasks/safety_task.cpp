@@ -18,13 +18,14 @@ bool same(const safety::FailsafeDecision& a, const safety::FailsafeDecision& b) 
 
 }  // namespace
 
-void SafetyTask::watch_estop(const gpio::Config& config, Source& source, SourceId id, gpio::GpioLines* lines,
-                             scheduler::Feed::Tap tap) {
-  estop_.emplace(config);
+void SafetyTask::use_lines(const gpio::Config& config, Source& source, SourceId id, gpio::GpioLines* chip,
+                           scheduler::Feed::Tap tap) {
+  if (has_estop_) estop_.emplace(config);
+  if (!config.trigger_line.empty()) trigger_.emplace(config);
   // Reading the level shows the loss of the line, too. This thread needs no words about it.
   edges_.emplace(
       source, id, edges_slot, [](Time, const Error&) {}, std::move(tap));
-  lines_ = lines;
+  chip_ = chip;
 }
 
 void SafetyTask::tick(Tick& tick) {
@@ -32,7 +33,8 @@ void SafetyTask::tick(Tick& tick) {
   inputs_.now = tick.release();
   read_news(tick);
   if (tick.release() < arming_until_) inputs_.drive.level = DriveLevel::kHold;
-  if (estop_) read_estop(tick);
+  if (chip_ != nullptr && trigger_) pulse(tick.release());
+  if (edges_) read_lines(tick);
   const std::int32_t reported = tick.decide(
       faults_slot, [this] { return faults_.load(); }, 0);
   inputs_.faults = safety::FaultSet(static_cast<std::uint32_t>(reported)) | sensor_faults_ | odometry_faults_;
@@ -62,15 +64,34 @@ void SafetyTask::read_news(Tick& tick) {
   while (const OdometryNews* news = odometry.take(tick)) odometry_faults_.set(safety::Fault::kOdometryLost, news->lost);
 }
 
-void SafetyTask::read_estop(Tick& tick) {
-  while (const Packet* packet = edges_->take(tick)) {
-    const auto event = gpio::decode_event(*packet);
-    if (!event || event->line != gpio::Line::kEStop) continue;
-    closed_ = event->level ? kClosed : kOpen;
-    estop_->edge(packet->arrival, event->level, event->sequence);
-  }
+/// A line that cannot be set shows in pictures that do not come.
+void SafetyTask::pulse(Time now) {
+  if (const auto level = trigger_->step(now)) (void)chip_->pulse(gpio::Line::kTrigger, *level);
+}
+
+void SafetyTask::read_lines(Tick& tick) {
+  while (const Packet* packet = edges_->take(tick)) read_edge(*packet, tick);
+  if (!estop_) return;
   read_level(tick);
-  const Time now = tick.release();
+  judge_estop(tick.release());
+}
+
+void SafetyTask::read_edge(const Packet& packet, Tick& tick) {
+  const auto event = gpio::decode_event(packet);
+  if (!event) return;
+  if (event->line == gpio::Line::kEStop) {
+    if (!estop_) return;
+    closed_ = event->level ? kClosed : kOpen;
+    estop_->edge(packet.arrival, event->level, event->sequence);
+  } else if (event->level) {
+    LineEdge* out = lines.back(tick);
+    if (out == nullptr) return;
+    *out = {event->line, packet.arrival};
+    lines.push(tick);
+  }
+}
+
+void SafetyTask::judge_estop(Time now) {
   inputs_.estop.latched = estop_->stopped(now);
   inputs_.estop.released = estop_->released(now);
   const auto cause = estop_->cause();
@@ -81,8 +102,8 @@ void SafetyTask::read_estop(Tick& tick) {
 
 void SafetyTask::read_level(Tick& tick) {
   const auto look = [this] {
-    if (lines_ == nullptr) return 0;
-    const auto level = lines_->level(gpio::Line::kEStop);
+    if (chip_ == nullptr) return 0;
+    const auto level = chip_->level(gpio::Line::kEStop);
     const std::int32_t now = !level ? kLost : *level ? kClosed : kOpen;
     return now == closed_ ? 0 : now;
   };

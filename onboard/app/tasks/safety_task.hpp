@@ -6,6 +6,7 @@
 
 #include "drivers/gpio/estop.hpp"
 #include "drivers/gpio/gpio_lines.hpp"
+#include "drivers/gpio/pulses.hpp"
 #include "hal/spsc_queue.hpp"
 #include "onboard/app/tasks/messages.hpp"
 #include "onboard/scheduler/feed.hpp"
@@ -26,6 +27,7 @@ class SafetyTask final : public scheduler::Task {
   scheduler::InputPort<RearmRequest> rearms{*this, "rearms"};
   const std::size_t faults_slot = take_slots();  ///< faults that only the machine shows
   scheduler::InputPort<OdometryNews> odometry{*this, "odometry"};
+  scheduler::OutputPort<LineEdge> lines{*this, "lines"};  ///< rising edges of the trigger and of the pulse per second
 
   /// What changed, for a task that may lock and allocate.
   struct Change {
@@ -37,10 +39,12 @@ class SafetyTask final : public scheduler::Task {
   };
   static constexpr std::size_t kMaxChanges = 1024;  ///< that wait to be read
 
-  SafetyTask(const safety::FailsafeConfig& config, const safety::Fitted& fitted) : failsafe_(config, fitted) {}
-  /// The line of the e-stop. `source` and `lines` (null in a replay) must outlive the task.
-  void watch_estop(const gpio::Config& config, Source& source, SourceId id, gpio::GpioLines* lines,
-                   scheduler::Feed::Tap tap);
+  SafetyTask(const safety::FailsafeConfig& config, const safety::Fitted& fitted)
+      : failsafe_(config, fitted), has_estop_(fitted.estop) {}
+  /// The GPIO lines: the e-stop is watched, if it is fitted, and the cameras' trigger is pulsed. `source` and `chip`
+  /// (null in a replay) must outlive the task.
+  void use_lines(const gpio::Config& config, Source& source, SourceId id, gpio::GpioLines* chip,
+                 scheduler::Feed::Tap tap);
 
   void tick(scheduler::Tick& tick) override;
 
@@ -57,17 +61,22 @@ class SafetyTask final : public scheduler::Task {
 
  private:
   void read_news(scheduler::Tick& tick);
-  void read_estop(scheduler::Tick& tick);
+  void pulse(Time now);
+  void read_lines(scheduler::Tick& tick);
+  void read_edge(const Packet& packet, scheduler::Tick& tick);
+  void judge_estop(Time now);
   void read_level(scheduler::Tick& tick);
   void publish(const safety::FailsafeDecision& before, scheduler::Tick& tick);
 
   safety::Failsafe failsafe_;
+  bool has_estop_;
   safety::FailsafeInputs inputs_;
   safety::FaultSet sensor_faults_, odometry_faults_;
   Time arming_until_{};
   std::optional<gpio::EStop> estop_;
   std::optional<scheduler::Feed> edges_;
-  gpio::GpioLines* lines_ = nullptr;
+  gpio::GpioLines* chip_ = nullptr;
+  std::optional<gpio::Trigger> trigger_;
   std::int32_t closed_ = 0;  // as the edges say: 0 nothing yet, 1 open, 2 closed
   std::atomic<std::int32_t> faults_{0};
   SpscQueue<Change> changes_{kMaxChanges};

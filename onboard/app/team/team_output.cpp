@@ -79,6 +79,8 @@ void add_team(const TeamTask& task, report::RunReport& report) {
   stats.held_back_times = team.held_back().times;
   stats.held_back_s = to_seconds(team.held_back().time);
   stats.held_back_tiles = team.held_back().tiles;
+  stats.satellite_fixes = task.satellites().figures().fixes;
+  stats.T_site_odom = task.satellites().figures().T_site_odom;
   report.team = std::move(stats);
 }
 

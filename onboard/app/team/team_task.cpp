@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/team/team_task.hpp"
 
+#include <algorithm>
 #include <limits>
 #include <utility>
 
 #include "drivers/peers/peer_packet.hpp"
-#include "fusion/matching/matcher.hpp"
+#include "onboard/app/team/placing.hpp"
+#include "onboard/app/team/team_people.hpp"
 
 namespace cairn::app {
 
@@ -19,41 +21,10 @@ constexpr Duration kStepPeriod = std::chrono::milliseconds(100), kPublishPeriod 
 // long.
 constexpr Duration kFusionSlice = std::chrono::microseconds(1500);
 constexpr int kSliceTiles = 100;
+// Tiles come twice a second: until then the robot goes on as it did.
+constexpr double kLongestGuess_s = 1;
 // For clients. A tile takes as long as it takes to fuse it.
 constexpr std::size_t kTeamTilesInATick = 32;
-
-/// What peers are told: where the robot is, and people around it.
-peers::Bodies bodies_of(const TileBatch& batch, const TeamProfile& profile) {
-  const SE3& T = batch.T_odom_base.mean;
-  peers::Bodies bodies;
-  bodies.robot = {.position_m = T.translation(),
-                  .velocity_m_s = (T.rotation() * batch.twist.head<3>()).head<2>(),
-                  .radius_m = profile.body_radius_m,
-                  .height_m = profile.body_height_m};
-  for (const people::Person& p : batch.people) {
-    peers::Bodies::Person& told = bodies.people.emplace_back();
-    told.id = p.id;
-    told.position_m << p.position, static_cast<double>(p.ground);
-    told.velocity_m_s = p.velocity;
-    told.covariance = p.covariance;
-  }
-  return bodies;
-}
-
-PeopleNews news_of(const team::PeerBodies& peer, std::uint32_t epoch, Time now) {
-  PeopleNews news{.robot = peer.robot, .stamp = now, .epoch = epoch, .people = {}};
-  for (const peers::Bodies::Person& p : peer.people) {
-    people::Person& told = news.people.emplace_back();
-    told.id = p.id;
-    told.stamp = now;
-    told.position = p.position_m.head<2>();
-    told.ground = static_cast<float>(p.position_m.z());
-    told.velocity = p.velocity_m_s;
-    told.covariance = p.covariance;
-    told.seen = true;
-  }
-  return news;
-}
 
 }  // namespace
 
@@ -62,7 +33,8 @@ TeamTask::TeamTask(const TeamProfile& profile, std::string name, double resoluti
       name_(std::move(name)),
       resolution_m_(resolution_m),
       monitor_(monitor),
-      fusion_(monitor.stage("fusion")) {}
+      fusion_(monitor.stage("fusion")),
+      satellites_(profile.satellites) {}
 
 void TeamTask::attach(Source& source, SourceId id, peer_link::PeerPort* port, scheduler::Feed::Tap tap) {
   const auto complain = [this](Time now, const Error& error) { monitor_.event(now, "team", to_string(error)); };
@@ -75,6 +47,7 @@ void TeamTask::tick(Tick& tick) {
   if (tick.regime() != Regime::kDrain) {
     hear(tick);
     observe(tick);
+    be_placed(tick);
     learn(tick);
     speak(tick);
   }
@@ -133,12 +106,48 @@ void TeamTask::begin(const Packet& packet, Time now) {
 void TeamTask::observe(Tick& tick) {
   while (const TileBatch* batch = tiles.take(tick)) {
     if (!team_) continue;
-    if (std::exchange(epoch_, batch->epoch) != batch->epoch) team_->begin(after(team_->exchange().epoch()));
+    if (std::exchange(epoch_, batch->epoch) != batch->epoch) {
+      team_->begin(after(team_->exchange().epoch()));
+      satellites_.begin();
+    }
     team_->be_at(batch->T_odom_base);
+    last_seen_ = {batch->T_odom_base.mean, batch->twist, batch->stamp};
     team_->show(bodies_of(*batch, profile_), batch->stamp);
     for (const auto& [tile, state] : batch->tiles) team_->observe(tile, state, tick.release());
     judge(batch->lost, tick.release());
   }
+}
+
+/// Where the robot was when tiles came last, and its motion since.
+SE3 TeamTask::T_odom_base_at(Time now) const {
+  const double moving_s = std::clamp(to_seconds(now - last_seen_->stamp), 0.0, kLongestGuess_s);
+  return last_seen_->T_odom_base * SE3::exp(last_seen_->twist * moving_s);
+}
+
+void TeamTask::be_placed(Tick& tick) {
+  while (const GeoFix* fix = fixes.take(tick))
+    if (team_ && last_seen_) be_placed_by_satellites(*fix);
+  while (const clients::Placement* place = places.take(tick)) be_placed(*place, tick.release());
+}
+
+void TeamTask::be_placed_by_satellites(const GeoFix& fix) {
+  const bool known = satellites_.figures().T_site_odom && team::knows_yaw(*satellites_.figures().T_site_odom);
+  const auto T_site_odom = satellites_.take(fix, T_odom_base_at(fix.stamp));
+  if (!T_site_odom) return;
+  const bool knows = team::knows_yaw(*T_site_odom);
+  team_->deploy(*T_site_odom, knows);
+  if (knows && !known) monitor_.event(fix.stamp, "team", "satellites tell where it is, and its heading");
+}
+
+void TeamTask::be_placed(const clients::Placement& place, Time now) {
+  if (!team_ || !last_seen_) return monitor_.event(now, "team", "it was placed before it had a pose: place it again");
+  if (place.takes_back()) {
+    team_->forget_place();
+    return monitor_.event(now, "team", to_string(place));
+  }
+  const auto robot = robot_of_frame(place, *team_);
+  const auto put = robot ? team_->put(T_frame_odom(place, T_odom_base_at(now)), *robot) : robot.error();
+  monitor_.event(now, "team", put ? to_string(place) : "it cannot be placed: " + to_string(put.error()));
 }
 
 void TeamTask::judge(bool lost, Time now) {
@@ -268,21 +277,6 @@ void TeamTask::publish_peers(Time now) {
       monitor_.event(now, "team", (merged ? "merged with " : "no longer merged with ") + name);
   }
   view_.publish();
-}
-
-void MatchTask::tick(Tick& tick) {
-  if (tick.regime() == Regime::kDrain) return;
-  if (team::MatchJob* job = jobs.take(tick)) {
-    const StageTimer timing(stage_);
-    Budget budget = tick.budget(steps_slot, tick.figure_now() + limit_, matching::kAmpleSteps);
-    team::run(*job, budget);
-    tick.settle(steps_slot, budget);
-    if (team::MatchJob* place = results.back(tick)) {
-      *place = std::move(*job);
-      results.push(tick);
-    }
-  }
-  jobs.give_back(tick);
 }
 
 }  // namespace cairn::app

@@ -8,13 +8,16 @@
 #include <utility>
 #include <vector>
 
+#include "drivers/clients/messages/command.hpp"
 #include "drivers/peers/peer_port.hpp"
+#include "hal/geo_fix.hpp"
 #include "hal/latest_value.hpp"
 #include "hal/monitor.hpp"
 #include "onboard/app/live/live_view.hpp"
 #include "onboard/app/profile/team_profile.hpp"
 #include "onboard/app/streams/outlets/stream_outlets.hpp"
 #include "onboard/app/streams/outlets/tile_outlet.hpp"
+#include "onboard/app/team/satellite_place.hpp"
 #include "onboard/app/team/team_messages.hpp"
 #include "onboard/safety/overload.hpp"
 #include "onboard/scheduler/feed.hpp"
@@ -34,6 +37,8 @@ class TeamTask final : public scheduler::Task {
   scheduler::InputPort<team::MatchJob> results{*this, "results"};
   scheduler::OutputPort<Mates> mates{*this, "mates"};
   const std::size_t shed_slot = take_slots();  ///< 1: peers' maps wait, because the robot is overloaded
+  scheduler::InputPort<clients::Placement> places{*this, "places"};
+  scheduler::InputPort<GeoFix> fixes{*this, "fixes"};
 
   /// `monitor` must outlive the task. `name` and `resolution_m` are those of the robot.
   TeamTask(const TeamProfile& profile, std::string name, double resolution_m, Monitor& monitor);
@@ -63,6 +68,7 @@ class TeamTask final : public scheduler::Task {
   [[nodiscard]] const std::map<peers::RobotId, Histogram>& lags() const { return lags_; }
   [[nodiscard]] std::uint64_t missing_packets() const { return feed_ ? feed_->missing() : 0; }
   [[nodiscard]] Time first_arrival() { return feed_ ? feed_->first_arrival() : Time::max(); }
+  [[nodiscard]] const SatellitePlace& satellites() const { return satellites_; }
   [[nodiscard]] Time last_step() const { return last_step_; }
   /// For one other thread: a new value about once a second.
   [[nodiscard]] LatestValue<std::vector<LiveView::Peer>>& view() { return view_; }
@@ -75,6 +81,10 @@ class TeamTask final : public scheduler::Task {
   void take(const Packet& packet, Time now);
   void begin(const Packet& packet, Time now);
   void observe(scheduler::Tick& tick);
+  [[nodiscard]] SE3 T_odom_base_at(Time now) const;
+  void be_placed(scheduler::Tick& tick);
+  void be_placed_by_satellites(const GeoFix& fix);
+  void be_placed(const clients::Placement& place, Time now);
   void judge(bool lost, Time now);
   void learn(scheduler::Tick& tick);
   void speak(scheduler::Tick& tick);
@@ -98,6 +108,13 @@ class TeamTask final : public scheduler::Task {
   std::optional<team::Team> team_;
   std::uint32_t epoch_ = kFirstEpoch;  // of the tiles
   std::vector<peers::Outgoing> out_;
+  struct Seen {
+    SE3 T_odom_base;
+    Vector6 twist = Vector6::Zero();
+    Time stamp{};
+  };
+  std::optional<Seen> last_seen_;  // where the robot was
+  SatellitePlace satellites_;
   Time last_step_ = Time::min(), last_published_ = Time::min();
   struct Awaited {
     peers::Epoch epoch = 0;
@@ -112,23 +129,6 @@ class TeamTask final : public scheduler::Task {
   LatestValue<std::optional<SE3>>* pose_outlet_ = nullptr;
   SpscQueue<PeopleNews>* people_outlet_ = nullptr;
   std::map<peers::RobotId, Time> people_told_;  // when what clients were told was so
-};
-
-/// Compares maps, one pair at a time, at the lowest priority.
-class MatchTask final : public scheduler::Task {
- public:
-  // Slots in schedule.log, in this order.
-  scheduler::InputPort<team::MatchJob> jobs{*this, "jobs"};
-  const std::size_t steps_slot = take_slots();  ///< steps granted
-  scheduler::OutputPort<team::MatchJob> results{*this, "results"};
-
-  /// `limit`: how long one comparison may take. `monitor` must outlive the task.
-  MatchTask(Duration limit, Monitor& monitor) : limit_(limit), stage_(monitor.stage("matching")) {}
-  void tick(scheduler::Tick& tick) override;
-
- private:
-  Duration limit_;
-  StageStats& stage_;
 };
 
 }  // namespace cairn::app

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "onboard/app/team/match_task.hpp"
 #include "onboard/app/team/team_task.hpp"
 #include "onboard/scheduler/task_graph.hpp"
 
@@ -11,10 +12,15 @@ struct RobotProfile;
 /// The two tasks of a robot's part in its team.
 class TeamTasks {
  public:
-  /// Adds the tasks to the graph, after the task that hands over tiles and takes teammates, and connects all three. All
-  /// must outlive the tasks.
-  TeamTasks(scheduler::TaskGraph& graph, const RobotProfile& profile, scheduler::OutputPort<TileBatch>& tiles,
-            scheduler::InputPort<Mates>& mates, Monitor& monitor);
+  /// Ports of other tasks.
+  struct Others {
+    scheduler::OutputPort<TileBatch>& tiles;
+    scheduler::InputPort<Mates>& mates;
+    scheduler::OutputPort<clients::Placement>& places;
+    scheduler::OutputPort<GeoFix>& fixes;
+  };
+  /// Adds the tasks to the graph, after the others, and connects all. All must outlive the tasks.
+  TeamTasks(scheduler::TaskGraph& graph, const RobotProfile& profile, const Others& others, Monitor& monitor);
 
   [[nodiscard]] TeamTask& team() { return team_; }
   [[nodiscard]] const TeamTask& team() const { return team_; }

@@ -122,6 +122,8 @@ struct TeamStats {
   std::uint64_t held_back_times = 0;         ///< that it said nothing of its map, because that was in doubt
   double held_back_s = 0;                    ///< so long, all together
   std::uint64_t held_back_tiles = 0;         ///< that scans contradicted, and that were not said
+  std::uint64_t satellite_fixes = 0;         ///< that came in, where the profile uses them
+  std::optional<UncertainPose> T_site_odom;  ///< by satellites
   std::string sha256;                        ///< over team.cairn and team.tum: the same on every robot of the team
 };
 

@@ -140,6 +140,10 @@ Json team_json(const RunReport& report) {
           {"merged_with", t.merged_with},
           {"tiles", t.tiles},
           {"held_back", {{"times", t.held_back_times}, {"s", t.held_back_s}, {"tiles", t.held_back_tiles}}},
+          {"satellites",
+           {{"fixes", t.satellite_fixes},
+            {"T_site_odom", t.T_site_odom ? numbers(t.T_site_odom->mean.matrix()) : Json(nullptr)},
+            {"covariance", t.T_site_odom ? numbers(t.T_site_odom->covariance) : Json(nullptr)}}},
           {"sha256", t.sha256}};
 }
 

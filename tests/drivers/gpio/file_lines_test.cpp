@@ -108,6 +108,23 @@ TEST_F(FileLinesTest, OutputsAreFilesToo) {
   EXPECT_EQ(lines->next(packet, 0s).value(), Poll::kTimeout) << "an output makes no edges";
 }
 
+TEST_F(FileLinesTest, PulsesComeBackAsEdgesWithTheirTime) {
+  config.trigger_line = "trigger";
+  const auto lines = open();
+  for (const bool level : {true, false}) {
+    clock.advance_to(Time(level ? 7s : 8s));
+    ASSERT_TRUE(lines->pulse(Line::kTrigger, level));
+  }
+  for (const bool level : {true, false}) {
+    ASSERT_EQ(lines->next(packet, 0s).value(), Poll::kPacket);
+    EXPECT_EQ(decode_event(packet).value(), (LineEvent{Line::kTrigger, level, false, 0}));
+    EXPECT_EQ(packet.arrival, Time(level ? 7s : 8s));
+  }
+  EXPECT_EQ(lines->next(packet, 0s).value(), Poll::kTimeout);
+  EXPECT_EQ(lines->pulse(Line::kPps, true).error().code, Errc::kNotFound);
+  EXPECT_EQ(lines->next(packet, 0s).value(), Poll::kTimeout) << "what was not set is no edge";
+}
+
 TEST_F(FileLinesTest, WhatIsMissingIsSaidWithTheRemedy) {
   config.pps_line = "pps";
   const auto missing = open_lines(config, SourceId{0}, clock);

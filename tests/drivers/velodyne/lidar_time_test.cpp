@@ -103,6 +103,56 @@ TEST(Lidar, PpsTimeSourceUsesTheSensorsUtcWhereTheHostAgrees) {
   }
 }
 
+/// The pulse of each second comes to the computer as well. Then neither the network's delay nor the host's UTC counts.
+TEST(Lidar, PulsesAtTheComputerSetTheStamps) {
+  for (const bool utc_known : {false, true}) {
+    Config config;
+    config.time_source = "pps";
+    Rig rig(config);
+    Sensor sensor;  // device_ns counts from noon, and noon is a whole second
+    if (utc_known) rig.lidar->set_utc_offset(std::chrono::seconds(kNoon) - sensor.start.time_since_epoch() + 80ms);
+    rig.give(position(sensor, 2, kValid));
+    for (int second = 0; second < 3; ++second) {
+      rig.lidar->note_second(sensor.start + std::chrono::seconds(second) -
+                             4ms);  // what the sensor calls noon is earlier
+      rig.run(sensor, 1s);
+    }
+    const double shift = to_seconds(rig.scans.back().valid.start - sensor.start);
+    EXPECT_NEAR(shift - std::round(shift / 0.1) * 0.1, -0.004, 1e-4) << utc_known;
+  }
+}
+
+TEST(Lidar, WithoutTheTimeSourcePulsesChangeNothing) {
+  Rig rig;
+  Sensor sensor;
+  rig.give(position(sensor, 2, kValid));
+  rig.lidar->note_second(sensor.start - 40ms);
+  rig.run(sensor, 1s);
+  const double shift = to_seconds(rig.scans.back().valid.start - sensor.start);
+  EXPECT_NEAR(shift - std::round(shift / 0.1) * 0.1, 0, 1e-3);
+}
+
+TEST(Lidar, AFixIsGivenOnce) {
+  Rig rig;
+  Sensor sensor;
+  const auto said = [](const std::string& time, char status) {
+    return test::nmea("GPRMC," + time + "," + status + ",5155.4400,N,00424.1200,E,0,0,010120,,,A");
+  };
+  EXPECT_FALSE(rig.lidar->take_fix());
+  for (int again = 0; again < 3; ++again) rig.give(position(sensor, 2, said("120000", 'A')));
+  const auto fix = rig.lidar->take_fix();
+  ASSERT_TRUE(fix);
+  EXPECT_NEAR(fix->latitude_deg, 51.924, 1e-9);
+  EXPECT_NEAR(fix->longitude_deg, 4.402, 1e-9);
+  EXPECT_FALSE(rig.lidar->take_fix());
+  rig.give(position(sensor, 2, said("120000", 'A')));
+  EXPECT_FALSE(rig.lidar->take_fix()) << "the same second";
+  rig.give(position(sensor, 2, said("120001", 'V')));
+  EXPECT_FALSE(rig.lidar->take_fix()) << "not valid";
+  rig.give(position(sensor, 0, said("120002", 'A')));
+  EXPECT_TRUE(rig.lidar->take_fix()) << "a place needs no lock of the clock";
+}
+
 TEST(Lidar, PositionPacketsAreKept) {
   Rig rig;
   Sensor sensor;

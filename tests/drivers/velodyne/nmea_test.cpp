@@ -23,6 +23,9 @@ TEST(Nmea, RmcGivesDateTimeAndValidity) {
   EXPECT_TRUE(t->valid);
   EXPECT_EQ(t->time_of_day_us, ((8 * 60 + 18) * 60 + 2) * 1'000'000LL);
   EXPECT_EQ(t->utc_us, 1'453'364'282LL * 1'000'000);  // 2016-01-21 08:18:02 UTC
+  ASSERT_TRUE(t->place);
+  EXPECT_NEAR(t->place->latitude_deg, 36 + 49.7478558 / 60, 1e-9);
+  EXPECT_NEAR(t->place->longitude_deg, -(2 + 24.4542928 / 60), 1e-9);
 }
 
 TEST(Nmea, DatesAcrossTheRangeOfTwoDigitYears) {
@@ -38,6 +41,23 @@ TEST(Nmea, DatesAcrossTheRangeOfTwoDigitYears) {
   }
   for (const char* wrong : {"290223", "320124", "001224", "011324", "12", "1a0124", "-10124", ""})
     EXPECT_EQ(code_of(nmea("GPRMC,000000,A,,,,,,," + std::string(wrong) + ",,,A")), Errc::kMalformed) << wrong;
+}
+
+TEST(Nmea, PlacesThatCannotBeAreNone) {
+  const auto place = [](const std::string& fields) {
+    return parse_nmea(nmea("GPRMC,000000,A," + fields + ",,,010120,,,A")).value().place;
+  };
+  ASSERT_TRUE(place("4807.038,S,01131.000,E"));
+  EXPECT_NEAR(place("4807.038,S,01131.000,E")->latitude_deg, -48.1173, 1e-9);
+  EXPECT_NEAR(place("4807,N,01131,E")->longitude_deg, 11 + 31 / 60.0, 1e-9) << "whole minutes";
+  for (const char* wrong :
+       {",,,", "4807.038,,01131.000,E", "4807.038,N,01131.000,", "4807.038,X,01131.000,E", "9100.000,N,01131.000,E",
+        "9000.001,N,01131.000,E", "4860.000,N,01131.000,E", "4807.038,N,18100.000,E", "48a7.038,N,01131.000,E",
+        "4807.03x,N,01131.000,E", "-807.038,N,01131.000,E", "48,N,011,E"})
+    EXPECT_FALSE(place(wrong)) << wrong;
+  const auto gga = parse_nmea(nmea("GNGGA,235959,4807.038,N,01131.000,W,1,08,0.9,545.4,M,46.9,M,,"));
+  ASSERT_TRUE(gga && gga->place);
+  EXPECT_NEAR(gga->place->longitude_deg, -(11 + 31 / 60.0), 1e-9);
 }
 
 TEST(Nmea, VoidRmcIsReadButNotValid) {

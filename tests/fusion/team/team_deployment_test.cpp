@@ -167,5 +167,87 @@ TEST(TeamDeployment, AnExactButWrongOneIsTakenBack) {
   EXPECT_THAT(exact.a_says, HasSubstr("deployments"));
 }
 
+/// Two robots that know nothing of each other, until a person says where b is.
+struct PersonsWord {
+  Team a{with_bytes(1), peers::Epoch{1} << 32U}, b{with_bytes(2), peers::Epoch{1} << 32U};
+  Time now{seconds(100)};
+
+  static TeamConfig with_bytes(peers::RobotId id) {
+    TeamConfig config = team_member(id);
+    config.exchange.bytes_per_second = 1'000'000;
+    return config;
+  }
+  PersonsWord() {
+    say_walls(a, 100, now);
+    say_walls(b, 100, now);
+    talk(a, b, now, seconds(8));
+  }
+  [[nodiscard]] std::optional<UncertainPose> guess() {
+    auto job = a.next_match(now);
+    auto known = job ? job->guess : std::nullopt;
+    if (job) a.matched(*std::move(job), now);
+    return known;
+  }
+};
+
+TEST(TeamPlacedByPerson, IsAGuessForTheComparison) {
+  PersonsWord teams;
+  EXPECT_FALSE(teams.guess());
+  ASSERT_TRUE(teams.b.put(known_to(at(3, 4, 0.5), 0.5, 0.2), 1));
+  talk(teams.a, teams.b, teams.now, seconds(8));
+  const auto guess = teams.guess();
+  ASSERT_TRUE(guess);
+  EXPECT_LT((guess->mean.inverse() * at(3, 4, 0.5)).log().norm(), 1e-6);
+}
+
+TEST(TeamPlacedByPerson, OutranksTheProfile) {
+  PersonsWord teams;
+  teams.a.deploy(known_to(at(0, 0, 0), 0.5, 0.2), false);
+  ASSERT_TRUE(teams.b.put(known_to(at(3, 4, 0.5), 0.5, 0.2), 0));
+  teams.b.deploy(known_to(at(9, 9, 0), 0.5, 0.2), true);
+  talk(teams.a, teams.b, teams.now, seconds(8));
+  const auto guess = teams.guess();
+  ASSERT_TRUE(guess);
+  EXPECT_LT((guess->mean.inverse() * at(3, 4, 0.5)).log().norm(), 1e-6);
+}
+
+TEST(TeamPlacedByPerson, OfAStrangerIsRefused) {
+  PersonsWord teams;
+  EXPECT_EQ(teams.b.put(known_to(at(3, 4, 0.5), 0.5, 0.2), 7).error().code, Errc::kNotFound);
+}
+
+/// Robots that merged, rightly, are told that they are elsewhere, and then the truth.
+TEST(FullTeamPlacedByPerson, SeparatesRobotsUntilTheMapsConfirmIt) {
+  Time now{seconds(100)};
+  Team a = deployed(1, known_to(SE3(), 100, 3), 0.1), b = deployed(2, known_to(SE3(), 100, 3), 0.1);
+  const auto merged = [&] { return a.poses().T_team_odom.size() == 2; };
+  const auto compare = [&](const support::MapPair& maps) {
+    for (const auto& [team, map] : {std::pair{&a, maps.a.get()}, {&b, maps.b.get()}})
+      for (const mapping::TileKey tile : mapping::known_tiles(*map, kMostTiles))
+        team->observe(tile, mapping::read_tile(*map, tile), now);
+    talk(a, b, now, seconds(12));
+    auto job = a.next_match(now);
+    if (!job) return;
+    Budget budget = Budget::steps(matching::kAmpleSteps);
+    run(*job, budget);
+    a.matched(std::move(*job), now);
+    talk(a, b, now, seconds(3));
+  };
+  for (const support::MapPair& maps : growing_lobby()) compare(maps);
+  ASSERT_TRUE(merged());
+  const SE3 truth = growing_lobby()[0].T_a_b;
+  ASSERT_TRUE(b.put(known_to(truth * at(4, 0, 3), 0.5, 0.2), 1));
+  talk(a, b, now, seconds(3));
+  EXPECT_FALSE(merged());
+  for (const support::MapPair& maps : growing_lobby()) compare(maps);
+  EXPECT_FALSE(merged()) << "maps do not overrule a person";
+  EXPECT_THAT(a.standing(2, now).reason, HasSubstr("deployments"));
+  EXPECT_TRUE(a.standing(2, now).deployment_contradicted);
+  ASSERT_TRUE(b.put(known_to(truth * at(0.3, -0.2, 0.05), 0.5, 0.2), 1));
+  for (const support::MapPair& maps : growing_lobby()) compare(maps);
+  EXPECT_TRUE(merged());
+  EXPECT_EQ(a.standing(2, now).reason, "merged");
+}
+
 }  // namespace
 }  // namespace cairn::team

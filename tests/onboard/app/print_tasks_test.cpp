@@ -32,6 +32,7 @@ TEST(PrintTasks, ALiveRunHasTasksForTheDiskAndChannelsBetweenTheOthers) {
             "\n"
             "from                 to                   capacity   lag ms\n"
             "receive.seen         safety.sensors             64       20\n"
+            "safety.lines         receive.lines              64    0.001\n"
             "drive.status         safety.drive               64    0.001\n"
             "odometry.status      safety.odometry            64      200\n"
             "safety.decisions     drive.decisions            64        0\n"

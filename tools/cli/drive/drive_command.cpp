@@ -14,6 +14,7 @@
 #include "hal/clock.hpp"
 #include "onboard/app/live/stop_signal.hpp"
 #include "tools/cli/drive/answer_text.hpp"
+#include "tools/cli/drive/place_command.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -123,6 +124,7 @@ void add_drive_commands(app::Commands& commands) {
   sub->add_option("--seconds", a->seconds, "how long")->check(app::above_zero)->required();
   sub->add_flag("--json", a->asked.json, "print the last answer as JSON");
   sub->callback([&commands, a] { commands.job = [a] { return drive(*a); }; });
+  add_place_command(commands);
 }
 
 }  // namespace cairn::cli

@@ -5,7 +5,7 @@
 
 namespace cairn::cli {
 
-/// `cairn arm`, `stop`, `disarm` and `drive`: clients of a running core's command.sock.
+/// `cairn arm`, `stop`, `disarm`, `drive` and `place`: clients of a running core's command.sock.
 void add_drive_commands(app::Commands& commands);
 
 }  // namespace cairn::cli

@@ -156,7 +156,11 @@ void add_lidar_options(CLI::App& sub, simulator::LidarConfig& lidar) {
   sub.add_option("--dropout", lidar.dropout, "share of LiDAR returns lost at random")
       ->check(CLI::Range(0.0, 1.0))
       ->capture_default_str();
-  sub.add_flag("--pps", lidar.pps, "lock the LiDAR's clock to UTC; otherwise it runs freely");
+  auto* pps = sub.add_flag("--pps", lidar.pps, "lock the LiDAR's clock to UTC; otherwise it runs freely");
+  sub.add_option("--satellites", lidar.satellites_sigma_m,
+                 "a satellite receiver at the LiDAR tells where the robot is: standard deviation of each coordinate, m")
+      ->check(CLI::Range(0.01, 100.0))
+      ->needs(pps);
 }
 
 void add_camera_options(CLI::App& sub, simulator::StereoConfig& camera, simulator::ThermalConfig& thermal) {

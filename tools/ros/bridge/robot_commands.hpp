@@ -13,6 +13,7 @@ namespace cairn::ros {
 ///
 /// - cmd_vel (Twist) counts from when it came, cmd_vel_stamped (TwistStamped) needs a fresh stamp as well.
 /// - arm (Bool): true ends the stop that the core has now, if it was written within kMostAge; false disarms.
+/// - initialpose (PoseWithCovarianceStamped) tells the team where the robot is, if it was written within kMostAge.
 /// - stop (Bool): true stops, however old it is; false does nothing.
 class RobotCommands {
  public:
@@ -28,9 +29,11 @@ class RobotCommands {
     Reader<Twist> cmd_vel;
     Reader<TwistStamped> cmd_vel_stamped;
     Reader<BoolMessage> arm, stop;
+    Reader<PoseWithCovarianceStamped> initialpose;
   };
   RobotCommands(const Readers& readers, CommandRelay& relay) : readers_(readers), relay_(&relay) {}
   void drive(Verdict verdict, const Velocity& velocity, Duration held_up);
+  void place(const PoseWithCovarianceStamped& pose, Verdict age);
   void arm(bool yes, Verdict age, std::optional<std::uint32_t> epoch);
 
   Readers readers_;

@@ -25,6 +25,10 @@ class CommandRelay {
   void arm(std::uint32_t epoch);
   void disarm() { send({.verb = clients::Command::Verb::kDisarm, .who = {}}); }
   void stop() { send({.verb = clients::Command::Verb::kStop, .who = {}}); }
+  /// Where the robot is, by somebody who knows.
+  void place(const clients::Placement& place) {
+    send({.verb = clients::Command::Verb::kPlace, .who = {}, .place = place});
+  }
   /// What came and was not passed on.
   void refuse(std::string_view what, std::string_view why);
 

@@ -85,6 +85,14 @@ const RosType& ros_type<PointCloud2>() {
 }
 
 template <>
+const RosType& ros_type<PoseWithCovarianceStamped>() {
+  static const RosType type{"geometry_msgs/msg/PoseWithCovarianceStamped",
+                            "RIHS01_26432f9803e43727d3c8f668d1fdb3c630f548af631e2f4e31382371bfea3b6e",
+                            &geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc};
+  return type;
+}
+
+template <>
 const RosType& ros_type<TfMessage>() {
   static const RosType type{"tf2_msgs/msg/TFMessage",
                             "RIHS01_e369d0f05a23ae52508854b66f6aa0437f3449d652e8cbf22d5abe85d020f087",

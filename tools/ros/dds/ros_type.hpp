@@ -39,6 +39,8 @@ const RosType& ros_type<Odometry>();
 template <>
 const RosType& ros_type<PointCloud2>();
 template <>
+const RosType& ros_type<PoseWithCovarianceStamped>();
+template <>
 const RosType& ros_type<TfMessage>();
 template <>
 const RosType& ros_type<Twist>();

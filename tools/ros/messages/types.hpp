@@ -21,6 +21,7 @@ using Octomap = octomap_msgs_msg_dds__Octomap_;
 using Odometry = nav_msgs_msg_dds__Odometry_;
 using PointCloud2 = sensor_msgs_msg_dds__PointCloud2_;
 using PointField = sensor_msgs_msg_dds__PointField_;
+using PoseWithCovarianceStamped = geometry_msgs_msg_dds__PoseWithCovarianceStamped_;
 using Stamp = builtin_interfaces_msg_dds__Time_;
 using TfMessage = tf2_msgs_msg_dds__TFMessage_;
 using TransformStamped = geometry_msgs_msg_dds__TransformStamped_;

@@ -2,12 +2,10 @@
 #include "tools/simulator/lidar/lidar.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <cstring>
 #include <numbers>
-#include <string_view>
+#include <string>
 
 #include "tools/simulator/world/random.hpp"
 
@@ -24,29 +22,6 @@ void store_le(std::array<std::byte, N>& bytes, std::size_t offset, T value) {
   std::memcpy(bytes.data() + offset, &value, sizeof(T));
 }
 
-std::uint8_t nmea_checksum(std::string_view body) {
-  std::uint8_t sum = 0;
-  for (const char c : body) sum = static_cast<std::uint8_t>(sum ^ static_cast<std::uint8_t>(c));
-  return sum;
-}
-
-/// "$GPRMC,hhmmss,A,…*hh" for a second of UTC. The place is arbitrary.
-std::string rmc_sentence(std::int64_t utc_s) {
-  using namespace std::chrono;
-  const sys_seconds t{seconds{utc_s}};
-  const sys_days day = floor<days>(t);
-  const year_month_day date{day};
-  const hh_mm_ss clock{t - day};
-  char body[96];
-  std::snprintf(body, sizeof body, "GPRMC,%02d%02d%02d,A,5155.4400,N,00424.1200,E,000.0,000.0,%02u%02u%02d,000.0,E",
-                static_cast<int>(clock.hours().count()), static_cast<int>(clock.minutes().count()),
-                static_cast<int>(clock.seconds().count()), static_cast<unsigned>(date.day()),
-                static_cast<unsigned>(date.month()), static_cast<int>(date.year()) % 100);
-  char sentence[112];
-  std::snprintf(sentence, sizeof sentence, "$%s*%02X\r\n", body, static_cast<unsigned>(nmea_checksum(body)));
-  return sentence;
-}
-
 }  // namespace
 
 Lidar::Lidar(const velodyne::Model& model, const Tracer& tracer, const Track& track, const LidarConfig& config,
@@ -58,7 +33,8 @@ Lidar::Lidar(const velodyne::Model& model, const Tracer& tracer, const Track& tr
       T_base_sensor_(SE3::from_xyz_rpy(config.base_sensor_xyz_rpy)),
       start_utc_ns_(start_utc_ns),
       seed_(seed),
-      people_(people) {
+      people_(people),
+      receiver_(track, config.satellites_sigma_m, start_utc_ns, seed) {
   Random random(seed, kClockStream);
   first_azimuth_ = random.uniform(0.0, 2.0 * kPi);
   device_start_us_ =
@@ -162,9 +138,8 @@ void Lidar::fill_position(Time t, PositionPacket& packet) const {
   store_le(packet, velodyne::kPositionTimestampOffset, device_microseconds(t));
   const auto state = config_.pps ? velodyne::PpsState::kLocked : velodyne::PpsState::kAbsent;
   store_le(packet, velodyne::kPpsStateOffset, static_cast<std::uint8_t>(state));
-  if (!config_.pps) return;
-  const std::int64_t utc_ns = start_utc_ns_ + (t - track_.start()).count();
-  const std::string sentence = rmc_sentence(utc_ns / 1'000'000'000);
+  if (!config_.pps) return;  // it has no receiver
+  const std::string sentence = receiver_.sentence(t);
   std::memcpy(packet.data() + velodyne::kNmeaOffset, sentence.data(), std::min(sentence.size(), velodyne::kNmeaBytes));
 }
 

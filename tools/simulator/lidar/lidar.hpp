@@ -9,6 +9,7 @@
 #include "drivers/velodyne/models.hpp"
 #include "hal/se3.hpp"
 #include "hal/time.hpp"
+#include "tools/simulator/lidar/satellite_receiver.hpp"
 #include "tools/simulator/motion/track.hpp"
 #include "tools/simulator/people/crowd.hpp"
 #include "tools/simulator/world/tracer.hpp"
@@ -24,7 +25,8 @@ struct LidarConfig {
   double max_range_m = 100.0;
   double intensity_noise = 2.0;                       ///< standard deviation, in units of the reflectivity byte
   Duration latency = std::chrono::microseconds(100);  ///< from the last firing of a packet to its arrival
-  bool pps = false;  ///< true: the sensor's clock is UTC and it says so; false: it runs freely
+  bool pps = false;               ///< true: the sensor's clock is UTC and it says so; false: it runs freely
+  double satellites_sigma_m = 0;  ///< with pps: standard deviation of a receiver's place; 0: it does not tell its place
   Vector6 base_sensor_xyz_rpy = (Vector6() << 0.2, 0.0, 0.6, 0.0, 0.0, 0.0).finished();  ///< T_base_sensor
 };
 
@@ -80,6 +82,7 @@ class Lidar {
   std::int64_t start_utc_ns_;
   std::uint64_t seed_;
   const Crowd* people_;
+  SatelliteReceiver receiver_;
   double first_azimuth_;          // radians, at the start
   std::int64_t device_start_us_;  // the sensor's free-running counter at the start
   std::array<Beam, velodyne::kBlockChannels> beams_{};

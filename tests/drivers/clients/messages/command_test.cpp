@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <string>
 
 #include "drivers/clients/commands/command_packet.hpp"
@@ -14,12 +15,15 @@ namespace {
 using namespace std::chrono_literals;
 
 Command sample(Command::Verb verb) {
-  return {verb, 12, Time{5s}, 150ms, 0.4, -0.2, 3, ClientName("a desk with a name of 32 letters")};
+  Command command{verb, 12, Time{5s}, 150ms, 0.4, -0.2, 3, ClientName("a desk with a name of 32 letters"), {}};
+  if (verb == Command::Verb::kPlace)
+    command.place = {ShortText<32>("a robot of a name of 32 letters."), 12.5, -3, 1.5, 0.4, 0.2};
+  return command;
 }
 
 TEST(Command, ComesBackAsItWasSent) {
   std::vector<std::byte> bytes;
-  for (int verb = 1; verb <= 6; ++verb) {
+  for (int verb = 1; verb <= 7; ++verb) {
     const Command command = sample(static_cast<Command::Verb>(verb));
     encode(command, bytes);
     EXPECT_LE(bytes.size(), kMaxCommandBytes);
@@ -32,7 +36,7 @@ TEST(Command, ComesBackAsItWasSent) {
 
 TEST(Command, CutOrOfAnUnknownVerbIsRefused) {
   std::vector<std::byte> bytes;
-  encode(sample(static_cast<Command::Verb>(7)), bytes);
+  encode(sample(static_cast<Command::Verb>(8)), bytes);
   EXPECT_EQ(decode_command(bytes).error().code, Errc::kMalformed);
   encode(sample(Command::Verb::kStop), bytes);
   for (std::size_t size = 0; size < bytes.size(); ++size) EXPECT_FALSE(decode_command(std::span(bytes).first(size)));
@@ -42,11 +46,13 @@ TEST(Command, CutOrOfAnUnknownVerbIsRefused) {
 
 TEST(Command, ABodyCutAnywhereIsRefusedEvenWithARightChecksum) {
   std::vector<std::byte> whole;
-  encode(sample(Command::Verb::kArm), whole);
-  for (std::size_t size = Record::kHeaderBytes; size < whole.size(); ++size) {
-    std::vector<std::byte> cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
-    end_record(cut);
-    EXPECT_EQ(decode_command(cut).error().code, Errc::kMalformed) << size;
+  for (const auto verb : {Command::Verb::kArm, Command::Verb::kPlace}) {
+    encode(sample(verb), whole);
+    for (std::size_t size = Record::kHeaderBytes; size < whole.size(); ++size) {
+      std::vector<std::byte> cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
+      end_record(cut);
+      EXPECT_EQ(decode_command(cut).error().code, Errc::kMalformed) << size;
+    }
   }
   encode(Answer{.number = 3, .holder = ClientName("desk"), .why = ShortText<200>("late")}, 1, whole);
   for (std::size_t size = Record::kHeaderBytes; size < whole.size(); ++size) {
@@ -62,6 +68,20 @@ TEST(Command, ANameThatCouldSteerATerminalIsRefused) {
   std::vector<std::byte> bytes;
   encode(command, bytes);
   EXPECT_FALSE(decode_command(bytes));
+}
+
+TEST(Placement, WhatCannotBeIsKnown) {
+  const Placement sound{ShortText<32>(), 1, 2, 3, 0.5, 0.1};
+  EXPECT_TRUE(sound.possible());
+  EXPECT_TRUE(Placement{}.possible()) << "it takes back what was said";
+  for (const double wrong : {std::nan(""), 1e6, -1e6}) {
+    for (double Placement::*field :
+         {&Placement::x, &Placement::y, &Placement::yaw, &Placement::sigma_m, &Placement::sigma_rad}) {
+      Placement place = sound;
+      place.*field = wrong;
+      EXPECT_FALSE(place.possible()) << wrong;
+    }
+  }
 }
 
 TEST(Answer, ComesBackAsItWasSent) {

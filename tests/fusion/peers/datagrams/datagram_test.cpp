@@ -208,15 +208,21 @@ TEST(Datagram, ClaimsComeBack) {
 
 TEST(Datagram, DeploymentsComeBackAndThoseThatCannotBeDoNot) {
   Deployment deployment;
-  deployment.T_site_odom.mean = SE3::from_xyz_rpy((Vector6() << 10, -2, 0.5, 0, 0, 3).finished());
-  deployment.T_site_odom.covariance = Matrix6::Identity() * 0.25;
+  deployment.T_ref_odom.mean = SE3::from_xyz_rpy((Vector6() << 10, -2, 0.5, 0, 0, 3).finished());
+  deployment.T_ref_odom.covariance = Matrix6::Identity() * 0.25;
+  deployment.ref = 7;
+  EXPECT_FALSE(decode_deployment(encode(deployment))) << "of no beginning";
+  deployment.ref_epoch = 11;
+  deployment.firm = 2;
   const auto bytes = encode(deployment);
   const auto back = decode_deployment(bytes);
   ASSERT_TRUE(back.has_value());
   EXPECT_EQ(encode(*back), bytes);
-  EXPECT_EQ(back->T_site_odom.covariance, deployment.T_site_odom.covariance);
+  EXPECT_EQ(back->ref, 7U);
+  EXPECT_EQ(back->firm, 2U);
+  EXPECT_EQ(back->T_ref_odom.covariance, deployment.T_ref_odom.covariance);
   for (std::size_t n = 0; n < bytes.size(); ++n) EXPECT_FALSE(decode_deployment(std::span(bytes).first(n)));
-  deployment.T_site_odom.covariance(0, 1) = deployment.T_site_odom.covariance(1, 0) = 0.5;
+  deployment.T_ref_odom.covariance(0, 1) = deployment.T_ref_odom.covariance(1, 0) = 0.5;
   EXPECT_FALSE(decode_deployment(encode(deployment))) << "no covariance is like that";
 
   const ItemUpdate update{ItemId::deployment(), 1, 0, bytes};

@@ -48,5 +48,22 @@ TEST(ComparedPeers, AJobIsAboutNobodyAfterABeginning) {
   EXPECT_EQ(peers.of(job_about(2, 10, 20), 11), nullptr) << "this robot has begun anew since";
 }
 
+TEST(ComparedPeers, FirmWordEndsWhatWasFound) {
+  ComparedPeers peers{MatchWorthConfig{}};
+  ComparedPeer& two = peers.at(2, 10, 20);
+  EXPECT_FALSE(peers.heed(2, 0)) << "there is none";
+  (void)two.edge.update(peers::Edge{.other = 2, .T_own_other = {}, .probability = 0.9F});
+  two.found = true;
+  two.match.reset();  // a job has it
+  const auto withdrawn = peers.heed(2, 1);
+  ASSERT_TRUE(withdrawn);
+  EXPECT_EQ(withdrawn->index, two.edge.index());
+  EXPECT_EQ(withdrawn->edge.probability, 0);
+  EXPECT_FALSE(two.found);
+  EXPECT_TRUE(two.match) << "it begins anew";
+  EXPECT_EQ(peers.of(job_about(2, 10, 20), 10), nullptr) << "the job is of before";
+  EXPECT_FALSE(peers.heed(2, 1)) << "the same again";
+}
+
 }  // namespace
 }  // namespace cairn::team

@@ -91,5 +91,66 @@ TEST_F(DeploymentsTest, AFaultNamesHowFarTheyAreOff) {
             "; the deployments of the two contradict that by 2.0 m and 0.0 degrees");
 }
 
+class FirmDeploymentsTest : public DeploymentsTest {
+ protected:
+  /// A robot publishes where a person has put it, in a teammate's odom.
+  void put(peers::RobotId robot, peers::RobotId ref, const SE3& T_ref_odom, std::uint32_t times = 1,
+           peers::Epoch epoch = KnownTeam::kEpoch) {
+    const peers::Deployment said{KnownTeam::pose(T_ref_odom, 0.5, 0.2), ref, ref == 0 ? 0 : epoch, times};
+    team_.publish(robot, peers::ItemId::deployment(), encode(said));
+  }
+  /// Metres from where b is by what was said; none: nothing is known.
+  [[nodiscard]] std::optional<double> off(peers::RobotId a, peers::RobotId b, const SE3& truth) const {
+    const auto T = deployed_between(team_.exchange.layers(), a, b);
+    return T ? std::optional((T->mean.inverse() * truth).log().norm()) : std::nullopt;
+  }
+  void hear_of(peers::RobotId robot) { team_.publish_walls(robot, 0, 0, 1); }
+};
+
+TEST_F(FirmDeploymentsTest, InTheOdomOfATeammate) {
+  hear_of(1);
+  put(2, 1, KnownTeam::at(3, 4, 0.5));
+  EXPECT_LT(off(1, 2, KnownTeam::at(3, 4, 0.5)).value(), 1e-9);
+  EXPECT_LT(off(2, 1, KnownTeam::at(3, 4, 0.5).inverse()).value(), 1e-9);
+  put(3, 2, KnownTeam::at(1, 0));
+  EXPECT_LT(off(1, 3, KnownTeam::at(3, 4, 0.5) * KnownTeam::at(1, 0)).value(), 1e-9) << "by the one between";
+  team_.deploy(1, KnownTeam::at(10, 0), 0.1, 0.1);
+  team_.deploy(4, KnownTeam::at(12, 0), 0.1, 0.1);
+  EXPECT_LT(off(4, 2, KnownTeam::at(-2, 0) * KnownTeam::at(3, 4, 0.5)).value(), 1e-9) << "by the shared frame";
+}
+
+TEST_F(FirmDeploymentsTest, ACircleSaysNothingOfAThird) {
+  for (const peers::RobotId robot : {1, 2, 3}) hear_of(robot);
+  put(2, 3, KnownTeam::at(1, 0));
+  put(3, 2, KnownTeam::at(-1, 0));
+  EXPECT_FALSE(off(1, 2, SE3()));
+  EXPECT_LT(off(2, 3, KnownTeam::at(-1, 0)).value(), 1e-9) << "what the higher one says";
+}
+
+TEST_F(FirmDeploymentsTest, ItEndsWithTheOdomOfTheTeammate) {
+  hear_of(1);
+  put(2, 1, KnownTeam::at(3, 4), 1, KnownTeam::kEpoch - 1);
+  EXPECT_FALSE(off(1, 2, SE3())) << "of an earlier beginning";
+  EXPECT_EQ(firmness(team_.exchange.layers(), 1, 2), 0U);
+}
+
+TEST_F(FirmDeploymentsTest, WhatWasFoundIsWithdrawnOnce) {
+  hear_of(2);
+  (void)peer().edge.update(peers::Edge{.other = 2, .T_own_other = {}, .probability = 0.9F});
+  EXPECT_TRUE(heed_firm(team_.view(), compared_).empty());
+  put(2, 1, KnownTeam::at(3, 4));
+  const auto withdrawn = heed_firm(team_.view(), compared_);
+  ASSERT_EQ(withdrawn.size(), 1U);
+  EXPECT_EQ(withdrawn[0].edge.probability, 0);
+  EXPECT_TRUE(heed_firm(team_.view(), compared_).empty());
+}
+
+TEST_F(FirmDeploymentsTest, ProfilesAreOnlyAGuess) {
+  deploy_both(0.5, 0.05);
+  EXPECT_EQ(firmness(team_.exchange.layers(), 1, 2), 0U);
+  put(2, 0, KnownTeam::at(3, 4), 3);
+  EXPECT_EQ(firmness(team_.exchange.layers(), 1, 2), 3U);
+}
+
 }  // namespace
 }  // namespace cairn::team

@@ -66,7 +66,7 @@ class CommanderRig : public ::testing::Test {
   [[nodiscard]] double speed() const { return commander_.wanted(now_).value_or(DriveCommand{}).v; }
 
   support::CommandQueue queue_;
-  Commander commander_;
+  Commander commander_{{.drives = true, .in_team = true}};
   safety::FailsafeDecision decision_;
   DriveStatus drive_;
   Time now_{100s};

@@ -197,5 +197,49 @@ TEST_F(CommanderTest, AFloodOfAnyPacketsIsBoundedAndAllocatesNothing) {
   EXPECT_LE(commander_.replies().size(), 64U);
 }
 
+TEST_F(CommanderTest, AnybodyMaySayWhereTheRobotIs) {
+  say_velocity(kDesk, 0.5);
+  step();
+  const clients::Placement place{clients::ShortText<32>("robot_1"), 3, 4, 0.5, 0.3, 0.1};
+  say(kJoystick, {.verb = Verb::kPlace, .who = {}, .place = place});
+  step();
+  EXPECT_EQ(answer().outcome, Outcome::kDone);
+  EXPECT_EQ(answer().holder.view(), "desk") << "it needs no lease";
+  EXPECT_EQ(orders_.place, place);
+  EXPECT_EQ(speed(), 0.5);
+  step();
+  EXPECT_FALSE(orders_.place) << "once";
+}
+
+TEST_F(CommanderTest, AnImpossiblePlaceIsRefused) {
+  say(kDesk, {.verb = Verb::kPlace, .who = {}, .place = {.x = std::numeric_limits<double>::quiet_NaN(), .sigma_m = 1}});
+  step();
+  EXPECT_EQ(answer().outcome, Outcome::kInvalid);
+  EXPECT_FALSE(orders_.place);
+}
+
+TEST_F(CommanderTest, WithoutATeamNobodyIsTold) {
+  commander_ = Commander({.drives = true, .in_team = false});
+  say(kDesk, {.verb = Verb::kPlace, .who = {}, .place = {.sigma_m = 1}});
+  step();
+  EXPECT_EQ(answer().outcome, Outcome::kRefused);
+  EXPECT_NE(answer().why.view().find("--peers"), std::string_view::npos);
+  EXPECT_FALSE(orders_.place);
+}
+
+TEST_F(CommanderTest, WithoutADriveItCanOnlyBePlaced) {
+  commander_ = Commander({.drives = false, .in_team = true});
+  for (const Verb verb : {Verb::kVelocity, Verb::kArm, Verb::kStop}) {
+    say(kDesk, verb);
+    step();
+    EXPECT_EQ(answer().outcome, Outcome::kRefused);
+    EXPECT_NE(answer().why.view().find("no drive"), std::string_view::npos);
+  }
+  say(kDesk, {.verb = Verb::kPlace, .who = {}, .place = {.sigma_m = 1}});
+  step();
+  EXPECT_EQ(answer().outcome, Outcome::kDone);
+  EXPECT_TRUE(orders_.place);
+}
+
 }  // namespace
 }  // namespace cairn::app

@@ -86,6 +86,25 @@ TEST(RobotProfile, ADeploymentThatSaysTooLittleIsRefused) {
   }
 }
 
+TEST(RobotProfile, SatellitesReplaceADeployment) {
+  const auto profile = loaded("team: {id: 1, satellites: {origin_latitude_deg: 51.9, origin_longitude_deg: 4.4}}");
+  ASSERT_TRUE(profile) << to_string(profile.error());
+  EXPECT_TRUE(profile->team.satellites.on());
+  for (const char* yaml : {"team: {id: 1, deployment: {x_m: 3, sigma_m: 1}, satellites: {origin_latitude_deg: 51.9}}",
+                           "team: {satellites: {origin_latitude_deg: 51.9}}"}) {
+    const auto wrong = loaded(yaml);
+    ASSERT_FALSE(wrong) << yaml;
+    EXPECT_NE(to_string(wrong.error()).find("satellites"), std::string::npos) << to_string(wrong.error());
+  }
+}
+
+TEST(RobotProfile, ATriggeredCameraNeedsATriggerLine) {
+  const auto wrong = loaded("camera: {capture: {device: /dev/video0, triggered: true}}");
+  ASSERT_FALSE(wrong);
+  EXPECT_NE(to_string(wrong.error()).find("gpio.trigger_line"), std::string::npos) << to_string(wrong.error());
+  EXPECT_TRUE(loaded("camera: {capture: {device: /dev/video0, triggered: true}}\ngpio: {trigger_line: out}"));
+}
+
 constexpr const char* kCameraInfo =
     "image_width: 672\nimage_height: 376\ncamera_matrix: {rows: 3, cols: 3, data: [350, 0, 335.5, 0, 351, 187.5, 0, 0, "
     "1]}\ndistortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: [-0.17, 0.026, 0, 0, 0]}\n";

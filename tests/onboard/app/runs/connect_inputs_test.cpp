@@ -84,11 +84,12 @@ TEST_F(ConnectInputsTest, EveryInputGoesToTheTaskThatReadsIt) {
   EXPECT_EQ(missing_packets(*tasks), 0U);
 }
 
-TEST_F(ConnectInputsTest, WithoutANamedEStopEdgesAreOnlyReceived) {
+TEST_F(ConnectInputsTest, WithoutANamedEStopTheOtherLinesAreRead) {
   add(recording::kGpio, Time{3s});
   connect();
-  EXPECT_EQ(tasks->safety.first_arrival(), Time::max());
-  EXPECT_EQ(tasks->receive.first_arrival(), Time{3s});
+  EXPECT_FALSE(tasks->fitted.estop);
+  EXPECT_EQ(tasks->safety.first_arrival(), Time{3s});
+  EXPECT_EQ(tasks->receive.first_arrival(), Time::max());
 }
 
 TEST_F(ConnectInputsTest, AnInputBeyondTheLastSlotIsLeftOutWithAnEvent) {

@@ -27,7 +27,7 @@ struct SafetyEventsTest : ::testing::Test {
 
   Monitor monitor;
   SafetyTask safety{{}, {}};
-  test::SafetyNeighbours neighbours;
+  cairn::test::SafetyNeighbours neighbours;
   SafetyEvents safety_events{safety, monitor};
   std::uint64_t index = 0;
 };

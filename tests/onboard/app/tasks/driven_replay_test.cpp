@@ -56,7 +56,7 @@ class Loop {
     graph_.connect(drive_.status, safety_->drive, {.capacity = 64, .lag = Duration{1}});
     graph_.connect(drive_.rearms, safety_->rearms, {.capacity = 8, .lag = Duration{1}});
     graph_.connect(safety_->decisions, drive_.decisions, {.capacity = 64});
-    safety_->watch_estop({}, line, SourceId{1}, lines, taps[1]);
+    safety_->use_lines({}, line, SourceId{1}, lines, taps[1]);
     EXPECT_TRUE(drive_.attach(drive::test::two_nodes(), bus, SourceId{0}, link, taps[0]));
     drive_.obey_commands(commands, SourceId{2}, answers, taps[2]);
   }

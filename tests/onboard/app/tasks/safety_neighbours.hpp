@@ -16,6 +16,7 @@ class SafetyNeighbours final : public scheduler::Task {
     join(task.decisions, decisions, decisions_channel_);
     join(odometry, task.odometry, odometry_channel_);
     join(rearms, task.rearms, rearms_channel_);
+    join(task.lines, lines, lines_channel_);
   }
 
   scheduler::OutputPort<app::SensorsSeen> sensors{*this, "sensors"};
@@ -23,6 +24,7 @@ class SafetyNeighbours final : public scheduler::Task {
   scheduler::InputPort<safety::FailsafeDecision> decisions{*this, "decisions"};
   scheduler::OutputPort<app::OdometryNews> odometry{*this, "odometry"};
   scheduler::OutputPort<app::RearmRequest> rearms{*this, "rearms"};
+  scheduler::InputPort<app::LineEdge> lines{*this, "lines"};
 
  private:
   template <class T>
@@ -37,6 +39,7 @@ class SafetyNeighbours final : public scheduler::Task {
   scheduler::Channel<safety::FailsafeDecision> decisions_channel_{{.capacity = 8}, nobody_, nobody_};
   scheduler::Channel<app::OdometryNews> odometry_channel_{{.capacity = 8}, nobody_, nobody_};
   scheduler::Channel<app::RearmRequest> rearms_channel_{{.capacity = 8}, nobody_, nobody_};
+  scheduler::Channel<app::LineEdge> lines_channel_{{.capacity = 8}, nobody_, nobody_};
 };
 
 }  // namespace cairn::test

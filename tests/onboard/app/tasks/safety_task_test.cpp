@@ -32,7 +32,7 @@ class SafetyTaskTest : public testing::Test {
   void make(EStopLine* line) {
     task_.emplace(safety::FailsafeConfig{}, fitted_);
     neighbours_.connect(*task_);
-    task_->watch_estop({}, line_, SourceId{0}, line, {});
+    task_->use_lines({}, line_, SourceId{0}, line, {});
   }
 
   void tick(Regime regime, TickRecord& record) {
@@ -88,7 +88,7 @@ class SafetyTaskTest : public testing::Test {
   }
   [[nodiscard]] safety::Mode mode() const { return task_->decision().mode; }
 
-  test::SafetyNeighbours neighbours_;
+  cairn::test::SafetyNeighbours neighbours_;
   EStopLine line_;
   safety::Fitted fitted_;
   std::optional<SafetyTask> task_;
@@ -238,7 +238,7 @@ TEST_F(ReplayedSafetyTask, DecidesInEveryTickAsItDidLive) {
   recorded.edges = edges_;
   SafetyTask again({}, fitted_);
   neighbours_.connect(again);
-  again.watch_estop({}, recorded, SourceId{0}, nullptr, {});
+  again.use_lines({}, recorded, SourceId{0}, nullptr, {});
   now_ = Time{10s};
   requests_ = asked_;
   std::uint64_t arms = 0;

@@ -120,5 +120,40 @@ TEST(DriveCommands, WithoutACoreTheySaySo) {
   EXPECT_EQ(run(add_drive_commands, {"drive", "--v", "0.1"}).exit_code, app::kWrongArguments);
 }
 
+TEST(PlaceCommand, TellsTheCoreWhereTheRobotIs) {
+  Core core;
+  const Outcome o =
+      run_against(core, {"place", "--frame", "robot_1", "--x", "2.5", "--y", "-1", "--yaw", "90", "--sigma", "0.25"});
+  EXPECT_EQ(o.exit_code, app::kDone) << o.err;
+  EXPECT_THAT(o.out, HasSubstr("cairn doctor --peer all"));
+  ASSERT_EQ(core.asked.size(), 1U);
+  EXPECT_EQ(core.asked[0].verb, Command::Verb::kPlace);
+  const clients::Placement& place = core.asked[0].place;
+  EXPECT_EQ(place.frame.view(), "robot_1");
+  EXPECT_EQ(place.x, 2.5);
+  EXPECT_EQ(place.y, -1);
+  EXPECT_NEAR(place.yaw, M_PI / 2, 1e-9);
+  EXPECT_EQ(place.sigma_m, 0.25);
+  EXPECT_NEAR(place.sigma_rad, 15 * M_PI / 180, 1e-9);
+}
+
+TEST(PlaceCommand, CanTakeItBack) {
+  Core core;
+  EXPECT_EQ(run_against(core, {"place", "--forget"}).exit_code, app::kDone);
+  ASSERT_EQ(core.asked.size(), 1U);
+  EXPECT_EQ(core.asked[0].place, clients::Placement{});
+  EXPECT_EQ(run(add_drive_commands, {"place", "--forget", "--x", "1"}).exit_code, app::kWrongArguments);
+}
+
+TEST(PlaceCommand, SaysWhyItWasRefused) {
+  Core core;
+  core.answer.outcome = Answer::Outcome::kRefused;
+  core.answer.why.append("this robot is in no team");
+  const Outcome o = run_against(core, {"place", "--x", "1"});
+  EXPECT_EQ(o.exit_code, app::kFailed);
+  EXPECT_THAT(o.out, HasSubstr("not placed: this robot is in no team"));
+  EXPECT_EQ(core.asked.at(0).place.frame.view(), "") << "the frame of start poses";
+}
+
 }  // namespace
 }  // namespace cairn::cli

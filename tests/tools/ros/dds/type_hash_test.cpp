@@ -146,6 +146,7 @@ TEST_F(TypeHash, OfEachTypeIsThatOfItsIdl) {
   expect_like_ros(ros_type<Octomap>());
   expect_like_ros(ros_type<Odometry>());
   expect_like_ros(ros_type<PointCloud2>());
+  expect_like_ros(ros_type<PoseWithCovarianceStamped>());
   expect_like_ros(ros_type<TfMessage>());
   expect_like_ros(ros_type<Twist>());
   expect_like_ros(ros_type<TwistStamped>());

@@ -78,6 +78,8 @@ TEST_F(RosProcessTest, ReadersTakeWhatAnyWriterOfRosOffers) {
       {"rt/husky_1/cmd_vel", endpoint_of("geometry_msgs::msg::dds_::Twist_", ros_type<Twist>(), kVolatile, false)},
       {"rt/husky_1/cmd_vel_stamped",
        endpoint_of("geometry_msgs::msg::dds_::TwistStamped_", ros_type<TwistStamped>(), kVolatile, false)},
+      {"rt/husky_1/initialpose", endpoint_of("geometry_msgs::msg::dds_::PoseWithCovarianceStamped_",
+                                             ros_type<PoseWithCovarianceStamped>(), kVolatile)},
       {"rt/husky_1/arm", endpoint_of("std_msgs::msg::dds_::Bool_", ros_type<BoolMessage>(), kVolatile)},
       {"rt/husky_1/stop", endpoint_of("std_msgs::msg::dds_::Bool_", ros_type<BoolMessage>(), kVolatile)}};
   start_both();
@@ -132,6 +134,25 @@ TEST_F(RosProcessTest, ABoolArmsDisarmsAndStops) {
   EXPECT_TRUE(leads_to(arm, false, Command::Verb::kDisarm));
   EXPECT_TRUE(leads_to(stop, true, Command::Verb::kStop));
   EXPECT_TRUE(leads_to(arm, true, Command::Verb::kArm));
+}
+
+TEST_F(RosProcessTest, APoseEstimateOfRvizPlacesTheRobot) {
+  start_both();
+  const dds_entity_t writer = network_.writer("rt/husky_1/initialpose", ros_type<PoseWithCovarianceStamped>());
+  Arena arena;
+  PoseWithCovarianceStamped pose{};
+  pose.header = header_of(LiveClock().now(), LiveClock::realtime_offset(), "husky_2/odom", arena);
+  pose.pose.pose.position = {3, -4, 0};
+  pose.pose.pose.orientation.z = 1;
+  ASSERT_TRUE(until([&] {
+    dds_write(writer, &pose);
+    return std::ranges::count(core->commands, Command::Verb::kPlace, &Command::verb) > 0;
+  }));
+  const clients::Placement& place = std::ranges::find(core->commands, Command::Verb::kPlace, &Command::verb)->place;
+  EXPECT_EQ(place.frame.view(), "husky_2");
+  EXPECT_EQ(place.x, 3);
+  EXPECT_EQ(place.y, -4);
+  EXPECT_NEAR(place.yaw, M_PI, 1e-9);
 }
 
 TEST_F(RosProcessTest, ItMayBeKilledAndComeBack) {
@@ -193,7 +214,7 @@ class RosNodeTest : public RosProcessTest {
     EXPECT_TRUE(until([&] {
       take_one<Message>(reader, [&](const Message& said) {
         complete = said.node_entities_info_seq._buffer[0].writer_gid_seq._length == kWriters;
-        if (complete) expect_node(said, gid_size, kWriters, 4);
+        if (complete) expect_node(said, gid_size, kWriters, 5);
       });
       return complete;
     }));
