@@ -62,6 +62,7 @@ void add_book(const std::string& scene, const std::vector<const UnlikeOutcome*>&
   if (!any) return;
   claims.push_back({scene + ": EM's RMS is below OICP's at the beginning, in the middle and at the end", rms + " m",
                     em_better, true});
+  if (fusions.size() < 2) return;
   claims.push_back({scene + ": EM's RMS falls from the beginning to the end",
                     fmt::format("{:.4f} to {:.4f} m", first, last), last < first, true});
   const auto count = [](const UnlikeOutcome* o) {

@@ -109,6 +109,15 @@ TEST(Unlike, WhatNoVoxelHasIsADashAndNoClaim) {
   EXPECT_EQ(broken(unlike_claims(all), "RMS"), 0);
 }
 
+TEST(Unlike, OneFusionShowsNoTrend) {
+  const auto all = two_missions(0.2);
+  const std::vector<UnlikeOutcome> one{all[2]};
+  for (const Claim& c : unlike_claims(one)) {
+    EXPECT_THAT(c.claim, Not(HasSubstr("falls")));
+    EXPECT_THAT(c.claim, Not(HasSubstr("fall as")));
+  }
+}
+
 TEST(Unlike, ThePageStandsAlone) {
   const std::string page = unlike_page(two_missions(0.5), 72001);
   for (const char* mark : {"<script", "href=", "url(", "nan"}) EXPECT_THAT(page, Not(HasSubstr(mark)));
