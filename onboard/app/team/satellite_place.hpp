@@ -22,6 +22,7 @@ class SatellitePlace {
   /// The map begins anew, in a new odom frame.
   void begin();
 
+  /// What came of it so far.
   struct Figures {
     std::uint64_t fixes = 0, too_far = 0;      ///< that came in; that are too far from the origin
     std::optional<UncertainPose> T_site_odom;  ///< that the team was told last
