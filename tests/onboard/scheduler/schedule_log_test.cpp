@@ -43,9 +43,10 @@ TEST(ScheduleLog, ALogWithoutEndSaysSo) {
 
 TEST(ScheduleLog, WhatCannotBeIsRefusedWithItsLine) {
   const std::string head = "cairn-schedule 1\ntask 0 a 0 10\n";
-  for (const char* line : {"1 0 0", "0 1", "0 -1 0", "0 5 6", "0 5 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21",
-                           "task 1 b 0 0", "task 3 b 0 5", "task 1 b -1 5", "end 1 4", "0 99999999999999999999 0",
-                           "0 5 0 x", "0 1000000000000000000 0", "end 0 18446744073709551615"}) {
+  for (const char* line :
+       {"1 0 0", "0 1", "0 -1 0", "0 5 6", "0 5 0 1 2 3 4 5 6 7 8 9 10 11 12 13 14 15 16 17 18 19 20 21",
+        "task 1 b 0 0", "task 3 b 0 5", "task 1 b -1 5", "end 1 4", "0 99999999999999999999 0", "0 5 0 x",
+        "0 1000000000000000000 0", "end 0 18446744073709551615"}) {
     const auto bad = parse_schedule_log(head + line + "\n");
     ASSERT_FALSE(bad) << line;
     EXPECT_EQ(bad.error().code, Errc::kMalformed) << line;
