@@ -21,7 +21,7 @@ class Feed {
   /// A live tick takes no more packets, so a flood cannot hold the task.
   static constexpr int kMaxPackets = 2000;
   /// Bytes. Smaller packets, such as an edge or a CAN frame, never allocate.
-  static constexpr std::size_t kSmall = 128;
+  static constexpr std::size_t kSmall = 192;
 
   /// `source` must outlive the feed. Packets get `id`. `slot` is one of the task's, in the schedule log.
   Feed(Source& source, SourceId id, std::size_t slot, Complain complain, Tap tap = {})

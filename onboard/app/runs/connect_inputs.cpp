@@ -10,6 +10,8 @@ namespace {
 
 // Packets that may wait for the disk: two seconds of a LiDAR, edges of an e-stop, and a flood of commands for a second.
 constexpr std::size_t kWaitingPackets = 2048, kWaitingEdges = 256, kWaitingCommands = 4096;
+// The socket's reader asks for a byte more, and the drive task must not allocate.
+static_assert(clients::kMaxCommandBytes < scheduler::Feed::kSmall);
 
 scheduler::Feed::Tap tap(Recorder* recorder, std::size_t packets, std::size_t bytes) {
   return recorder != nullptr ? recorder->tap(packets, bytes) : scheduler::Feed::Tap{};
