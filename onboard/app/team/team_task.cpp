@@ -133,6 +133,8 @@ void TeamTask::be_placed(Tick& tick) {
 void TeamTask::be_placed_by_satellites(const GeoFix& fix) {
   const bool known = satellites_.figures().T_site_odom && team::knows_yaw(*satellites_.figures().T_site_odom);
   const auto T_site_odom = satellites_.take(fix, T_odom_base_at(fix.stamp));
+  if (satellites_.figures().too_far > 0)
+    monitor_.event(fix.stamp, "team", "satellites put it more than 100 km from the origin of team.satellites");
   if (!T_site_odom) return;
   const bool knows = team::knows_yaw(*T_site_odom);
   team_->deploy(*T_site_odom, knows);

@@ -21,7 +21,7 @@ using Level = Finding::Level;
 
 constexpr double kClockNoteS = 1;
 constexpr const char* kContradicted =
-    "correct team.deployment in the profile that is wrong, or leave it out; `cairn place` tells a running robot";
+    "correct team.deployment or team.satellites in the profile that is wrong, or `cairn place` the robot";
 
 Finding judge(const app::LiveView::Peer& peer) {
   const std::string heard = peer.heard_s_ago >= 0 ? fmt::format(", heard {:.1f} s ago", peer.heard_s_ago) : "";

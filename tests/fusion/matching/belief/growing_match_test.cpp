@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <optional>
 
 #include "fusion/matching/default_matcher.hpp"
 #include "tests/support/map_pairs.hpp"
@@ -18,13 +19,17 @@ struct Growth {
   GrowingMatch match{};
   SE3 T_a_b{};
 
-  void look(const support::Stretch& a, const support::Stretch& b) {
+  /// `T_truth_guess`: where a firm guess lies from the truth; none: nobody has said anything.
+  void look(const support::Stretch& a, const support::Stretch& b, const std::optional<SE3>& T_truth_guess = {}) {
     const auto pair = support::two_robots(scene, a, b, 3, 2.0, 0.1, 8);
     T_a_b = pair.T_a_b;
     const auto of_a = MapFeatures::build(*pair.a), of_b = MapFeatures::build(*pair.b);
     ASSERT_TRUE(of_a && of_b);
     Budget budget = Budget::steps(kAmpleSteps);
-    match.update(*of_a, *of_b, budget);
+    if (!T_truth_guess) return match.update(*of_a, *of_b, budget);
+    Vector6 sigma;
+    sigma << 0.5, 0.5, 1, 0.03, 0.03, 0.2;
+    match.update(*of_a, *of_b, budget, UncertainPose{T_a_b * *T_truth_guess, sigma.cwiseAbs2().asDiagonal()}, true);
   }
   [[nodiscard]] double off(const Hypothesis& h) const {
     return (h.T_a_b.mean.inverse() * T_a_b).log().head<3>().norm();
@@ -42,6 +47,20 @@ TEST(GrowingMatch, MergesInTheLobbyAndNotAtOnce) {
   }
   ASSERT_NE(lobby.match.hypotheses().accepted(), nullptr) << lobby.match.hypotheses().all()[0].reason;
   EXPECT_LT(lobby.off(*lobby.match.hypotheses().accepted()), 0.05);
+}
+
+/// However well maps agree: where a firm guess is wrong they find nothing, and say where they would have.
+TEST(GrowingMatch, PlacesElsewhereThanAFirmGuessAreDenied) {
+  Growth lobby(support::lobby());
+  lobby.look({0, 3, 20}, {0.5, 3.5, 20}, SE3::from_xyz_rpy((Vector6() << 4, 0, 0, 0, 0, 3).finished()));
+  for (const Hypothesis& h : lobby.match.hypotheses().all()) EXPECT_GT(lobby.off(h), 1) << "not the true place";
+  ASSERT_TRUE(lobby.match.denied());
+  EXPECT_LT((lobby.match.denied()->inverse() * lobby.T_a_b).log().head<3>().norm(), 0.05);
+  Growth again(support::lobby());
+  again.look({0, 3, 20}, {0.5, 3.5, 20}, SE3::from_xyz_rpy((Vector6() << 0.3, 0, 0, 0, 0, 0.1).finished()));
+  EXPECT_FALSE(again.match.denied());
+  ASSERT_FALSE(again.match.hypotheses().all().empty());
+  EXPECT_LT(again.off(again.match.hypotheses().all()[0]), 0.05);
 }
 
 TEST(GrowingMatch, AbstainsInACorridorWithoutEnds) {
