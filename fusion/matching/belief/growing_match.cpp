@@ -9,14 +9,18 @@
 
 namespace cairn::matching {
 
-bool GrowingMatch::due(const MapFeatures& a, const MapFeatures& b) {
+bool GrowingMatch::due(const MapFeatures& a, const MapFeatures& b) const {
   const auto grown = [&](std::size_t now, std::size_t then) {
     return static_cast<double>(now) >= config_.growth * static_cast<double>(then);
   };
-  if (!grown(a.fine().size(), searched_a_) && !grown(b.fine().size(), searched_b_)) return false;
-  searched_a_ = a.fine().size();
-  searched_b_ = b.fine().size();
-  return true;
+  return grown(a.fine().size(), searched_a_) || grown(b.fine().size(), searched_b_);
+}
+
+bool GrowingMatch::would_accept(const std::vector<Look>& looks, const std::optional<UncertainPose>& guess) const {
+  if (hypotheses_.accepted() != nullptr) return false;
+  PendingHypotheses then = hypotheses_;
+  then.take(looks, guess);
+  return then.accepted() != nullptr;
 }
 
 void GrowingMatch::update(const MapFeatures& a, const MapFeatures& b, Budget& budget,
@@ -45,9 +49,11 @@ void GrowingMatch::update(const MapFeatures& a, const MapFeatures& b, Budget& bu
       looks.push_back(std::move(look));
     }
   };
-  if (due(a, b)) {
+  if (due(a, b) || would_accept(looks, guess)) {
     if (guess) search(guess, config_.most_near);
     search({}, config_.most_found);
+    searched_a_ = a.fine().size();
+    searched_b_ = b.fine().size();
   }
   denied_.reset();
   if (given && firm) deny(looks, *given);

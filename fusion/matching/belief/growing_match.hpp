@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <vector>
 
 #include "fusion/matching/belief/pending.hpp"
 #include "fusion/matching/features/map_features.hpp"
@@ -25,7 +26,8 @@ struct GrowingMatchConfig {
 };
 
 /// Follows two maps while they grow. Each update weighs the known places again, which is cheap. The
-/// maps are searched again only when one of them has grown by a fifth.
+/// maps are searched again when one of them has grown by a fifth. They are searched as well before a
+/// place is accepted, because a rival may have appeared since.
 class GrowingMatch {
  public:
   explicit GrowingMatch(const GrowingMatchConfig& config = {})
@@ -42,8 +44,10 @@ class GrowingMatch {
   [[nodiscard]] const std::optional<SE3>& denied() const { return denied_; }
 
  private:
-  /// Whether a search is due. If so, it counts as done.
-  [[nodiscard]] bool due(const MapFeatures& a, const MapFeatures& b);
+  /// Whether one of the maps has grown enough since the last search.
+  [[nodiscard]] bool due(const MapFeatures& a, const MapFeatures& b) const;
+  /// Whether these looks would make a place accepted.
+  [[nodiscard]] bool would_accept(const std::vector<Look>& looks, const std::optional<UncertainPose>& guess) const;
 
   void deny(std::vector<Look>& looks, const UncertainPose& firm);
 

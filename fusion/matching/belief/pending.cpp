@@ -78,26 +78,76 @@ int needed(const std::optional<UncertainPose>& guess, const SE3& T_a_b, const Be
   return chance_agreement(*guess) + kWrongGuess <= chance_of_one ? config.agreements - 1 : config.agreements;
 }
 
-/// The probability of a rival at T_rival of one at T, where the guess leaves only the latter.
-double discounted(double probability, const std::optional<UncertainPose>& guess, const SE3& T_rival, const SE3& T) {
-  if (!guess || agrees(*guess, T_rival) || !agrees(*guess, T)) return probability;
+/// Whether the guess leaves a place at T, but not its rival at T_rival.
+bool excludes(const std::optional<UncertainPose>& guess, const SE3& T_rival, const SE3& T) {
+  return guess && !agrees(*guess, T_rival) && agrees(*guess, T);
+}
+
+/// The probability of a rival, where a guess excludes it.
+double discounted(double probability) {
   return kWrongGuess * probability / (1 - probability + kWrongGuess * probability);
 }
 
-/// `rival`: the probability of the likeliest other place, discounted.
-void judge(Hypothesis& h, const Look& look, const Decision& now, double rival, int needed, const BeliefConfig& config) {
+/// What one round says of a place beside its look.
+struct Verdict {
+  Decision now{};
+  double alone = 0;                      // its probability if there were no other place
+  double rival = 0;                      // the probability of the likeliest other place, discounted
+  bool copied = false, outdone = false;  // by another credible place
+  int needed = 0;
+};
+
+double conflict_of(const Look& look, const BeliefConfig& config) {
+  return std::max(config.least_conflict, look.evidence.conflict + look.evidence.reverse_conflict);
+}
+
+Decision decide_alone(Evidence evidence, const AcceptanceConfig& config) {
+  evidence.uniqueness = 1;
+  return decide(evidence, config);
+}
+
+/// What the other places say of each.
+std::vector<Verdict> verdicts(const std::vector<Look>& places, const std::optional<UncertainPose>& guess,
+                              const BeliefConfig& config, const AcceptanceConfig& acceptance) {
+  std::vector<Verdict> all;
+  for (const Look& look : places)
+    all.push_back({.now = decide(look.evidence, acceptance),
+                   .alone = decide_alone(look.evidence, acceptance).probability_correct,
+                   .needed = needed(guess, look.T_a_b.mean, config)});
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const double own_conflict = conflict_of(places[i], config);
+    for (std::size_t j = 0; j < places.size(); ++j) {
+      if (j == i) continue;
+      const bool excluded = excludes(guess, places[j].T_a_b.mean, places[i].T_a_b.mean);
+      const double p = all[j].now.probability_correct, conflict = conflict_of(places[j], config);
+      all[i].rival = std::max(all[i].rival, excluded ? discounted(p) : p);
+      if (all[j].alone < config.credible) continue;
+      // What a guess excludes must do better.
+      all[i].copied |= conflict < (excluded ? 1 : config.told_apart) * own_conflict;
+      all[i].outdone |= conflict < (excluded ? 1 : config.outdone) * own_conflict;
+    }
+  }
+  return all;
+}
+
+void judge(Hypothesis& h, const Look& look, const Verdict& verdict, const BeliefConfig& config) {
+  const Decision& now = verdict.now;
   h.T_a_b = look.T_a_b;
   h.evidence = look.evidence;
   h.probability_correct = now.probability_correct;
   h.contradictions = contradicts(look.evidence, config) ? h.contradictions + 1 : 0;
-  h.rivalled = rival >= config.rivalled;
+  h.rivalled = verdict.rival >= config.rivalled || verdict.copied;
   if (h.contradictions >= config.contradictions) return drop(h, now.reason);
   if (h.standing == Standing::kAccepted) {
-    if (rival >= config.overthrown) suspend(h, "another pose has become likely");
+    if (verdict.rival >= config.overthrown || verdict.outdone) suspend(h, "another pose has become likely");
     return;
   }
+  const int needed = verdict.needed;
   const bool agrees = h.probability_correct >= config.agrees && !h.rivalled;
-  h.reason = agrees ? so_often(h, needed) : h.rivalled ? "another pose may be as good" : now.reason;
+  h.reason = agrees           ? so_often(h, needed)
+             : verdict.copied ? "the place could be a copy of another one"
+             : h.rivalled     ? "another pose may be as good"
+                              : now.reason;
   if (h.earned && !agrees) h.agreements = 0;
   if (!agrees || !(h.earned || on_new_ground(h, look.evidence, config))) return;
   h.ground_m2 = std::max(h.ground_m2, ground_m2(look.evidence, config));
@@ -127,15 +177,8 @@ Hypothesis& PendingHypotheses::held_or_new(const SE3& T_a_b) {
 
 void PendingHypotheses::take(std::vector<Look> looks, const std::optional<UncertainPose>& guess) {
   const auto places = rivals(std::move(looks));
-  std::vector<Decision> decisions;
-  for (const Look& look : places) decisions.push_back(decide(look.evidence, acceptance_));
-  for (std::size_t i = 0; i < places.size(); ++i) {
-    const SE3& T = places[i].T_a_b.mean;
-    double rival = 0;
-    for (std::size_t j = 0; j < places.size(); ++j)
-      if (j != i) rival = std::max(rival, discounted(decisions[j].probability_correct, guess, places[j].T_a_b.mean, T));
-    judge(held_or_new(T), places[i], decisions[i], rival, needed(guess, T, config_), config_);
-  }
+  const auto all = verdicts(places, guess, config_, acceptance_);
+  for (std::size_t i = 0; i < places.size(); ++i) judge(held_or_new(places[i].T_a_b.mean), places[i], all[i], config_);
   allow_one();
   put_in_order();
 }

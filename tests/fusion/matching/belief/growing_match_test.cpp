@@ -18,6 +18,7 @@ struct Growth {
   support::Scene scene;
   GrowingMatch match{};
   SE3 T_a_b{};
+  int steps = 0;  // of the newest look
 
   /// `T_truth_guess`: where a firm guess lies from the truth; none: nobody has said anything.
   void look(const support::Stretch& a, const support::Stretch& b, const std::optional<SE3>& T_truth_guess = {}) {
@@ -26,10 +27,14 @@ struct Growth {
     const auto of_a = MapFeatures::build(*pair.a), of_b = MapFeatures::build(*pair.b);
     ASSERT_TRUE(of_a && of_b);
     Budget budget = Budget::steps(kAmpleSteps);
-    if (!T_truth_guess) return match.update(*of_a, *of_b, budget);
-    Vector6 sigma;
-    sigma << 0.5, 0.5, 1, 0.03, 0.03, 0.2;
-    match.update(*of_a, *of_b, budget, UncertainPose{T_a_b * *T_truth_guess, sigma.cwiseAbs2().asDiagonal()}, true);
+    std::optional<UncertainPose> guess;
+    if (T_truth_guess) {
+      Vector6 sigma;
+      sigma << 0.5, 0.5, 1, 0.03, 0.03, 0.2;
+      guess = UncertainPose{T_a_b * *T_truth_guess, sigma.cwiseAbs2().asDiagonal()};
+    }
+    match.update(*of_a, *of_b, budget, guess, guess.has_value());
+    steps = budget.spent();
   }
   [[nodiscard]] double off(const Hypothesis& h) const {
     return (h.T_a_b.mean.inverse() * T_a_b).log().head<3>().norm();
@@ -61,6 +66,22 @@ TEST(GrowingMatch, PlacesElsewhereThanAFirmGuessAreDenied) {
   EXPECT_FALSE(again.match.denied());
   ASSERT_FALSE(again.match.hypotheses().all().empty());
   EXPECT_LT(again.off(again.match.hypotheses().all()[0]), 0.05);
+}
+
+TEST(GrowingMatch, SearchesForRivalsBeforeItAcceptsAPlace) {
+  GrowingMatchConfig seldom;
+  seldom.growth = 1e9;
+  Growth lobby(support::lobby());
+  lobby.match = GrowingMatch(seldom);
+  for (const double to : {1.4, 1.8, 2.2, 2.6, 3.0, 3.4}) {
+    const int scans = static_cast<int>(10 * to), before = lobby.steps;
+    const bool was_accepted = lobby.match.hypotheses().accepted() != nullptr;
+    lobby.look({0, to, scans}, {0.5, 0.5 + to, scans});
+    if (!was_accepted) continue;
+    EXPECT_GT(before, 4 * lobby.steps) << "a search takes many steps more than a look";
+    return;
+  }
+  FAIL() << "not accepted";
 }
 
 TEST(GrowingMatch, AbstainsInACorridorWithoutEnds) {

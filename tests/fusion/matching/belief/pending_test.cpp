@@ -161,6 +161,35 @@ TEST(Pending, ACopyThatIsSeenLateSuspendsWhatWasAccepted) {
   EXPECT_EQ(pending.accepted(), nullptr);
 }
 
+Look little(double conflict) {
+  Look look = agreeing(at(31, 3.14), 57);
+  look.evidence.conflict = conflict;
+  look.evidence.score = 0.07;
+  return look;
+}
+Look turned(double ground_m2, double conflict = 0.02) {
+  Look look = certain(at(0), ground_m2);
+  look.evidence.conflict = conflict;
+  return look;
+}
+
+TEST(Pending, APlaceWithLittleOverlapIsARivalUnlessItHasMuchMoreConflict) {
+  for (const double own : {0.02, 0.001}) {
+    PendingHypotheses pending;
+    for (const double ground : {100.0, 200.0, 300.0}) pending.take({turned(ground, own), little(0.03)});
+    EXPECT_EQ(pending.accepted() == nullptr, own > 0.01) << pending.all()[0].reason;
+  }
+}
+
+TEST(Pending, ACredibleTruthThatShowsLateSuspendsWhatWasAccepted) {
+  for (const double conflict : {0.01, 0.12}) {
+    PendingHypotheses pending;
+    for (const double ground : {100.0, 200.0, 300.0}) pending.take({turned(ground)});
+    pending.take({turned(400), little(conflict)});
+    EXPECT_EQ(pending.accepted() == nullptr, conflict < 0.1);
+  }
+}
+
 TEST(Pending, LittleGroundDoesNotCount) {
   PendingHypotheses pending;
   for (const double ground : {10.0, 20.0, 30.0, 40.0, 50.0}) pending.take({agreeing(at(0), ground)});
