@@ -1,11 +1,13 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Builds the fuzz targets (clang, libFuzzer, both sanitisers) and runs each, two at a time:
-#   tools/ci/fuzz.sh [SECONDS [NAME…]]
+#   tools/ci/fuzz.sh [SECONDS [NAME…]]         each for so long, 30 s by default
+#   tools/ci/fuzz.sh NUMBERruns [NAME…]        each so often: 1000000runs
 # New inputs stay in build/fuzz/corpus/NAME for the next run. A crash leaves its input in build/fuzz/crash.
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 
-seconds=${1:-30}
+limit=-max_total_time=${1:-30}
+[[ ${1:-} != *runs ]] || limit=-runs=${1%runs}
 shift || true
 tools/packages.sh build test ci
 build fuzz --target fuzzers
@@ -20,7 +22,7 @@ fuzz() {  # fuzz NAME: one line of result, or the fuzzer's last words
   local name=$1 found=build/fuzz/corpus/$1 log=build/fuzz/$1.log dictionary=tests/fuzz/$1.dict options=()
   mkdir -p "$found"
   [[ ! -f $dictionary ]] || options=(-dict="$dictionary")
-  if "build/fuzz/bin/fuzz_$name" -max_total_time="$seconds" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
+  if "build/fuzz/bin/fuzz_$name" "$limit" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
     -artifact_prefix="build/fuzz/crash/$name-" "${options[@]}" "$found" "tests/fuzz/corpus/$name" >"$log" 2>&1; then
     awk -v name="$name" '/number_of_executed_units/ {n = $2} /peak_rss_mb/ {rss = $2} / cov: / {sub(/.* cov: /, ""); cov = $1}
       END {printf "  %-24s %10d runs  %6d edges  %5d MB\n", name, n, cov, rss}' "$log"

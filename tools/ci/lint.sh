@@ -2,8 +2,8 @@
 # SPDX-License-Identifier: Apache-2.0
 # Format, shell scripts, lengths of files, and the checks of .clang-tidy (lengths of functions among them):
 #   tools/ci/lint.sh [FILE…]      the checks over these files, or over all
-#   tools/ci/lint.sh --changed    over the program's .cpp files that changed in the day before HEAD, as CI does for its
-#                                 time
+#   tools/ci/lint.sh --changed    over the program's .cpp files that changed in the six hours before HEAD, as CI does for
+#                                 its time
 #   tools/ci/lint.sh --format     format and shell scripts alone
 #   tools/ci/lint.sh --full       the checks by clang-tidy itself: ten times slower, because it also reads the headers of
 #                                 libraries; it adds bugprone-use-after-move, which clangd leaves out
@@ -42,8 +42,8 @@ case ${1:-} in
   *)
     if [[ ${1:-} == --changed ]]; then
       # Dates are those of the commits, so that the same commit is always checked in the same way.
-      day_before=$(($(git log -1 --format=%ct) - 86400))
-      base=$(git rev-list -1 --before="$day_before" HEAD)
+      hours_before=$(($(git log -1 --format=%ct) - 6 * 3600))
+      base=$(git rev-list -1 --before="$hours_before" HEAD)
       mapfile -t changed < <(git diff --name-only --diff-filter=d "${base:-$(git hash-object -t tree /dev/null)}" -- \
         hal drivers onboard fusion tools | grep '\.cpp$')
       ((${#changed[@]} > 0)) || changed=(hal/clock.cpp)
