@@ -61,9 +61,10 @@ void count_pairs(const Party& target, const NearestGrid& nearest, const Party& s
 
 /// What the source's structure meets in the target.
 struct Meetings {
-  [[nodiscard]] int all() const { return agree + differ + in_free; }
+  [[nodiscard]] int all() const { return agree + differ + on_floor + in_free; }
 
   int agree = 0, differ = 0, in_free = 0;
+  int on_floor = 0;  // met what is no structure
   // In free space, but near a surface that may be its own.
   int beside = 0;
   Eigen::Matrix2d normals = Eigen::Matrix2d::Zero();  // Σ n nᵀ, horizontal part, of what agrees
@@ -115,7 +116,7 @@ Meetings meet(const Party& target, const NearestGrid& nearest, const Party& sour
       const Eigen::Vector2d n = r.normal.head<2>().cast<double>();
       m.normals += n * n.transpose();
     } else {
-      ++m.differ;
+      ++(r.structure() ? m.differ : m.on_floor);
     }
   }
   return m;
@@ -182,7 +183,7 @@ Evidence weigh(const Indexed& target, const Indexed& source, const SE3& T, const
   out.score = score(a, target.nearest, b, T, config);
   out.structure_pairs = m.agree;
   out.agreeing_m2 = b.structure_m2 * share(m.agree, static_cast<double>(b.weighed.size()));
-  out.structure_inliers = share(m.agree, m.agree + m.differ);
+  out.structure_inliers = share(m.agree, m.agree + m.differ + m.on_floor);
   out.conflict = share(m.in_free, m.all());
   out.reverse_conflict = share(reverse.in_free + reverse.beside, reverse.all());
   out.agreeing_floor_m2 = agreeing_places(m.places) * static_cast<double>(kPlace_m * kPlace_m);

@@ -34,7 +34,7 @@ struct EvidenceConfig {
   float reach_cells = 4;
   // Score, in surfels that agree. A prototype found the same modes with 1 to 3 and 0.25 to 0.5.
   double conflict_weight = 2;     ///< of structure in the other map's free space
-  double mismatch_weight = 0.25;  ///< of a pair that does not agree
+  double mismatch_weight = 0.25;  ///< of a pair of structure that does not agree
   /// A score falls by this times the share of conflicts, down to least_credit. It came in with
   /// GlobalSearchConfig::best_swept: of 42 pairs without a prior, 38 instead of 30 were found.
   double discredit = 3, least_credit = 0.15;
@@ -82,7 +82,8 @@ struct Evidence {
 
 /// Score of a pose, for ranking. Each sampled structure surfel of the source counts:
 /// - +1 if it agrees with the target in place, normal and, where known, the side it was seen from,
-/// - −mismatch_weight if it meets another surface,
+/// - −mismatch_weight if it meets structure that does not agree,
+/// - nothing if it meets a floor or a ceiling: a stereo camera's floor is rough, and partly structure,
 /// - −conflict_weight if it stands in the target's free space.
 ///
 /// Target structure in the source's free space counts −conflict_weight, too. The mean over the

@@ -61,6 +61,25 @@ TEST(Evidence, ConflictIsSeenFromBothMaps) {
   EXPECT_GE(b.reverse_conflict, a.conflict);
 }
 
+/// The map of a stereo camera has bumps where the floor is level.
+TEST(Evidence, BumpsOnTheFloorCountAsLittleAsWhatMeetsNothing) {
+  WeighedPair p(support::lobby(), {0, 2.5, 12}, {1.2, 3.6, 12});
+  const auto with = [&](const Eigen::Vector3f& above) {
+    Party b = p.b;
+    for (const Surfel& s : p.a.surfels) {
+      const int i = p.nearest.nearest(s.point + Eigen::Vector3f(0, 0, 0.3F), 0.5F);
+      if (!s.level() || i == NearestGrid::kNone || p.a.surfels[static_cast<std::size_t>(i)].structure()) continue;
+      Surfel bump = s;
+      bump.point = (p.maps.T_a_b.inverse() * (s.point + above).cast<double>()).cast<float>();
+      bump.normal = Eigen::Vector3f::UnitX();
+      b.structure.push_back(bump);
+    }
+    EXPECT_GT(b.structure.size(), p.b.structure.size() + 100);
+    return score(p.a, p.nearest, b, p.maps.T_a_b);
+  };
+  EXPECT_NEAR(with({0, 0, 0.3F}), with({0, 0, -500}), 0.002);
+}
+
 TEST(Evidence, NothingInCommonIsNoEvidence) {
   const WeighedPair p(support::corridor(), {0, 1, 4}, {0, 1, 4});
   const Evidence e = p.weigh(moved(p.maps.T_a_b, 500, 0, 0));
