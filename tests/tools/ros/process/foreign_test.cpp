@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 #include <octomap/OcTree.h>
 
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <sstream>
 
@@ -259,6 +261,31 @@ TEST_F(ForeignRos, Commands) {
     stop->write(&yes);
     return asked(Command::Verb::kStop);
   }));
+}
+
+TEST_F(ForeignRos, APoseEstimate) {
+  using clients::Command;
+  start_core();
+  std::vector<std::string> words;
+  commands_too(words);
+  start_ros(words);
+  auto* pose = ros_side_.writer("rt/husky_1/initialpose", "geometry_msgs::msg::dds_::PoseWithCovarianceStamped_");
+  std::array<double, 36> covariance{};
+  covariance[0] = covariance[7] = 0.25;
+  covariance[35] = 0.04;
+  Payload estimate = fast::payload_of(std::int32_t{0}, std::uint32_t{0}, std::string("husky_2/odom"), 3.0, -4.0, 0.0,
+                                      0.0, 0.0, 1.0, 0.0, covariance);
+  ASSERT_TRUE(until([&] {
+    pose->write(&estimate);
+    return std::ranges::count(core->commands, Command::Verb::kPlace, &Command::verb) > 0;
+  }));
+  const clients::Placement& place = std::ranges::find(core->commands, Command::Verb::kPlace, &Command::verb)->place;
+  EXPECT_EQ(place.frame.view(), "husky_2");
+  EXPECT_EQ(place.x, 3);
+  EXPECT_EQ(place.y, -4);
+  EXPECT_NEAR(place.yaw, M_PI, 1e-9);
+  EXPECT_NEAR(place.sigma_m, 0.5, 1e-9);
+  EXPECT_NEAR(place.sigma_rad, 0.2, 1e-9);
 }
 
 }  // namespace
