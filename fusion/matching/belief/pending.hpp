@@ -31,6 +31,7 @@ struct BeliefConfig {
   /// Looks in a row that contradict, after which a hypothesis is dropped.
   int contradictions = 2;
   double rivalled = 0.15;  ///< probability of another place from which on a look does not agree
+  // Of copies: credible, told_apart and outdone were chosen on office teams of seeds 1 to 6.
   /// Another place is credible if its probability would be this without rivals, whatever its score is.
   /// A score grows with the overlap. So the truth may have a low one where robots saw different halves.
   double credible = 0.5;

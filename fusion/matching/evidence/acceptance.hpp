@@ -51,7 +51,8 @@ struct Decision {
 ///   weight. Wrong ones in half-turned buildings, which nothing gives away, count a fifth of that.
 ///
 /// Structure inliers added nothing to the fit, so they are a bound only. The same holds for how
-/// widely conflict is spread. Copied geometry can look perfect to any test of one comparison: see
+/// widely conflict is spread. The score, of which uniqueness is made, changed a little after the fit:
+/// what meets a floor does not count any more. Copied geometry can look perfect to any test of one comparison: see
 /// PendingHypotheses.
 [[nodiscard]] Decision decide(const Evidence& evidence, const AcceptanceConfig& config = {});
 
