@@ -46,6 +46,11 @@ if(CAIRN_SANITIZE)
   target_compile_options(cairn_flags INTERFACE -fsanitize=${CAIRN_SANITIZE} -fno-omit-frame-pointer
     -fno-sanitize-recover=all)
   target_link_options(cairn_flags INTERFACE -fsanitize=${CAIRN_SANITIZE})
+  if(CMAKE_CXX_COMPILER_ID MATCHES Clang)
+    # A relative path, so that ccache knows it in every checkout.
+    file(RELATIVE_PATH ignore ${PROJECT_BINARY_DIR} ${CMAKE_CURRENT_LIST_DIR}/sanitizer_ignore.txt)
+    target_compile_options(cairn_flags INTERFACE -fsanitize-ignorelist=${ignore})
+  endif()
 endif()
 
 # CAIRN_UNITY compiles up to 16 files of a target as one, which parses their common headers once: a quarter of a build's

@@ -92,7 +92,7 @@ Figures after_the_ride(double submap_m, const fleet::Drift& drift, int scans) {
   return figures;
 }
 
-TEST(TeamDrift, PiecesLieWhereTheyBelong) {
+TEST(FullTeamDrift, PiecesLieWhereTheyBelong) {
   const Figures parts = after_the_ride(25, {0.015, 0.0007}, 66);
   EXPECT_GT(parts.submaps, 2U);
   EXPECT_LT(parts.doubled, 0.025);
