@@ -64,7 +64,7 @@ struct Meetings {
   [[nodiscard]] int all() const { return agree + differ + on_floor + in_free; }
 
   int agree = 0, differ = 0, in_free = 0;
-  int on_floor = 0;  // met what is no structure
+  int on_floor = 0;  // met a floor or a ceiling, which is no structure: even there where normals agree
   // In free space, but near a surface that may be its own.
   int beside = 0;
   Eigen::Matrix2d normals = Eigen::Matrix2d::Zero();  // Σ n nᵀ, horizontal part, of what agrees
@@ -110,13 +110,15 @@ Meetings meet(const Party& target, const NearestGrid& nearest, const Party& sour
       ++m.beside;
       note(q, -1);
     }
-    if (near && same_side(r, s, move.R * s.normal, config.same_normal)) {
+    if (!r.structure()) {
+      ++m.on_floor;
+    } else if (!near || !same_side(r, s, move.R * s.normal, config.same_normal)) {
+      ++m.differ;
+    } else {
       ++m.agree;
       note(q, 1);
       const Eigen::Vector2d n = r.normal.head<2>().cast<double>();
       m.normals += n * n.transpose();
-    } else {
-      ++(r.structure() ? m.differ : m.on_floor);
     }
   }
   return m;
@@ -183,7 +185,7 @@ Evidence weigh(const Indexed& target, const Indexed& source, const SE3& T, const
   out.score = score(a, target.nearest, b, T, config);
   out.structure_pairs = m.agree;
   out.agreeing_m2 = b.structure_m2 * share(m.agree, static_cast<double>(b.weighed.size()));
-  out.structure_inliers = share(m.agree, m.agree + m.differ + m.on_floor);
+  out.structure_inliers = share(m.agree, m.agree + m.differ);
   out.conflict = share(m.in_free, m.all());
   out.reverse_conflict = share(reverse.in_free + reverse.beside, reverse.all());
   out.agreeing_floor_m2 = agreeing_places(m.places) * static_cast<double>(kPlace_m * kPlace_m);

@@ -60,7 +60,7 @@ struct Evidence {
   double overlap = 0;  ///< ε = ½ (N_match/N_s + N_match/N_r) (4.21), 0…1
   /// Share of these pairs with a Mahalanobis distance (3.18, 4.20) below a cell.
   double inlier_ratio = 0;
-  /// Share of the structure with a partner that agrees in place and normal.
+  /// Of the structure that meets structure, the share that agrees in place and normal.
   double structure_inliers = 0;
   int structure_pairs = 0;  ///< sampled structure of the source that agrees
   /// Surface of the source's structure that agrees, m², from the sample's share.

@@ -61,23 +61,38 @@ TEST(Evidence, ConflictIsSeenFromBothMaps) {
   EXPECT_GE(b.reverse_conflict, a.conflict);
 }
 
+/// What speaks for the true pose, with bumps at some height over the floor of the other map.
+struct Bumpy {
+  double score = 0;
+  Evidence evidence;
+};
+Bumpy with_bumps(const Eigen::Vector3f& above, const Eigen::Vector3f& normal) {
+  const WeighedPair p(support::lobby(), {0, 2.5, 12}, {1.2, 3.6, 12});
+  Party b = p.b;
+  for (const Surfel& s : p.a.surfels) {
+    const int i = p.nearest.nearest(s.point + Eigen::Vector3f(0, 0, 0.3F), 0.5F);
+    if (!s.level() || i == NearestGrid::kNone || p.a.surfels[static_cast<std::size_t>(i)].structure()) continue;
+    Surfel bump = s;
+    bump.point = (p.maps.T_a_b.inverse() * (s.point + above).cast<double>()).cast<float>();
+    bump.normal = normal;
+    bump.variation = 1;
+    if (bump.structure()) b.structure.push_back(bump);
+  }
+  EXPECT_GT(b.structure.size(), p.b.structure.size() + 100);
+  b.weighed = b.structure;
+  return {.score = score(p.a, p.nearest, b, p.maps.T_a_b),
+          .evidence = weigh({p.a, p.nearest}, {b, p.nearest_b}, p.maps.T_a_b)};
+}
+
 /// The map of a stereo camera has bumps where the floor is level.
 TEST(Evidence, BumpsOnTheFloorCountAsLittleAsWhatMeetsNothing) {
-  WeighedPair p(support::lobby(), {0, 2.5, 12}, {1.2, 3.6, 12});
-  const auto with = [&](const Eigen::Vector3f& above) {
-    Party b = p.b;
-    for (const Surfel& s : p.a.surfels) {
-      const int i = p.nearest.nearest(s.point + Eigen::Vector3f(0, 0, 0.3F), 0.5F);
-      if (!s.level() || i == NearestGrid::kNone || p.a.surfels[static_cast<std::size_t>(i)].structure()) continue;
-      Surfel bump = s;
-      bump.point = (p.maps.T_a_b.inverse() * (s.point + above).cast<double>()).cast<float>();
-      bump.normal = Eigen::Vector3f::UnitX();
-      b.structure.push_back(bump);
-    }
-    EXPECT_GT(b.structure.size(), p.b.structure.size() + 100);
-    return score(p.a, p.nearest, b, p.maps.T_a_b);
-  };
-  EXPECT_NEAR(with({0, 0, 0.3F}), with({0, 0, -500}), 0.002);
+  const Eigen::Vector3f upright = Eigen::Vector3f::UnitX(), like_the_floors(0.68F, 0, 0.73F);
+  const Bumpy nothing = with_bumps({0, 0, -500}, upright);
+  for (const Bumpy& bumps : {with_bumps({0, 0, 0.3F}, upright), with_bumps({0, 0, 0.1F}, like_the_floors)}) {
+    EXPECT_NEAR(bumps.score, nothing.score, 0.002);
+    EXPECT_NEAR(bumps.evidence.structure_inliers, nothing.evidence.structure_inliers, 0.002);
+    EXPECT_NEAR(bumps.evidence.agreeing_floor_m2, nothing.evidence.agreeing_floor_m2, 3);
+  }
 }
 
 TEST(Evidence, NothingInCommonIsNoEvidence) {
