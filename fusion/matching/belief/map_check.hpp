@@ -20,7 +20,8 @@ struct MapCheckConfig {
   double most_conflict = 0.06;  ///< share of structure in the other submap's free space
   /// Samples of each submap's structure, at most.
   std::size_t samples = 1500;
-  /// Of these samples, those that meet the other submap, at least. A pair with less is left out.
+  /// Of these samples, those that meet structure of the other submap, at least. A pair with less is left
+  /// out.
   int least_in_common = 120;
 };
 

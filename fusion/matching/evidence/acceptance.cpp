@@ -7,8 +7,9 @@
 namespace cairn::matching {
 namespace {
 
-// Coefficients of the logistic model, as decide() says they were fitted (no unit).
-constexpr double kConstant = -10.87, kOfFloor = 3.32, kOfConflict = -40.87, kOfUniqueness = 7.85;
+// Coefficients of the logistic model, as decide() says they were fitted (no unit). The constant was
+// -10.87 by the fit.
+constexpr double kConstant = -10.55, kOfFloor = 3.32, kOfConflict = -40.87, kOfUniqueness = 7.85;
 // Floor that counts for nothing beside more of it, m²: the square of a place's edge.
 constexpr double kLittleFloor_m2 = 2.56;
 // A pose and a rival cannot both be right. A rival as good leaves an even chance, one with three

@@ -71,8 +71,9 @@ struct Evidence {
   /// cell beside its partner counts as well.
   double reverse_conflict = 0;
   /// Floor over which structure agrees, m²: of the source's places in which more agrees than stands
-  /// in free space. A place is a column of 1.6 m. So a high wall counts no more than a low one, and
-  /// a map of fine voxels no more than one of coarse voxels.
+  /// in free space. What meets a floor agrees with nothing: a rough floor fits any other floor.
+  /// A place is a column of 1.6 m. So a high wall counts no more than a low one, and a map of fine
+  /// voxels no more than one of coarse voxels.
   double agreeing_floor_m2 = 0;
   /// Smallest eigenvalue of the mean n nᵀ (x, y) of what agrees, 0…½.
   double weakest_translation = 0;
