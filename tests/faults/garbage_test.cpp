@@ -151,7 +151,7 @@ TEST_P(GarbageTest, OdometryIsFoundAgainAfterwards) {
 
 INSTANTIATE_TEST_SUITE_P(FullKinds, GarbageTest, testing::ValuesIn(kinds()),
                          [](const auto& kind) { return kind.param.name; });
-// Two of them: points that mislead odometry, and stamps that mislead the clock.
+// Two of them: stamps that mislead the clock, and points that mislead odometry.
 INSTANTIATE_TEST_SUITE_P(Kinds, GarbageTest, testing::Values(kinds()[3], kinds()[6]),
                          [](const auto& kind) { return kind.param.name; });
 
