@@ -12,6 +12,6 @@ if(embree_FOUND)
   foreach(program IN ITEMS matching_missions matching_covariance matching_global map_check)
     cairn_quality(${program} SOURCES ${program}.cpp LINK missions cairn_merging)
   endforeach()
-  cairn_quality(matching_pairs SOURCES matching_pairs.cpp 
-    pairs/chart.cpp pairs/grounds.cpp pairs/results.cpp pairs/survey.cpp LINK missions)
+  cairn_quality(matching_pairs SOURCES matching_pairs.cpp
+    pairs/calibration.cpp pairs/chart.cpp pairs/grounds.cpp pairs/results.cpp pairs/survey.cpp LINK missions)
 endif()

@@ -12,6 +12,7 @@
 #include "fusion/matching/matcher.hpp"
 #include "fusion/matching/methods.hpp"
 #include "hal/clock.hpp"
+#include "tests/bench/pairs/calibration.hpp"
 
 namespace cairn::pairs {
 namespace {
@@ -19,7 +20,6 @@ namespace {
 // Bounds of the rows, overlap (4.21), and what they are called.
 constexpr std::array kLeast{0.52, 0.375, 0.25, 0.15, 0.07};
 constexpr std::array kRowNames{"60 %", "45 %", "30 %", "20 %", "10 %"};
-constexpr int kBins = 10;
 
 void write(const Answer& x, std::uint64_t seed) {
   const matching::Evidence& e = x.result.evidence;
@@ -85,8 +85,7 @@ void Results::row(const std::string& name, const Which& which) const {
 }
 
 /// Negatives weigh together as much as the others do.
-void Results::calibration(double voxel_m) const {
-  std::array<double, kBins> weight{}, sum{}, right{};
+void Results::calibrated(double voxel_m) const {
   double one_place = 0, other = 0;
   const auto is_one = [](const Answer& x) { return x.type == "global" || x.type == "local"; };
   const auto is_other = [](const Answer& x) { return x.type == "plain" || x.type == "mirrored"; };
@@ -95,20 +94,16 @@ void Results::calibration(double voxel_m) const {
     one_place += is_one(x) ? 1 : 0;
     other += is_other(x) ? 1 : 0;
   }
-  for (const Answer& x : all_) {
-    if (x.voxel_m != voxel_m || (!is_one(x) && !is_other(x))) continue;
-    const double w = is_one(x) ? 1 : one_place / std::max(1.0, other), p = x.result.probability_correct;
-    const auto bin = static_cast<std::size_t>(std::min(kBins - 1, static_cast<int>(p * kBins)));
-    weight[bin] += w;
-    sum[bin] += w * p;
-    right[bin] += x.right ? w : 0;
-  }
-  double error = 0, total = 0;
-  for (std::size_t i = 0; i < kBins; ++i) {
-    error += std::abs(sum[i] - right[i]);
-    total += weight[i];
-  }
-  if (total > 0) std::printf("  voxels of %.2f m: calibration error (ECE) %.3f\n", voxel_m, error / total);
+  std::vector<Judged> answers;
+  for (const Answer& x : all_)
+    if (x.voxel_m == voxel_m && (is_one(x) || is_other(x)))
+      answers.push_back(
+          {.weight = is_one(x) ? 1 : one_place / other, .p = x.result.probability_correct, .right = x.right});
+  if (answers.empty()) return;
+  const Calibration found = calibration(answers);
+  std::printf(
+      "  voxels of %.2f m: calibration error (ECE) %.3f of %zu answers; true probabilities: %.3f, rarely over %.3f\n",
+      voxel_m, found.error, answers.size(), found.by_chance, found.rarely_over);
 }
 
 void Results::print() const {
@@ -130,7 +125,7 @@ void Results::print() const {
   }
   for (const std::string type : {"plain", "mirrored", "symmetric", "copy", "turned"})
     row(type, [&](const Answer& x) { return x.type == type; });
-  for (const double voxel : kVoxels_m) calibration(voxel);
+  for (const double voxel : kVoxels_m) calibrated(voxel);
   std::printf("  %.0f MB of memory at most\n", memory_mb()[1]);
   std::fflush(stdout);
 }

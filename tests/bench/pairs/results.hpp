@@ -41,7 +41,7 @@ class Results {
  private:
   template <class Which>
   void row(const std::string& name, const Which& which) const;
-  void calibration(double voxel_m) const;
+  void calibrated(double voxel_m) const;
 
   bool csv_;
   std::vector<Answer> all_;
