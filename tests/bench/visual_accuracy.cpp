@@ -8,10 +8,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <filesystem>
-#include <fstream>
-#include <map>
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -20,9 +17,8 @@
 #include <vector>
 
 #include "hal/clock.hpp"
-#include "onboard/app/profile/recorded_profile.hpp"
-#include "onboard/perception/stereo/rectifier.hpp"
 #include "onboard/visual_odometry/stereo_odometry.hpp"
+#include "tests/bench/recorded_flight.hpp"
 
 namespace cairn::visual_odometry {
 namespace {
@@ -34,28 +30,6 @@ struct Settings {
   int every = 1;
   double dark_from_s = -1, dark_for_s = 0;
 };
-
-struct Truth {
-  std::map<std::int64_t, SE3> poses;  // by nanoseconds
-
-  [[nodiscard]] SE3 at(std::int64_t ns) const {
-    const auto after = poses.lower_bound(ns);
-    if (after == poses.end()) return poses.rbegin()->second;
-    if (after == poses.begin() || after->first == ns) return after->second;
-    const auto before = std::prev(after);
-    const double share = static_cast<double>(ns - before->first) / static_cast<double>(after->first - before->first);
-    return before->second * SE3::exp(share * (before->second.inverse() * after->second).log());
-  }
-};
-
-Truth load_truth(const fs::path& file) {
-  Truth truth;
-  std::ifstream in(file);
-  double t = 0, x = 0, y = 0, z = 0, qx = 0, qy = 0, qz = 0, qw = 0;
-  while (in >> t >> x >> y >> z >> qx >> qy >> qz >> qw)
-    truth.poses[std::llround(t * 1e9)] = SE3(Eigen::Quaterniond(qw, qx, qy, qz), Eigen::Vector3d(x, y, z));
-  return truth;
-}
 
 double percentile(std::vector<double> values, double share) {
   if (values.empty()) return 0;
@@ -110,41 +84,10 @@ void print(const std::string& name, const Figures& f) {
   std::fflush(stdout);
 }
 
-std::vector<std::pair<std::int64_t, fs::path>> pictures_of(const fs::path& recording) {
-  std::vector<std::pair<std::int64_t, fs::path>> pictures;
-  for (const auto& entry : fs::directory_iterator(recording / "camera" / "data"))
-    if (entry.path().extension() == ".png") pictures.emplace_back(std::stoll(entry.path().stem()), entry.path());
-  std::ranges::sort(pictures);
-  return pictures;
-}
-
 Image decoded(const fs::path& file, std::int64_t ns, bool dark) {
   cv::Mat picture = cv::imread(file.string(), cv::IMREAD_COLOR);
   if (dark) cv::randn(picture, cv::Scalar::all(4), cv::Scalar::all(2));
-  Image image;
-  image.resize(PixelFormat::kBgr8, picture.cols, picture.rows);
-  std::memcpy(image.bytes.data(), picture.data, image.bytes.size());
-  image.stamp = Time{std::chrono::nanoseconds(ns)};
-  return image;
-}
-
-/// What a recording's profile says of its stereo camera.
-struct Eyes {
-  stereo::Rectifier rectifier;
-  SE3 T_base_eye;
-};
-
-Result<Eyes> eyes_of(const fs::path& recording) {
-  const auto chosen = app::choose_profile({}, recording);
-  if (!chosen) return chosen.error();
-  const app::CameraProfile& camera = chosen->profile.camera;
-  const app::PictureSize size = picture_size(camera);
-  const auto model = camera.intrinsics.model(size.width, size.height);
-  if (!model) return model.error();
-  auto rectifier = stereo::Rectifier::create(*model, camera.intrinsics.baseline_m);
-  if (!rectifier) return rectifier.error();
-  const SE3 T_base_camera = SE3::from_xyz_rpy(Eigen::Map<const Vector6>(camera.base_xyz_rpy.data()));
-  return Eyes{std::move(*rectifier), T_base_camera * cameras::T_camera_optical()};
+  return flights::image_of(picture, ns);
 }
 
 void trace(double s, const VisualUpdate& u, const Figures& f) {
@@ -156,11 +99,11 @@ void trace(double s, const VisualUpdate& u, const Figures& f) {
 }
 
 void run(const fs::path& recording, const Settings& settings) {
-  const auto eyes = eyes_of(recording);
+  const auto eyes = flights::eyes_of(recording);
   if (!eyes) return (void)std::printf("%s\n", to_string(eyes.error()).c_str());
   StereoOdometry odometry(settings.odometry, eyes->rectifier.geometry(), eyes->T_base_eye);
-  const Truth truth = load_truth(recording / "ground_truth.tum");
-  const auto pictures = pictures_of(recording);
+  const flights::Truth truth = flights::load_truth(recording / "ground_truth.tum");
+  const auto pictures = flights::pictures_of(recording);
   const SE3 T_start = truth.at(pictures.front().first);
   Figures figures;
   SE3 before;

@@ -12,11 +12,12 @@
 namespace cairn::stereo {
 namespace {
 
-constexpr int kCoarser = 2;           // the search sees pictures of half the size, which is four times as fast
-constexpr int kSteps = 16;            // OpenCV's disparities, in a pixel
-constexpr int kSpeckleRange = 2;      // pixels between neighbours of one island
-constexpr int kLeftRight_px = 1;      // both directions of the search must agree this well
-constexpr int kLargestGradient = 31;  // of the filter before the comparison
+constexpr int kCoarser = 2;            // the search sees pictures of half the size, which is four times as fast
+constexpr int kSteps = 16;             // OpenCV's disparities, in a pixel
+constexpr int kSpeckleRange = 2;       // pixels between neighbours of one island
+constexpr int kLeftRight_px = 1;       // both directions of the search must agree this well
+constexpr int kLargestGradient = 31;   // of the filter before the comparison
+constexpr double kSearchError_px = 1;  // of what the search finds
 
 }  // namespace
 
@@ -53,20 +54,35 @@ std::optional<DisparityStart> DenseStereo::start_at(int x, int y) const {
   return DisparityStart{x, y, here, (right - left) / 4, (below - above) / 4};
 }
 
+void DenseStereo::search(const StereoPair& pair) {
+  cv::resize(as_mat(pair.left), matcher_->small_left, {}, 1.0 / kCoarser, 1.0 / kCoarser, cv::INTER_AREA);
+  cv::resize(as_mat(pair.right), matcher_->small_right, {}, 1.0 / kCoarser, 1.0 / kCoarser, cv::INTER_AREA);
+  matcher_->search->compute(matcher_->small_left, matcher_->small_right, matcher_->disparity);
+}
+
+void DenseStereo::refine(const StereoPair& pair, double least_px) {
+  const auto samples = [&](int pixels) { return (pixels - 2 * kFirst_px + config_.stride_px - 1) / config_.stride_px; };
+  field_.reset(samples(geometry_.width), samples(geometry_.height));
+  const cv::Mat left = as_mat(pair.left), right = as_mat(pair.right);
+  const DisparityRefiner refiner(left, right);
+  for (int row = 0; row < field_.rows(); ++row)
+    for (int column = 0; column < field_.columns(); ++column) {
+      const auto start = start_at(pixel(column), pixel(row));
+      if (!start || start->disparity < least_px - kSearchError_px) continue;
+      if (const auto disparity = refiner.refine(*start)) field_.set(column, row, *disparity);
+    }
+}
+
 void DenseStereo::measure(const StereoPair& pair, double max_range_m, std::vector<Eigen::Vector3f>& points) {
   points.clear();
-  const cv::Mat left = as_mat(pair.left), right = as_mat(pair.right);
-  cv::resize(left, matcher_->small_left, {}, 1.0 / kCoarser, 1.0 / kCoarser, cv::INTER_AREA);
-  cv::resize(right, matcher_->small_right, {}, 1.0 / kCoarser, 1.0 / kCoarser, cv::INTER_AREA);
-  matcher_->search->compute(matcher_->small_left, matcher_->small_right, matcher_->disparity);
-  const DisparityRefiner refiner(left, right);
-  const double least = geometry_.fx * geometry_.baseline_m / max_range_m;
-  for (int y = 2; y < geometry_.height - 2; y += config_.stride_px)
-    for (int x = 2; x < geometry_.width - 2; x += config_.stride_px) {
-      const auto start = start_at(x, y);
-      if (!start || start->disparity < least - 1) continue;
-      const auto disparity = refiner.refine(*start);
-      if (disparity && *disparity >= least) points.emplace_back(geometry_.point(x, y, *disparity).cast<float>());
+  const double least_px = geometry_.fx * geometry_.baseline_m / max_range_m;
+  search(pair);
+  refine(pair, least_px);
+  for (int row = 0; row < field_.rows(); ++row)
+    for (int column = 0; column < field_.columns(); ++column) {
+      const auto disparity = field_.on_plane(column, row, config_.plane_gate_px, config_.plane_points);
+      if (disparity && *disparity >= least_px)
+        points.emplace_back(geometry_.point(pixel(column), pixel(row), *disparity).cast<float>());
     }
 }
 
@@ -78,6 +94,10 @@ void declare(config::Section& s, DenseStereoConfig& c) {
   s.integer("speckle_px", c.speckle_px, {0, 5000}, "pixels", "smaller islands of equal depth are left out");
   s.integer("stride_px", c.stride_px, {1, 16}, "pixels", "every so many pixels become a point");
   s.number("max_jump_px", c.max_jump_px, {0.2, 100}, "pixels", "points where the disparity jumps more are left out");
+  s.number("plane_gate_px", c.plane_gate_px, {0.05, 10}, "pixels",
+           "a point's neighbours on its plane are nearer to it");
+  s.integer("plane_points", c.plane_points, {1, 81}, "",
+            "a point is left out where fewer of the 81 around it are on its plane");
 }
 
 }  // namespace cairn::stereo

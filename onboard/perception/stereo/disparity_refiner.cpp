@@ -8,9 +8,9 @@ namespace cairn::stereo {
 namespace {
 
 constexpr int kMostSteps = 4;
-constexpr double kEnough_px = 0.02;
+constexpr double kEnough_px = 0.05;
 constexpr double kLargestMove_px = 1.0;
-constexpr double kLeastGradient = 1.5;     // of 255 per pixel, root mean square: 0.2 pixels of disparity at usual noise
+constexpr double kLeastGradient = 1.2;  // of 255 per pixel, root mean square: 0.25 pixels of disparity at usual noise
 constexpr double kLargestDifference = 12;  // of 255, root mean square, of patches that look alike
 constexpr int kPixels = (2 * DisparityRefiner::kReach + 1) * (2 * DisparityRefiner::kReach + 1);
 
