@@ -34,8 +34,9 @@ bool DisparityRefiner::compare(const DisparityStart& start, double disparity, Su
     const auto* const r = right_.ptr<unsigned char>(start.y + j);
     for (int i = -kReach; i <= kReach; ++i) {
       const double x = start.x + i - (disparity + start.slope_x * i + start.slope_y * j);
-      const auto column = static_cast<int>(std::floor(x));
-      if (column < 1 || column + 2 >= right_.cols) return false;
+      if (!(x >= 1)) return false;
+      const auto column = static_cast<int>(x);
+      if (column + 2 >= right_.cols) return false;
       const double part = x - column;
       const double value = r[column] + part * (r[column + 1] - r[column]);
       const double before = r[column - 1] + part * (r[column] - r[column - 1]);

@@ -18,7 +18,7 @@
 
 #include "hal/clock.hpp"
 #include "onboard/visual_odometry/stereo_odometry.hpp"
-#include "tests/bench/recorded_flight.hpp"
+#include "tests/bench/flights/recorded_flight.hpp"
 
 namespace cairn::visual_odometry {
 namespace {

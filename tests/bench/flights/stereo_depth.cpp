@@ -16,7 +16,7 @@
 #include "onboard/mapping/mapper.hpp"
 #include "onboard/perception/stereo/dense_stereo.hpp"
 #include "onboard/report/figures/map_error.hpp"
-#include "tests/bench/recorded_flight.hpp"
+#include "tests/bench/flights/recorded_flight.hpp"
 #include "tools/simulator/scenes/make_world.hpp"
 #include "tools/simulator/world/tracer.hpp"
 
