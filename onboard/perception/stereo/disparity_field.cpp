@@ -2,15 +2,14 @@
 #include "onboard/perception/stereo/disparity_field.hpp"
 
 #include <Eigen/Core>
-#include <cmath>
 
 namespace cairn::stereo {
 namespace {
 
 constexpr int kEdge = 2 * DisparityField::kReach + 1;
 constexpr int kLanes = 12;             // the first multiple of four with room for kEdge
-constexpr int kFits = 2;               // with the gate proper
-constexpr float kRoughGate = 1.2F;     // pixels, while the plane's slope is not known
+constexpr int kFits = 2;               // with the gate proper; chosen by hand, not tuned
+constexpr float kRoughGate = 1.2F;     // pixels, while the plane's slope is not known; chosen by hand, not tuned
 constexpr float kLeastSpread = 1e-3F;  // added to squared samples: a row of samples has no slope across
 
 using Lanes = Eigen::Array<float, kLanes, 1>;

@@ -4,12 +4,14 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstdio>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <map>
 #include <opencv2/core.hpp>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -81,6 +83,22 @@ inline Result<Eyes> eyes_of(const std::filesystem::path& recording) {
   if (!rectifier) return rectifier.error();
   const SE3 T_base_camera = SE3::from_xyz_rpy(Eigen::Map<const Vector6>(camera.base_xyz_rpy.data()));
   return Eyes{std::move(*rectifier), T_base_camera * cameras::T_camera_optical(), chosen->profile.stereo};
+}
+
+/// Arguments of a measuring tool: recordings, and KEY=VALUE, for which `set` says whether there is such a key.
+template <class Set>
+[[nodiscard]] bool read_arguments(std::span<char* const> arguments, std::vector<std::filesystem::path>& recordings,
+                                  const Set& set) {
+  for (const std::string text : arguments) {
+    const std::size_t equals = text.find('=');
+    if (equals == std::string::npos) {
+      recordings.emplace_back(text);
+    } else if (!set(text.substr(0, equals), text.substr(equals + 1))) {
+      std::fprintf(stderr, "%s: no such setting\n", text.c_str());
+      return false;
+    }
+  }
+  return true;
 }
 
 }  // namespace cairn::flights

@@ -175,15 +175,8 @@ bool set(const std::string& key, const std::string& value, Settings& s) {
 int main_program(std::span<char*> arguments) {
   Settings settings;
   std::vector<fs::path> recordings;
-  for (const std::string text : arguments) {
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos) {
-      recordings.emplace_back(text);
-    } else if (!set(text.substr(0, equals), text.substr(equals + 1), settings)) {
-      std::fprintf(stderr, "%s: no such setting\n", text.c_str());
-      return 2;
-    }
-  }
+  const auto known = [&](const std::string& key, const std::string& value) { return set(key, value, settings); };
+  if (!flights::read_arguments(arguments, recordings, known)) return 2;
   for (const fs::path& recording : recordings)
     if (const auto done = run(recording, settings); !done) {
       std::fprintf(stderr, "%s\n", to_string(done.error()).c_str());

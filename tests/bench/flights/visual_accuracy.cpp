@@ -138,16 +138,8 @@ bool set(const std::string& key, const std::string& value, Settings& s) {
 int main_program(int argc, char** argv) {
   Settings settings;
   std::vector<fs::path> recordings;
-  for (int i = 1; i < argc; ++i) {
-    const std::string text = argv[i];
-    const std::size_t equals = text.find('=');
-    if (equals == std::string::npos) {
-      recordings.emplace_back(text);
-    } else if (!set(text.substr(0, equals), text.substr(equals + 1), settings)) {
-      std::fprintf(stderr, "%s: no such setting\n", text.c_str());
-      return 2;
-    }
-  }
+  const auto known = [&](const std::string& key, const std::string& value) { return set(key, value, settings); };
+  if (!flights::read_arguments({argv + 1, argv + argc}, recordings, known)) return 2;
   cv::setNumThreads(1);
   for (const fs::path& recording : recordings) run(recording, settings);
   return 0;
