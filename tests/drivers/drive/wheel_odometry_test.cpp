@@ -8,6 +8,7 @@
 
 #include "drivers/drive/chassis/differential.hpp"
 #include "tests/drivers/drive/virtual_bus.hpp"
+#include "tests/support/rounds.hpp"
 #include "tools/simulator/world/random.hpp"
 
 namespace cairn::drive {
@@ -138,8 +139,8 @@ TEST(WheelOdometry, AnImpossibleJumpIsBridged) {
 /// The truth lies within 3 σ at 95 % of the stamps when the world errs as the model says.
 TEST(WheelOdometry, CovarianceIsHonest) {
   int inside = 0, total = 0;
-  for (std::uint64_t seed = 1; seed <= 100; ++seed) {
-    simulator::Random random(seed);
+  for (int seed = 1; seed <= support::rounds(100, 30); ++seed) {
+    simulator::Random random(static_cast<std::uint64_t>(seed));
     const Config config = test::two_nodes();
     WheelOdometry odometry(config);
     odometry.start(Time{1s});

@@ -163,6 +163,17 @@ std::vector<Eigen::Vector3f> positions(const std::vector<ExpectedPoint>& expecte
   return out;
 }
 
+/// Squared distance to the nearest of `points`, which ascend in x.
+float nearest(const std::vector<Eigen::Vector3f>& points, const Eigen::Vector3f& p) {
+  auto right = std::ranges::lower_bound(points, p.x(), {}, [](const auto& q) { return q.x(); });
+  auto left = right;
+  float best = std::numeric_limits<float>::infinity();
+  const auto may_be_nearer = [&](const Eigen::Vector3f& q) { return (q.x() - p.x()) * (q.x() - p.x()) < best; };
+  while (left != points.begin() && may_be_nearer(*std::prev(left))) best = std::min(best, (*--left - p).squaredNorm());
+  for (; right != points.end() && may_be_nearer(*right); ++right) best = std::min(best, (*right - p).squaredNorm());
+  return best;
+}
+
 /// Distances in metres to the nearest of our points in the same ring; ascending.
 std::vector<double> distances(const std::vector<ExpectedPoint>& expected, const std::vector<Scan>& ours,
                               double repair_deg) {
@@ -170,13 +181,11 @@ std::vector<double> distances(const std::vector<ExpectedPoint>& expected, const 
   for (const Scan& s : ours)
     for (std::size_t i = 0; i < s.cloud.size(); ++i)
       rings[s.cloud.ring[i]].push_back(s.cloud.xyz[i] - offset_of_ring(s.cloud.ring[i]));
+  for (auto& ring : rings) std::ranges::sort(ring, {}, [](const auto& p) { return p.x(); });
   const auto points = positions(expected, repair_deg);
   std::vector<double> out;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    float nearest = std::numeric_limits<float>::infinity();
-    for (const auto& p : rings.at(expected[i].channel)) nearest = std::min(nearest, (p - points[i]).squaredNorm());
-    out.push_back(std::sqrt(nearest));
-  }
+  for (std::size_t i = 0; i < points.size(); ++i)
+    out.push_back(std::sqrt(nearest(rings.at(expected[i].channel), points[i])));
   std::sort(out.begin(), out.end());
   return out;
 }

@@ -24,8 +24,8 @@ inline bool read_kitti_matrix(std::istream& in, Eigen::Isometry3d& T) {
 }
 
 /// At most `count` scans of KITTI odometry 00 (HDL-64E, motion-compensated) in the map frame, which is the first scan's
-/// frame; empty when the recording is not there.
-inline std::vector<MapScan> kitti_scans(int count) {
+/// frame, of which every `stride`-th point; empty when the recording is not there.
+inline std::vector<MapScan> kitti_scans(int count, int stride = 1) {
   const std::filesystem::path folder = kitti_recording();
   std::ifstream poses(folder / "poses_cam0.txt"), calibration(folder / "calib.txt");
   std::string word;
@@ -39,8 +39,10 @@ inline std::vector<MapScan> kitti_scans(int count) {
     // The first LiDAR frame is the map frame: upright, where the camera's lies on its side.
     const Eigen::Isometry3d T_map_lidar = T_cam_lidar.inverse() * T_map_cam * T_cam_lidar;
     MapScan scan{{}, T_map_lidar.translation().cast<float>()};
+    int point = 0;
     for (float xyzi[4]; in.read(reinterpret_cast<char*>(xyzi), sizeof xyzi);)
-      scan.points.emplace_back((T_map_lidar * Eigen::Vector3d(xyzi[0], xyzi[1], xyzi[2])).cast<float>());
+      if (point++ % stride == 0)
+        scan.points.emplace_back((T_map_lidar * Eigen::Vector3d(xyzi[0], xyzi[1], xyzi[2])).cast<float>());
     scans.push_back(std::move(scan));
   }
   return scans;

@@ -5,6 +5,7 @@
 #include "onboard/mapping/mapper.hpp"
 #include "tests/onboard/mapping/scan_yard.hpp"
 #include "tests/onboard/mapping/tree_compare.hpp"
+#include "tests/support/rounds.hpp"
 
 namespace cairn::mapping {
 namespace {
@@ -15,7 +16,7 @@ TEST(MapperSensors, AnotherSensorHasItsOwnModelAndRange) {
   Mapper mapper({.resolution_m = 0.2}, workers);
   const SensorTrust depth{.prob_hit = 0.6, .prob_miss = 0.45, .max_range_m = 4};
   octomap::OcTree stock(0.2);
-  const ScanYard yard(300);
+  const ScanYard yard(support::rounds(300, 60));
   for (int i = 0; i < 6; ++i) {
     const MapScan scan = yard.scan(3 * i);
     const bool other = i % 2 == 1;

@@ -44,9 +44,9 @@ PictureEdges picture_from(const SE3& T_odom_base) {
 
 AlignmentScore score_of(const PictureEdges& picture, const SE3& T_base_camera, const SE3& T_scan_exposure = SE3()) {
   static const test::Sweep s = test::sweep(true, 0.004, 0.002);
-  DepthEdgeFinder finder;
+  static DepthEdgeFinder finder;
+  static const auto edges = finder.find(s.cloud, s.points_base, Eigen::Matrix3d::Identity());
   AlignmentScore score(sharp_camera(), T_base_camera);
-  const auto edges = finder.find(s.cloud, s.points_base, Eigen::Matrix3d::Identity());
   score.add(picture, edges, T_scan_exposure);
   return score;
 }

@@ -38,12 +38,14 @@ TEST(Projection, ARollingShutterSeesEachPointWhenItsRowIsExposed) {
   EXPECT_GT(seen.size(), 500U);
   double most_apart = 0;
   const auto at_once = global.project(scan.points_base, scan.T_odom_base, turning());
+  ASSERT_TRUE(std::ranges::is_sorted(at_once, {}, &Projected::index));
   for (const Projected& p : seen) {
     const auto expected = by_trial(camera, turning(), scan.points_base[p.index].cast<double>());
     ASSERT_TRUE(expected);
     EXPECT_LT((*expected - Eigen::Vector2d(p.u, p.v)).norm(), 0.1);
-    for (const Projected& q : at_once)
-      if (q.index == p.index) most_apart = std::max<double>(most_apart, std::hypot(p.u - q.u, p.v - q.v));
+    const auto q = std::ranges::lower_bound(at_once, p.index, {}, &Projected::index);
+    if (q != at_once.end() && q->index == p.index)
+      most_apart = std::max<double>(most_apart, std::hypot(p.u - q->u, p.v - q->v));
   }
   EXPECT_GT(most_apart, 2) << "a global shutter would be wrong by pixels";
 }
