@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "drivers/camera/convert.hpp"
+#include "drivers/camera/picture_file.hpp"
 
 namespace cairn::camera {
 
@@ -32,6 +33,7 @@ Result<void> left_eye(const Image& both, Image& left) {
 
 Result<Camera> Camera::create(const Config& config) {
   if (auto sound = check(config); !sound) return sound.error();
+  load_codecs();
   return Camera(config);
 }
 

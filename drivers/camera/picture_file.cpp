@@ -100,4 +100,11 @@ Result<std::string_view> frame_to_picture(const Frame& frame, std::vector<std::b
   return std::string_view(".png");
 }
 
+void load_codecs() {
+  try {
+    static_cast<void>(cv::haveImageWriter(".png"));
+  } catch (const std::exception&) {  // told by whoever needs it
+  }
+}
+
 }  // namespace cairn::camera

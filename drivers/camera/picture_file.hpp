@@ -35,4 +35,8 @@ struct PictureHeader {
 /// YUV is converted to colour. `encoded` is replaced. Returns the extension of the file name.
 [[nodiscard]] Result<std::string_view> frame_to_picture(const Frame& frame, std::vector<std::byte>& encoded);
 
+/// Loads OpenCV's library for picture files, which takes 0.1 s once in a process. Whoever awaits pictures calls it, so
+/// that the first one need not wait. Without the library nothing happens; the first picture then tells it.
+void load_codecs();
+
 }  // namespace cairn::camera

@@ -44,7 +44,10 @@ struct Row {
 /// Of the matrix, but not automated here.
 [[nodiscard]] std::vector<Row> rows_left_out();
 
-/// All, as docs/faults.md has them.
-[[nodiscard]] std::string to_markdown();
+/// A measured row of docs/faults.md, with its newline.
+[[nodiscard]] std::string to_line(const Row& row, const Measured& measured);
+
+/// All, as docs/faults.md has them. `measured_line` gives the lines of the rows that are measured.
+[[nodiscard]] std::string to_markdown(const std::function<std::string(const Row&)>& measured_line);
 
 }  // namespace cairn::faults

@@ -89,6 +89,7 @@ Result<ImageFolderWriter> ImageFolderWriter::create(const fs::path& folder) {
   auto index = AppendFile::create(folder / "data.csv");
   if (!index) return index.error();
   if (auto header = index->append_line(kImageIndexHeader); !header) return header.error();
+  camera::load_codecs();
   return ImageFolderWriter(folder / kPictures, std::move(*index));
 }
 

@@ -74,15 +74,19 @@ class AreaCounter {
     corner(x0, y1 + 1) -= 1;
     corner(x1 + 1, y1 + 1) += 1;
   }
-  [[nodiscard]] std::vector<std::uint8_t> covered() {
-    for (int y = 0; y <= height_; ++y)
-      for (int x = 1; x <= width_; ++x) corner(x, y) += corner(x - 1, y);
-    for (int y = 1; y <= height_; ++y)
-      for (int x = 0; x <= width_; ++x) corner(x, y) += corner(x, y - 1);
-    std::vector<std::uint8_t> out;
-    out.reserve(static_cast<std::size_t>(width_) * static_cast<std::size_t>(height_));
-    for (int y = 0; y < height_; ++y)
-      for (int x = 0; x < width_; ++x) out.push_back(corner(x, y) > 0 ? 1 : 0);
+  [[nodiscard]] std::vector<std::uint8_t> covered() const {
+    const auto width = static_cast<std::size_t>(width_), height = static_cast<std::size_t>(height_);
+    std::vector<std::uint8_t> out(width * height);
+    std::vector<std::int64_t> over(width);  // how many rectangles lie over the cells of the row
+    for (std::size_t y = 0; y < height; ++y) {
+      const std::int64_t* corner = corners_.data() + y * (width + 1);
+      std::int64_t begun = 0;
+      for (std::size_t x = 0; x < width; ++x) {
+        begun += corner[x];
+        over[x] += begun;
+        out[y * width + x] = over[x] > 0 ? 1 : 0;
+      }
+    }
     return out;
   }
 

@@ -23,7 +23,7 @@ class SimulatedTest(unittest.TestCase):
         if "simulate" not in run("--help"):
             raise unittest.SkipTest("this build has no simulator")
         cls.folder = cls.enterClassContext(tempfile.TemporaryDirectory())
-        run("simulate", "--scene", "office", "--seconds", "1", "--seed", "3", "--sensors", "lidar,camera,thermal,depth",
+        run("simulate", "--scene", "corridor", "--seconds", "1", "--seed", "3", "--sensors", "lidar,camera,thermal,depth",
             "--camera-rate", "5", "--out", os.path.join(cls.folder, "sim"))
         cls.recording = os.path.join(cls.folder, "sim", "robot_1")
 

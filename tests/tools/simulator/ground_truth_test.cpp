@@ -65,10 +65,17 @@ class TrueBoxes {
   thermal::Thermal lepton_ = thermal::Thermal::create({}).value();
 };
 
-TEST(GroundTruth, EveryPicturesPeopleAreToldUnderTheStampThatTheDecodersGiveIt) {
+class GroundTruth : public testing::TestWithParam<const char*> {};
+
+INSTANTIATE_TEST_SUITE_P(Scenes, GroundTruth, testing::Values("corridor"),
+                         [](const auto& i) { return std::string(i.param); });
+INSTANTIATE_TEST_SUITE_P(FullScenes, GroundTruth, testing::Values("street"),
+                         [](const auto& i) { return std::string(i.param); });
+
+TEST_P(GroundTruth, EveryPicturesPeopleAreToldUnderTheStampThatTheDecodersGiveIt) {
   const support::TemporaryFolder folder;
   SimulationConfig c;
-  c.scene = "street";
+  c.scene = GetParam();
   c.seconds = 0.3;
   c.out = folder / "out";
   c.sensors = {false, true, true, false, false, false};
