@@ -14,7 +14,8 @@ struct DisparityStart {
 };
 
 /// Makes disparities exact to a tenth of a pixel: Gauss–Newton steps on the difference of a patch in both eyes (Lucas,
-/// Kanade, 1981, in one direction). The patch leans as the surface does. Both pictures: 8 bits, of the same size.
+/// Kanade, 1981, in one direction). The patch leans as the surface does. The left eye's gradient serves all steps, as
+/// both patches look alike (Baker, Matthews, 2004). Both pictures: 8 bits, of the same size.
 class DisparityRefiner {
  public:
   DisparityRefiner(const cv::Mat& left, const cv::Mat& right) : left_(left), right_(right) {}
@@ -26,8 +27,10 @@ class DisparityRefiner {
   static constexpr int kReach = 3;  ///< pixels of a patch around its middle
 
  private:
+  struct Patch;
   struct Sums;
-  [[nodiscard]] bool compare(const DisparityStart& start, double disparity, Sums& sums) const;
+  [[nodiscard]] Patch patch_at(const DisparityStart& start) const;
+  [[nodiscard]] bool compare(const Patch& patch, const DisparityStart& start, float disparity, Sums& sums) const;
 
   const cv::Mat& left_;
   const cv::Mat& right_;
