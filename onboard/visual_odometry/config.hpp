@@ -40,7 +40,7 @@ struct VisualOdometryConfig {
   double initial_angular_speed = 1.0;  ///< rad/s
 
   // When a frame is lost
-  int min_inliers = 15;            ///< landmarks that must fit
+  int min_inliers = 10;            ///< landmarks that must fit
   double min_inlier_share = 0.35;  ///< of the landmarks that were followed
   double give_up_after_s = 1.5;    ///< s. Lost for longer, a new map begins.
 };

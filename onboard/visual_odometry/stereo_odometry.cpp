@@ -192,7 +192,7 @@ void StereoOdometry::lose(double dt_s) {
 
 /// In darkness it waits: a new map would have no landmarks.
 bool StereoOdometry::gives_up(double dt_s) const {
-  return dt_s > config_.give_up_after_s && static_cast<int>(corners_.size()) > 2 * config_.min_inliers;
+  return dt_s > config_.give_up_after_s && static_cast<int>(corners_.size()) > 3 * config_.min_inliers;
 }
 
 bool StereoOdometry::wants_keyframe(int inliers) const {

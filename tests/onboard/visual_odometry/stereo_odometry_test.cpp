@@ -38,10 +38,11 @@ struct Flight {
 };
 
 /// `path`: T_world_base at a time. `dark`: whether the picture is black then.
-Flight fly(int pictures, const std::function<SE3(double)>& path, const std::function<bool(double)>& dark = {}) {
+Flight fly(int pictures, const std::function<SE3(double)>& path, const std::function<bool(double)>& dark = {},
+           const VisualOdometryConfig& config = quick()) {
   const support::World world = support::furnished_room();
   support::StereoView view(world, kFlightEyes, 11);
-  StereoOdometry odometry(quick(), kFlightEyes, kFlightMount);
+  StereoOdometry odometry(config, kFlightEyes, kFlightMount);
   stereo::StereoPair pair;
   Flight flight;
   for (int i = 0; i < pictures; ++i) {
@@ -49,7 +50,7 @@ Flight fly(int pictures, const std::function<SE3(double)>& path, const std::func
     view.shoot(path(t) * kFlightMount, Time{from_seconds(1 + t)}, pair);
     if (dark && dark(t))
       for (Image* eye : {&pair.left, &pair.right}) std::ranges::fill(eye->bytes, std::byte{5});
-    Budget budget = Budget::steps(most_steps(quick()));
+    Budget budget = Budget::steps(most_steps(config));
     flight.updates.push_back(odometry.update(pair, budget).value());
     flight.truth.push_back(path(0).inverse() * path(t));
   }
@@ -77,6 +78,16 @@ TEST(StereoOdometry, StandsStill) {
   const Flight flight = fly(12, [](double) { return flown(0); });
   for (std::size_t i = 0; i < flight.updates.size(); ++i) EXPECT_LT(error_of(flight, i), 0.01);
   EXPECT_LT(flight.updates.back().twist.norm(), 0.05);
+}
+
+TEST(StereoOdometry, ADozenLandmarksAreEnough) {
+  VisualOdometryConfig few = quick();
+  few.tracking.features = 14;  // before a plain wall, there are no more
+  const Flight flight = fly(15, flown, {}, few);
+  for (std::size_t i = 1; i < flight.updates.size(); ++i) {
+    EXPECT_FALSE(flight.updates[i].lost) << i;
+    EXPECT_LT(error_of(flight, i), 0.05) << i;
+  }
 }
 
 TEST(StereoOdometry, AShortDarknessIsSaidAndBridged) {
