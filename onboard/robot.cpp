@@ -72,6 +72,7 @@ void Robot::set_up_odometry(const RobotConfig& config, Workers& workers) {
   } else {
     T_base_sensor_ = config.T_base_lidar;
     lidar_.emplace(config.odometry, config.T_base_lidar, workers);
+    lidar_maps_ = config.lidar_maps;
   }
 }
 
@@ -82,8 +83,7 @@ const odometry::MotionSource& Robot::odometry() const {
 
 void Robot::set_up_cameras(const RobotConfig& config) {
   depth_ = config.depth;
-  const auto& setup = config.labelling;
-  if (setup) labeller_.emplace(setup->camera, setup->T_base_camera, setup->config);
+  if (const auto& setup = config.labelling) labeller_.emplace(setup->camera, setup->T_base_camera, setup->config);
   if (!config.people) return;
   people_.emplace(config.people->config);
   for (const PeopleSetup::MountedEye& eye : config.people->eyes)
@@ -157,7 +157,8 @@ Result<void> Robot::extend_map(const LocatedScan& scan, const MapShare& share) {
   const Eigen::Matrix3f R = T_odom_base.rotation().cast<float>();
   const Eigen::Vector3f t = T_odom_base.translation().cast<float>();
   points_odom_.clear();
-  for (const Eigen::Vector3f& p : scan.points_base) points_odom_.emplace_back(R * p + t);
+  if (lidar_maps_)
+    for (const Eigen::Vector3f& p : scan.points_base) points_odom_.emplace_back(R * p + t);
   const Eigen::Vector3f origin_odom = (T_odom_base * T_base_sensor_.translation()).cast<float>();
   leave_mates_out(scan.stamp);
   if (people_) leave_people_out(scan, origin_odom);
@@ -182,8 +183,7 @@ void Robot::note_mates(std::span<const Mate> mates, std::uint32_t epoch) {
 
 void Robot::leave_mates_out(Time stamp) {
   for (const Mate& mate : mates_) {
-    const Duration age = std::chrono::abs(stamp - mate.stamp);
-    if (age > kMateLife || mate.radius_m <= 0) continue;
+    if (std::chrono::abs(stamp - mate.stamp) > kMateLife || mate.radius_m <= 0) continue;
     const Eigen::Vector2d middle = mate.position.head<2>() + to_seconds(stamp - mate.stamp) * mate.velocity;
     const double radius = mate.radius_m + kMateUnsure;
     std::erase_if(points_odom_, [&](const Eigen::Vector3f& p) {

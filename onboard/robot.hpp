@@ -61,6 +61,7 @@ struct RobotConfig {
   odometry::OdometryConfig odometry;
   mapping::MappingConfig mapping;
   std::optional<LabellingSetup> labelling;    ///< none: the map gets no labels
+  bool lidar_maps = true;                     ///< false: scans tell the motion alone, and the map gets none of them
   std::optional<mapping::SensorTrust> depth;  ///< none: the map gets no clouds of depth cameras
   std::optional<PeopleSetup> people;          ///< none: nobody is followed, and people stay in the map
 };
@@ -204,6 +205,7 @@ class Robot {
   SE3 T_base_sensor_;  // of what measures the points of located scans
   std::optional<odometry::LidarOdometry> lidar_;
   std::optional<visual_odometry::StereoOdometry> eyes_;
+  bool lidar_maps_ = true;                     // as RobotConfig has it
   std::optional<mapping::SensorTrust> trust_;  // of located scans; none: as the map's config has it
   mapping::Mapper mapper_;
   [[nodiscard]] const odometry::MotionSource& odometry() const;

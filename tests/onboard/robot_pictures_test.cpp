@@ -44,6 +44,20 @@ TEST_F(RobotPictures, OfTheLastSecondAreUsed) {
   EXPECT_TRUE(*used);
 }
 
+TEST_F(RobotPictures, MakeTheMapAloneWhereTheLidarDoesNot) {
+  RobotConfig by_depth = config();
+  by_depth.lidar_maps = false;
+  Robot robot{by_depth, one_, another_, monitor_};
+  const auto is_free_or_occupied = [&](double x) { return robot.map().search(x, 0.05, 0.05) != nullptr; };
+  ASSERT_TRUE(robot.extend_map(scan_at(10)));
+  ASSERT_TRUE(robot.extend_map(scan_at(10.1)));
+  EXPECT_EQ(robot.map().size(), 0U);
+  DepthCloud cloud{.stamp = Time{from_seconds(10.05)}, .points_base = {{2.05F, 0.05F, 0.05F}}};
+  EXPECT_EQ(robot.extend_map(cloud).value_or(false), true);
+  EXPECT_TRUE(is_free_or_occupied(2.05));
+  EXPECT_FALSE(is_free_or_occupied(4.95));
+}
+
 TEST_F(RobotPictures, ThatAreTooLateSaySo) {
   const auto late = cloud_at(10.95);  // two seconds before the newest scan
   ASSERT_FALSE(late);

@@ -15,6 +15,7 @@ RobotConfig RobotProfile::robot() const {
   config.T_base_lidar = SE3::from_xyz_rpy(Eigen::Map<const Vector6>(lidar.base_xyz_rpy.data()));
   config.odometry = odometry;
   config.mapping = mapping;
+  config.lidar_maps = lidar.maps;
   if (depth.map.rate_hz > 0) config.depth = depth.map.trust;
   return config;
 }
@@ -119,6 +120,16 @@ Result<void> check_trigger(const RobotProfile& p) {
   return Error{Errc::kInvalidConfig, "faults in the profile", {}, {}, faults.substr(1)};
 }
 
+/// A robot that drives and maps nothing looks as if all were well.
+Result<void> check_map(const RobotProfile& p) {
+  if (!p.lidar.enabled || p.lidar.maps || p.depth.map.rate_hz > 0) return {};
+  return Error{Errc::kInvalidConfig,
+               "nothing would enter the map: lidar.maps is false, and depth.map.rate_hz is 0",
+               {},
+               {},
+               "set depth.map.rate_hz, such as 5, or leave lidar.maps out"};
+}
+
 }  // namespace
 
 Result<RobotProfile> load_profile(const std::filesystem::path& path, RobotProfile profile) {
@@ -131,6 +142,7 @@ Result<RobotProfile> load_profile(const std::filesystem::path& path, RobotProfil
   if (auto sound = check(profile.perception); !sound) return at(path.string(), sound.error());
   if (auto sound = check(profile.team); !sound) return at(path.string(), sound.error());
   if (auto sound = check_trigger(profile); !sound) return at(path.string(), sound.error());
+  if (auto sound = check_map(profile); !sound) return at(path.string(), sound.error());
   if (auto sound = check_mounts(profile); !sound) return at(path.string(), sound.error());
   if (auto sound = calibrate_cameras(profile, path.parent_path()); !sound) return at(path.string(), sound.error());
   return profile;

@@ -22,6 +22,7 @@ void declare_trust(config::Section& s, mapping::SensorTrust& trust) {
 
 void declare(config::Section& s, LidarProfile& p) {
   s.flag("enabled", p.enabled, "whether the robot carries one");
+  s.flag("maps", p.maps, "whether its points enter the map; false: it tells the motion, and depth.map makes the map");
   declare(s, p.driver);
   declare_mount(s, p.base_xyz_rpy, "T_base_lidar", "LiDAR");
 }
@@ -41,7 +42,7 @@ void declare(config::Section& s, ThermalProfile& p) {
 void declare(config::Section& s, DepthProfile& p) {
   declare(s, p.driver);
   declare_mount(s, p.base_xyz_rpy, "T_base_depth", "depth camera (x along its view, y left, z up)");
-  s.group("map", p.map, "how its clouds get into the map, beside the LiDAR's");
+  s.group("map", p.map, "how its clouds get into the map, beside the LiDAR's or alone");
 }
 
 void declare(config::Section& s, DepthMapProfile& p) {

@@ -20,6 +20,7 @@ namespace cairn::app {
 /// How a LiDAR is mounted and spoken to.
 struct LidarProfile {
   bool enabled = true;
+  bool maps = true;  ///< whether its points enter the map; it tells the motion in any case
   velodyne::Config driver;
   std::vector<double> base_xyz_rpy{0, 0, 0, 0, 0, 0};  ///< T_base_lidar: x y z [m], roll pitch yaw [rad], fixed axes
 };

@@ -105,6 +105,16 @@ TEST(RobotProfile, ATriggeredCameraNeedsATriggerLine) {
   EXPECT_TRUE(loaded("camera: {capture: {device: /dev/video0, triggered: true}}\ngpio: {trigger_line: out}"));
 }
 
+TEST(RobotProfile, AMapThatNothingWouldEnterIsRefused) {
+  const auto wrong = loaded("lidar: {maps: false}");
+  ASSERT_FALSE(wrong);
+  EXPECT_NE(to_string(wrong.error()).find("depth.map.rate_hz"), std::string::npos) << to_string(wrong.error());
+  const auto right = loaded("lidar: {maps: false}\ndepth: {map: {rate_hz: 5}}");
+  ASSERT_TRUE(right) << to_string(right.error());
+  EXPECT_FALSE(right->robot().lidar_maps);
+  EXPECT_TRUE(loaded("threads: 1")->robot().lidar_maps);
+}
+
 constexpr const char* kCameraInfo =
     "image_width: 672\nimage_height: 376\ncamera_matrix: {rows: 3, cols: 3, data: [350, 0, 335.5, 0, 351, 187.5, 0, 0, "
     "1]}\ndistortion_model: plumb_bob\ndistortion_coefficients: {rows: 1, cols: 5, data: [-0.17, 0.026, 0, 0, 0]}\n";
