@@ -62,9 +62,8 @@ networks::NetworkConfig shipped_thermal_detection() {
   return network;
 }
 
-/// As config/uav.yaml has it: points of both eyes are coarser and rarer than a LiDAR's.
+/// As config/uav.yaml has it: points of both eyes are rarer than a LiDAR's.
 void map_with_eyes(app::RobotProfile& profile) {
-  profile.mapping.resolution_m = 0.2;
   profile.schedule.mapping.busy_hz = profile.stereo.map_rate_hz;
 }
 

@@ -53,7 +53,7 @@ TEST(SimulatedProfile, ARobotWithoutALidarMapsAsUavYamlSays) {
   SimulationConfig config;
   config.sensors = {.lidar = false, .camera = true};
   const auto profile = simulated_profile(config);
-  EXPECT_EQ(profile.mapping.resolution_m, 0.2);
+  EXPECT_EQ(profile.mapping.resolution_m, 0.1);
   EXPECT_EQ(profile.schedule.mapping.busy_hz, profile.stereo.map_rate_hz);
 }
 
