@@ -63,9 +63,7 @@ networks::NetworkConfig shipped_thermal_detection() {
 }
 
 /// As config/uav.yaml has it: points of both eyes are rarer than a LiDAR's.
-void map_with_eyes(app::RobotProfile& profile) {
-  profile.schedule.mapping.busy_hz = profile.stereo.map_rate_hz;
-}
+void map_with_eyes(app::RobotProfile& profile) { profile.schedule.mapping.busy_hz = profile.stereo.map_rate_hz; }
 
 /// Three frame periods, and never less than the default.
 double silent_ms(double usual_ms, double rate_hz) { return std::clamp(3000 / rate_hz, usual_ms, 1000.0); }
