@@ -7,13 +7,15 @@
 namespace cairn::peers {
 namespace {
 
-/// Adds tiles near the peer that are newer than all that was looked at. `updates` ascend by version.
-void add_near_by(std::vector<ItemUpdate>& updates, const Interest& interest, const Layer& layer,
-                 const VersionSet& at_peer) {
+/// Adds what is urgent and newer than all that was looked at: tiles near the peer, and all that are no tiles. `updates`
+/// ascend by version.
+void add_urgent(std::vector<ItemUpdate>& updates, const Interest& interest, const Layer& layer,
+                const VersionSet& at_peer) {
   if (updates.size() < kLookedAt) return;  // that is all
   const Version looked_at = updates.back().version;
-  for (const ItemUpdate& update : layer.holding.missing_of(interest.near_by(), at_peer))
-    if (update.version > looked_at) updates.push_back(update);
+  for (const auto& ids : {interest.near_by(), layer.holding.without_tiles()})
+    for (const ItemUpdate& update : layer.holding.missing_of(ids, at_peer))
+      if (update.version > looked_at) updates.push_back(update);
 }
 
 }  // namespace
@@ -26,7 +28,7 @@ Missing missing_items(const Delivery& delivery, const Link& link, RobotId self, 
   const VersionSet at_peer = none ? VersionSet{} : known->second.versions;
   Missing missing = delivery.layer.holding.missing(at_peer, kLookedAt + link.in_flight.size());
   const auto interest = interest_of ? std::optional(interest_of(delivery.peer, delivery.robot)) : std::nullopt;
-  if (interest) add_near_by(missing.updates, *interest, delivery.layer, at_peer);
+  if (interest) add_urgent(missing.updates, *interest, delivery.layer, at_peer);
   std::erase_if(missing.updates, [&](const ItemUpdate& update) {
     return link.in_flight.contains({delivery.robot, update.version});
   });

@@ -14,7 +14,8 @@ namespace cairn::peers {
 /// What `peer` can use first of what `robot` publishes.
 using InterestOf = std::function<Interest(RobotId peer, RobotId robot)>;
 
-/// The most urgent items are found among so many that the peer lacks, the oldest ones.
+/// The most urgent tiles are found among so many items that the peer lacks, the oldest ones, and near the peer. What is
+/// no tile is always among the most urgent.
 inline constexpr std::size_t kLookedAt = 1024;
 
 /// A robot's layer, and the peer that it is to be sent to.

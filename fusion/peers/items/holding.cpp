@@ -71,6 +71,13 @@ void Holding::note_superseded(VersionRange gap, VersionSet& out) const {
     out.add({std::max(known.first, gap.first), std::min(known.last, gap.last)});
 }
 
+/// Tiles come before all others, by subject.
+std::vector<ItemId> Holding::without_tiles() const {
+  std::vector<ItemId> ids;
+  for (auto item = items_.lower_bound(ItemId::submap(0)); item != items_.end(); ++item) ids.push_back(item->first);
+  return ids;
+}
+
 std::vector<ItemUpdate> Holding::missing_of(std::span<const ItemId> ids, const VersionSet& at_peer) const {
   std::vector<ItemUpdate> updates;
   for (const ItemId id : ids) {

@@ -60,6 +60,8 @@ class Holding {
   /// What is held and is not in `at_peer`: at most the `most` lowest versions. The payloads are valid until the holding
   /// changes.
   [[nodiscard]] Missing missing(const VersionSet& at_peer, std::size_t most) const;
+  /// All that is held but tiles: where submaps lie, edges and deployments.
+  [[nodiscard]] std::vector<ItemId> without_tiles() const;
   /// Those of `ids` that are held, and whose newest version is not in `at_peer`.
   [[nodiscard]] std::vector<ItemUpdate> missing_of(std::span<const ItemId> ids, const VersionSet& at_peer) const;
   /// These versions are superseded: they are not waited for.

@@ -75,5 +75,17 @@ TEST_F(MissingItems, WhatIsNearThePeerComesFirstAlsoIfItIsNewer) {
   EXPECT_EQ(missing()[0], 1U) << "without an interest, the oldest is first";
 }
 
+TEST_F(MissingItems, WhereOneRobotLiesInAnotherComesFirstHoweverManyTilesAreMissing) {
+  publish(2 * kLookedAt);
+  ASSERT_TRUE(layer_.holding.say(ItemId::edge(0), payload_));
+  ASSERT_TRUE(layer_.holding.say(ItemId::deployment(), payload_));
+  const auto versions = missing(kSender, [](RobotId, RobotId) { return Interest{}; });
+  ASSERT_GT(versions.size(), kLookedAt);
+  EXPECT_EQ(versions[0], 2 * kLookedAt + 1);
+  EXPECT_EQ(versions[1], 2 * kLookedAt + 2);
+  EXPECT_EQ(versions[2], 1U);
+  EXPECT_EQ(layer_.holding.without_tiles(), (std::vector<ItemId>{ItemId::edge(0), ItemId::deployment()}));
+}
+
 }  // namespace
 }  // namespace cairn::peers
