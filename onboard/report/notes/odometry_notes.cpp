@@ -27,6 +27,13 @@ void note_split(NoteList& notes, const RunReport& report) {
   notes.error(text + ".", remedy);
 }
 
+void note_empty_map(NoteList& notes, const RunReport& report) {
+  const bool located = report.odometry.lost_scans < report.trajectory.size();
+  if (!located || report.map.occupied + report.map.free > 0 || !report.earlier_maps.empty()) return;
+  notes.error("Nothing entered the map: it is empty.",
+              "see the events; with lidar.maps: false, the depth camera must be recorded or plugged in");
+}
+
 void note_open_directions(NoteList& notes, const OdometryStats& odometry) {
   if (odometry.degenerate_scans == 0) return;
   std::string text = fmt::format("{} scans left a direction of motion open, as in a corridor or an open field",
@@ -56,6 +63,7 @@ void note_odometry(NoteList& notes, const RunReport& report) {
                             odometry.lost_s, odometry.lost_scans, report.trajectory.size()),
                 "do not rely on the path there; docs/tuning-budgets.md says what to try");
   note_split(notes, report);
+  note_empty_map(notes, report);
   note_open_directions(notes, odometry);
   note_wrong_wheels(notes, odometry);
 }

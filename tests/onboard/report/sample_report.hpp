@@ -128,6 +128,7 @@ inline RunReport uneventful() {
   RunReport report;
   report.scans = 1;
   report.trajectory.resize(1);
+  report.map.occupied = 1;
   return report;
 }
 

@@ -45,6 +45,15 @@ TEST(Notes, ScansOfWhichNoneBecameAPoseAreAnError) {
   EXPECT_THAT(lines(report), ElementsAre(HasSubstr("error: Not one scan became a pose")));
 }
 
+TEST(Notes, AMapThatNothingEnteredIsAnError) {
+  RunReport report = uneventful();
+  report.map = {};
+  ASSERT_THAT(lines(report), ElementsAre(HasSubstr("error: Nothing entered the map")));
+  EXPECT_THAT(notes_of(report)[0].remedy, HasSubstr("lidar.maps"));
+  report.odometry.lost_scans = report.trajectory.size();
+  EXPECT_THAT(lines(report), ElementsAre(HasSubstr("error: Odometry was lost"))) << "which says enough";
+}
+
 TEST(Notes, SayThatWheelsWereNotBelievedAndWhatTheirRadiusIs) {
   RunReport report = uneventful();
   report.odometry.wheels_wrong_scans = 7;
