@@ -122,7 +122,7 @@ void write_run(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder);
   report::RunReport report;
   report.robot = "husky", report.scans = 20, report.lost_packets = 3;
-  report.trajectory.resize(1);
+  report.trajectory.resize(1), report.map.occupied = 1;
   ASSERT_TRUE(report::write_report(report, folder));
   std::ofstream(folder / "trajectory.tum") << "0 0 0 0 0 0 0 1\n1 3 4 0 0 0 0 1\n";
   mapping::SemanticOcTree map(0.1);
