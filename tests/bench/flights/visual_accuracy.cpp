@@ -37,18 +37,26 @@ double percentile(std::vector<double> values, double share) {
   return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
+/// Where a picture was taken, and where odometry said so.
+struct Pose {
+  SE3 said, truth;
+  double way_m = 0;
+};
+
 struct Figures {
   double length = 0, squared = 0, worst = 0, nees = 0, step_nees = 0, yaw_path = 0, worst_jump = 0;
   Eigen::Vector3d inside = Eigen::Vector3d::Zero();
   int frames = 0, lost = 0, keyframes = 0, all_inside = 0;
   double inliers = 0, rms_px = 0;
   std::vector<double> cpu_ms;
+  std::vector<Pose> path;
   Vector6 error = Vector6::Zero(), sigma = Vector6::Zero();
 };
 
 void account(Figures& f, const VisualUpdate& u, const SE3& truth, const SE3& before) {
   ++f.frames;
   f.length += (before.inverse() * truth).translation().norm();
+  f.path.push_back({u.T_odom_base.mean, truth, f.length});
   f.error = (u.T_odom_base.mean.inverse() * truth).log();
   f.sigma = u.T_odom_base.covariance.diagonal().cwiseSqrt();
   const double off = (u.T_odom_base.mean.translation() - truth.translation()).norm();
@@ -69,6 +77,28 @@ void account(Figures& f, const VisualUpdate& u, const SE3& truth, const SE3& bef
   f.keyframes += u.keyframe ? 1 : 0;
   f.inliers += u.inliers;
   f.rms_px += u.rms_px;
+}
+
+/// Root mean square of the error over pieces of the way of `piece_m`: a share of the piece, and degrees of tilt and
+/// yaw. The mean of roll and pitch beside it shows what is systematic.
+void print_pieces(const std::vector<Pose>& path, double piece_m) {
+  Eigen::Vector3d squared = Eigen::Vector3d::Zero(), turned = Eigen::Vector3d::Zero();
+  double pieces = 0;
+  for (std::size_t i = 0, j = 0; i < path.size(); ++i) {
+    while (j < path.size() && path[j].way_m - path[i].way_m < piece_m) ++j;
+    if (j == path.size()) break;
+    const SE3 said = path[i].said.inverse() * path[j].said, truth = path[i].truth.inverse() * path[j].truth;
+    const Vector6 e = (said.inverse() * truth).log();
+    squared += Eigen::Vector3d(e.head<3>().squaredNorm(), e.segment<2>(3).squaredNorm(), e[5] * e[5]);
+    turned += e.tail<3>();
+    ++pieces;
+  }
+  if (pieces == 0) return;
+  const Eigen::Vector3d rms = (squared / pieces).cwiseSqrt();
+  const Eigen::Vector3d mean = turned / pieces * 180 / std::numbers::pi;
+  std::printf("  over %3.0f m: %.3f %%  tilt %.3f deg  yaw %.3f deg, mean roll %+.3f pitch %+.3f yaw %+.3f\n", piece_m,
+              100 * rms[0] / piece_m, rms[1] * 180 / std::numbers::pi, rms[2] * 180 / std::numbers::pi, mean[0],
+              mean[1], mean[2]);
 }
 
 void print(const std::string& name, const Figures& f) {
@@ -124,7 +154,8 @@ void run(const fs::path& recording, const Settings& settings) {
     before = now;
     if (std::getenv("TRACE") != nullptr) trace(s, *u, figures);
   }
-  print(recording.parent_path().filename().string(), figures);
+  print(recording.parent_path().parent_path().filename().string(), figures);
+  for (const double piece_m : {5.0, 20.0, 60.0}) print_pieces(figures.path, piece_m);
 }
 
 bool set(const std::string& key, const std::string& value, Settings& s) {
