@@ -7,6 +7,7 @@
 #include <opencv2/video/tracking.hpp>
 
 #include "onboard/perception/stereo/as_mat.hpp"
+#include "onboard/visual_odometry/patch.hpp"
 
 namespace cairn::visual_odometry {
 namespace {
@@ -80,25 +81,61 @@ void FeatureTracker::follow(const stereo::StereoPair& pair, const Expected& expe
     features_[kept++].left = {p.x, p.y};
   }
   features_.resize(kept);
+  for (Feature& f : features_) anchor(f);
   match_eyes(features_, expected);
 }
 
-void FeatureTracker::match_eyes(std::span<Feature> features, const Expected& expected) const {
-  if (features.empty()) return;
-  std::vector<cv::Point2f> from;
-  Alignment now;
-  for (const Feature& f : features) {
-    const auto place = expected(f);
-    const auto disparity = place ? static_cast<float>(place->z()) : f.disparity.value_or(0.0F);
-    from.push_back(point(f.left));
-    now.to.emplace_back(f.left.x() - disparity, f.left.y());
+/// Puts a feature to where its patch is in the left eye. One whose patch is not found, or has none, gets that of this
+/// picture.
+void FeatureTracker::anchor(Feature& f) const {
+  const cv::Mat& left = pyramids_->left[0];
+  if (const auto found = f.patch ? f.patch->find(left, {f.left, f.warp_left}) : std::nullopt) {
+    f.left = found->middle;
+    f.warp_left = found->warp;
+    return;
   }
-  align(pyramids_->left, pyramids_->right, from, config_, now);
-  for (std::size_t i = 0; i < features.size(); ++i) {
-    const float disparity = from[i].x - now.to[i].x;
-    const bool same_row = std::abs(from[i].y - now.to[i].y) < static_cast<float>(config_.max_row_error_px);
-    const bool seen = now.found[i] != 0 && same_row && disparity > 0 && now.to[i].x > kBorder_px;
-    features[i].disparity = seen ? std::optional(disparity) : std::nullopt;
+  const auto patch = Patch::cut(left, f.left);
+  f.patch = patch ? std::make_shared<const Patch>(*patch) : nullptr;
+  f.warp_left.setIdentity();
+  f.warp_right.setIdentity();
+}
+
+/// Looks for a feature's patch in the right eye. False, and nothing has changed, where it is not near `disparity`.
+bool FeatureTracker::find_right(Feature& f, float disparity) const {
+  if (!f.patch) return false;
+  const auto found = f.patch->find(pyramids_->right[0], {{f.left.x() - disparity, f.left.y()}, f.warp_right});
+  if (!found || !fits(f, found->middle)) return false;
+  f.disparity = f.left.x() - found->middle.x();
+  f.warp_right = found->warp;
+  return true;
+}
+
+/// Whether the right eye can show the feature there.
+bool FeatureTracker::fits(const Feature& f, const Eigen::Vector2f& right) const {
+  return std::abs(f.left.y() - right.y()) < static_cast<float>(config_.max_row_error_px) && right.x() < f.left.x() &&
+         right.x() > kBorder_px;
+}
+
+/// By the patches where it is known what to expect. The others are followed from eye to eye first.
+void FeatureTracker::match_eyes(std::span<Feature> features, const Expected& expected) const {
+  std::vector<Feature*> unsure;
+  std::vector<cv::Point2f> from;
+  Alignment right;
+  for (Feature& f : features) {
+    const auto place = expected(f);
+    if (place && find_right(f, static_cast<float>(place->z()))) continue;
+    const auto disparity = place ? static_cast<float>(place->z()) : f.disparity.value_or(0.0F);
+    unsure.push_back(&f);
+    from.push_back(point(f.left));
+    right.to.emplace_back(f.left.x() - disparity, f.left.y());
+  }
+  if (unsure.empty()) return;
+  align(pyramids_->left, pyramids_->right, from, config_, right);
+  for (std::size_t i = 0; i < unsure.size(); ++i) {
+    Feature& f = *unsure[i];
+    const Eigen::Vector2f to(right.to[i].x, right.to[i].y);
+    f.disparity = right.found[i] != 0 && fits(f, to) ? std::optional(f.left.x() - to.x()) : std::nullopt;
+    if (f.disparity) find_right(f, *f.disparity);
   }
 }
 
@@ -123,7 +160,8 @@ std::vector<Feature> FeatureTracker::corners_between(std::span<const Feature> ot
   const cv::Mat& picture = pyramids_->left[0];
   cv::goodFeaturesToTrack(picture, found, room, config_.quality, config_.spacing_px,
                           free_places(others, picture.size(), config_.spacing_px), 3);
-  for (const cv::Point2f& p : found) corners.push_back({next_id_++, {p.x, p.y}, std::nullopt});
+  for (const cv::Point2f& p : found) corners.push_back({next_id_++, {p.x, p.y}, std::nullopt, nullptr});
+  for (Feature& f : corners) anchor(f);
   match_eyes(corners, [](const Feature&) { return std::nullopt; });
   return corners;
 }

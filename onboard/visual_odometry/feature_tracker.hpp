@@ -16,15 +16,21 @@
 
 namespace cairn::visual_odometry {
 
+class Patch;
+
 /// A corner that is followed from picture to picture.
 struct Feature {
   std::uint32_t id = 0;
   Eigen::Vector2f left = Eigen::Vector2f::Zero();  ///< pixel in the left eye
   std::optional<float> disparity;                  ///< pixels; none where the right eye does not show it
+  std::shared_ptr<const Patch> patch;              ///< how it looked at first; null where too little is to be seen
+  Eigen::Matrix2f warp_left = Eigen::Matrix2f::Identity(), warp_right = warp_left;  ///< of the patch in each eye
 };
 
 /// Follows corners from picture to picture and between the eyes: pyramids of Lucas and Kanade (Bouguet, 2001), corners
-/// of Shi and Tomasi (1994), both by OpenCV. The result does not depend on the number of threads.
+/// of Shi and Tomasi (1994), both by OpenCV. Then each one is put to where the picture looks as where it was seen
+/// first, in both eyes. So its error does not grow as long as it is followed. The result does not depend on the number
+/// of threads.
 class FeatureTracker {
  public:
   FeatureTracker(const TrackingConfig& config, const stereo::StereoGeometry& geometry);
@@ -53,6 +59,9 @@ class FeatureTracker {
 
  private:
   struct Pyramids;
+  void anchor(Feature& f) const;
+  [[nodiscard]] bool fits(const Feature& f, const Eigen::Vector2f& right) const;
+  bool find_right(Feature& f, float disparity) const;
   void match_eyes(std::span<Feature> features, const Expected& expected) const;
   [[nodiscard]] std::vector<Feature> corners_between(std::span<const Feature> others);
 

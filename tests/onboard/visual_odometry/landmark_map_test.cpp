@@ -16,7 +16,7 @@ constexpr PixelNoise kNoise{0.3, 0.3};
 
 Feature seen(std::uint32_t id, const Eigen::Vector3d& p_eye) {
   const Eigen::Vector3d z = kLandmarkEyes.project(p_eye);
-  return {id, {static_cast<float>(z.x()), static_cast<float>(z.y())}, static_cast<float>(z.z())};
+  return {id, {static_cast<float>(z.x()), static_cast<float>(z.y())}, static_cast<float>(z.z()), nullptr};
 }
 
 TEST(LandmarkMap, ALandmarkIsWhereBothEyesSeeItAndItsDepthIsLeastCertain) {
@@ -78,7 +78,7 @@ TEST(LandmarkMap, AViewThatDoesNotFitChangesNothing) {
 TEST(LandmarkMap, KeepsWhatFeaturesShow) {
   LandmarkMap map(kLandmarkEyes, kNoise, 40);
   for (std::uint32_t id = 1; id <= 4; ++id) map.add(seen(id, {0.1 * id, 0, 4}), {}, 0);
-  const std::array<Feature, 2> left{Feature{2, {}, {}}, Feature{9, {}, {}}};
+  const std::array<Feature, 2> left{seen(2, {0, 0, 4}), seen(9, {0, 0, 4})};
   map.keep(left);
   EXPECT_EQ(map.size(), 1U);
   EXPECT_NE(map.find(2), nullptr);
