@@ -13,8 +13,18 @@ void declare(config::Section& s, TrackingConfig& c) {
            "the same corner may lie so far from its row in the right eye");
 }
 
+void declare(config::Section& s, AdjustmentConfig& c) {
+  s.integer("keyframes", c.keyframes, {2, 30}, "", "the last ones, which are adjusted together");
+  s.integer("fixed", c.fixed, {1, 10}, "", "of these, the oldest keep their poses; the newest never does");
+  s.integer("max_steps", c.max_steps, {0, 20}, "", "cap per keyframe; the budget may grant fewer");
+  s.number("pixel_noise", c.pixel_noise, {0.01, 5}, "pixels", "1 sigma of a corner whose patch was found");
+  s.number("disparity_noise", c.disparity_noise, {0.01, 5}, "pixels", "1 sigma of its difference between both eyes");
+}
+
 void declare(config::Section& s, VisualOdometryConfig& c) {
   s.group("tracking", c.tracking, "corners and how they are followed");
+  s.group("adjustment", c.adjustment,
+          "local bundle adjustment: the last keyframes and their landmarks, moved together");
   s.number("pixel_noise", c.pixel_noise, {0.05, 5}, "pixels", "1 sigma of a followed corner");
   s.number("disparity_noise", c.disparity_noise, {0.05, 5}, "pixels", "1 sigma of the difference between both eyes");
   s.number("correlation_factor", c.correlation_factor, {1, 100}, "", "corners per independent piece of information");

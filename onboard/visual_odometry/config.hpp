@@ -15,16 +15,26 @@ struct TrackingConfig {
   double max_row_error_px = 1.0;  ///< the same corner may lie so far from its row in the right eye, pixels
 };
 
+/// Local bundle adjustment. See BundleAdjuster.
+struct AdjustmentConfig {
+  int keyframes = 8;              ///< the last ones, which are adjusted together
+  int fixed = 3;                  ///< of these, the oldest keep their poses; the newest never does
+  int max_steps = 3;              ///< per keyframe; the budget may grant fewer
+  double pixel_noise = 0.1;       ///< pixels, 1 σ of a corner whose patch was found
+  double disparity_noise = 0.07;  ///< pixels, 1 σ of its difference between both eyes
+};
+
 /// Settings of StereoOdometry.
 struct VisualOdometryConfig {
   TrackingConfig tracking;
+  AdjustmentConfig adjustment;
 
   // Weights
   double pixel_noise = 0.35;      ///< pixels, 1 σ of a followed corner
   double disparity_noise = 0.35;  ///< pixels, 1 σ of the difference between both eyes
   double correlation_factor = 4;  ///< corners per independent piece of information
   /// The same for the landmarks that one keyframe adds: they err in common.
-  double landmark_correlation = 20;
+  double landmark_correlation = 5;
   int max_iterations = 8;  ///< steps per frame; the budget may grant fewer
 
   // Keyframes and landmarks
@@ -48,5 +58,6 @@ struct VisualOdometryConfig {
 /// Names, units and bounds of every key (config section `visual_odometry`).
 void declare(config::Section& section, VisualOdometryConfig& c);
 void declare(config::Section& section, TrackingConfig& c);
+void declare(config::Section& section, AdjustmentConfig& c);
 
 }  // namespace cairn::visual_odometry

@@ -8,7 +8,6 @@ namespace cairn::visual_odometry {
 namespace {
 
 constexpr double kBeforeEye_m = 0.1;  // of a landmark before the eye
-constexpr double kRefiningGate = 16;  // χ² of a view that may refine a landmark
 
 }  // namespace
 
@@ -29,30 +28,11 @@ void LandmarkMap::add(const Feature& feature, const SE3& T_odom_eye, float epoch
   landmarks_.insert_or_assign(feature.id, landmark);
 }
 
-void LandmarkMap::refine(const Feature& feature, const SE3& T_odom_eye) {
-  const auto at = landmarks_.find(feature.id);
+void LandmarkMap::move(std::uint32_t id, const Eigen::Vector3d& p_odom, const Eigen::Matrix3d& covariance) {
+  const auto at = landmarks_.find(id);
   if (at == landmarks_.end()) return;
-  Landmark& landmark = at->second;
-  const Eigen::Vector3d p_eye = T_odom_eye.inverse() * landmark.p_odom;
-  if (p_eye.z() < kBeforeEye_m) return;
-  const Eigen::Matrix3d H = geometry_.jacobian(p_eye) * T_odom_eye.rotation().transpose();
-  Eigen::Vector3d variances = noise_.variances();
-  Eigen::Vector3d seen(feature.left.x(), feature.left.y(), 0);
-  const Eigen::Vector3d expected = geometry_.project(p_eye);
-  if (feature.disparity) {
-    seen.z() = *feature.disparity;
-  } else {
-    seen.z() = expected.z();
-    variances.z() = 1e6;
-  }
-  const Eigen::Matrix3d S = H * landmark.covariance * H.transpose() + Eigen::Matrix3d(variances.asDiagonal());
-  const Eigen::Matrix3d S_inverse = S.inverse();
-  const Eigen::Vector3d innovation = seen - expected;
-  if (innovation.dot(S_inverse * innovation) > kRefiningGate) return;
-  const Eigen::Matrix3d K = landmark.covariance * H.transpose() * S_inverse;
-  landmark.p_odom += K * innovation;
-  const Eigen::Matrix3d P = (Eigen::Matrix3d::Identity() - K * H) * landmark.covariance;
-  landmark.covariance = 0.5 * (P + P.transpose());
+  at->second.p_odom = p_odom;
+  at->second.covariance = covariance;
 }
 
 void LandmarkMap::keep(std::span<const Feature> features) {

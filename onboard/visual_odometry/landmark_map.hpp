@@ -36,8 +36,8 @@ class LandmarkMap {
   void add(const Feature& feature, const SE3& T_odom_eye, float epoch);
   /// Takes a landmark that was known before.
   void take(std::uint32_t id, const Landmark& landmark) { landmarks_.insert_or_assign(id, landmark); }
-  /// What this view says of the landmark's place (an extended Kalman filter; the eye's pose is taken as known).
-  void refine(const Feature& feature, const SE3& T_odom_eye);
+  /// Puts a landmark to where it is now known to be, with what uncertainty. Unknown ids are ignored.
+  void move(std::uint32_t id, const Eigen::Vector3d& p_odom, const Eigen::Matrix3d& covariance);
   void forget(std::uint32_t id) { landmarks_.erase(id); }
   /// Forgets those that no feature shows any more.
   void keep(std::span<const Feature> features);

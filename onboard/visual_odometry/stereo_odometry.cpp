@@ -33,8 +33,9 @@ MotionFilter::Uncertainty at_the_start(const VisualOdometryConfig& c) {
 
 }  // namespace
 
-/// Three alignments: from the prediction, from the landmarks' consent, and to a keyframe that looks alike.
-int most_steps(const VisualOdometryConfig& config) { return 3 * config.max_iterations; }
+/// Three alignments: from the prediction, from the landmarks' consent, and to a keyframe that looks alike. Then the
+/// keyframes' adjustment.
+int most_steps(const VisualOdometryConfig& config) { return 3 * config.max_iterations + config.adjustment.max_steps; }
 
 StereoOdometry::StereoOdometry(const VisualOdometryConfig& config, const stereo::StereoGeometry& geometry,
                                const SE3& T_base_eye)
@@ -44,10 +45,11 @@ StereoOdometry::StereoOdometry(const VisualOdometryConfig& config, const stereo:
       tracker_(config.tracking, geometry),
       map_(geometry, {config.pixel_noise, config.disparity_noise}, config.max_depth_m),
       solver_(config, geometry, T_base_eye),
+      bundle_(config.adjustment, geometry, T_base_eye),
       prior_(motion_of(config)) {}
 
 Result<VisualUpdate> StereoOdometry::update(const stereo::StereoPair& pair, Budget& budget) {
-  if (!last_) return begin(pair);
+  if (!last_) return begin(pair, budget);
   if (pair.stamp <= *last_)
     return Error{Errc::kMalformed, "the stereo picture is not later than the one before", {}, {}, {}};
   const double dt_s = to_seconds(pair.stamp - last_followed_);
@@ -65,10 +67,10 @@ Result<VisualUpdate> StereoOdometry::update(const stereo::StereoPair& pair, Budg
   if (lost) lose(dt_s);
   const bool anew = lost && gives_up(dt_s);
   if (lost && !anew) tracker_.reject();
-  if (anew) begin_map(pair.left);
+  if (anew) begin_map(pair.left, budget);
   if (!lost || anew) last_followed_ = pair.stamp;
   const bool keyframe = found || (followed && wants_keyframe(fit.inliers));
-  if (keyframe) make_keyframe(pair.left);
+  if (keyframe) make_keyframe(pair.left, budget);
   VisualUpdate update = report(pair.stamp);
   update.lost = lost;
   update.reinitialised = update.apart = anew;
@@ -91,26 +93,27 @@ void StereoOdometry::track(const stereo::StereoPair& pair) {
   });
 }
 
-VisualUpdate StereoOdometry::begin(const stereo::StereoPair& pair) {
+VisualUpdate StereoOdometry::begin(const stereo::StereoPair& pair, Budget& budget) {
   last_ = last_followed_ = pair.stamp;
   filter_.reset({}, at_the_start(config_));
   T_odom_previous_ = {};
   tracker_.follow(pair, [](const Feature&) { return std::nullopt; });
-  begin_map(pair.left);
+  begin_map(pair.left, budget);
   VisualUpdate update = report(pair.stamp);
   update.began = update.keyframe = true;
   return update;
 }
 
 /// A new map begins at the filter's pose.
-void StereoOdometry::begin_map(const Image& left) {
+void StereoOdometry::begin_map(const Image& left, Budget& budget) {
   tracker_.adopt({});
   map_.clear();
+  bundle_.clear();
   places_.clear();
   keyframe_error_.setZero();
   drift_.reset(filter_.state().T_odom_base, filter_.odom_covariance());
   followed_ = filter_;
-  make_keyframe(left);
+  make_keyframe(left, budget);
 }
 
 Fit StereoOdometry::locate(double dt_s, Budget& budget) {
@@ -181,6 +184,7 @@ void StereoOdometry::return_to(const Fit& fit) {
   prior_.reset();
   tracker_.adopt(std::move(corners_));
   map_.clear();
+  bundle_.clear();
   for (std::size_t i = 0; i < matches_.size(); ++i)
     if (fit.fits[i] != 0) map_.take(matches_[i].id, matches_[i].landmark);
 }
@@ -201,13 +205,26 @@ bool StereoOdometry::wants_keyframe(int inliers) const {
          rotation_angle(since) > config_.keyframe_rad;
 }
 
-void StereoOdometry::make_keyframe(const Image& left) {
-  for (const Feature& f : tracker_.features()) map_.refine(f, T_odom_eye());
+/// Moves the last keyframes, this one and their landmarks to where they fit best. The filter takes the newest pose.
+/// Landmarks are as uncertain as the noise of a picture has them: corners before plain walls must still fit.
+void StereoOdometry::adjust(Budget& budget) {
+  bundle_.add(filter_.state().T_odom_base);
+  bundle_.see(tracker_.features(), map_);
+  bundle_.adjust(budget);
+  const double ratio = config_.pixel_noise / config_.adjustment.pixel_noise;
+  bundle_.place(map_, ratio * ratio);
+  filter_.believe({bundle_.newest(), filter_.state().twist});
+  followed_ = filter_;
+}
+
+void StereoOdometry::make_keyframe(const Image& left, Budget& budget) {
+  adjust(budget);
   tracker_.add_corners();
   for (const Feature& f : tracker_.features())
     if (map_.find(f.id) == nullptr) map_.add(f, T_odom_eye(), drift_.epoch());
   tracker_.drop([&](const Feature& f) { return map_.find(f.id) == nullptr; });
   map_.keep(tracker_.features());
+  bundle_.see(tracker_.features(), map_);
   places_.remember(left, tracker_.features(), map_, filter_.state().T_odom_base);
   T_odom_keyframe_ = filter_.state().T_odom_base;
   keyframe_landmarks_ = static_cast<int>(map_.size());

@@ -13,6 +13,7 @@
 #include "onboard/odometry/estimation/motion_update.hpp"
 #include "onboard/odometry/motion_prior.hpp"
 #include "onboard/perception/stereo/stereo_pair.hpp"
+#include "onboard/visual_odometry/bundle_adjuster.hpp"
 #include "onboard/visual_odometry/config.hpp"
 #include "onboard/visual_odometry/feature_tracker.hpp"
 #include "onboard/visual_odometry/landmark_map.hpp"
@@ -35,8 +36,9 @@ struct VisualUpdate : odometry::MotionUpdate {
 /// Stereo visual odometry: follows corners, and finds the pose from which they are where the picture shows them.
 ///
 /// Pose and twist are those of the same iterated Kalman filter as LidarOdometry's. Landmarks come of both eyes at a
-/// keyframe, with the uncertainty of their depth, and every keyframe refines them. A robot that has lost its way is
-/// looked for among the last keyframes. Same input, same bits, for any number of threads.
+/// keyframe, with the uncertainty of their depth. Every keyframe adjusts the last keyframes and their landmarks
+/// together. A robot that has lost its way is looked for among the last keyframes. Same input, same bits, for any
+/// number of threads.
 class StereoOdometry final : public odometry::MotionSource {
  public:
   /// `T_base_eye`: optical frame of the left eye.
@@ -50,7 +52,7 @@ class StereoOdometry final : public odometry::MotionSource {
   [[nodiscard]] odometry::MotionNoise expected_noise() const override { return prior_.usual(true); }
 
  private:
-  [[nodiscard]] VisualUpdate begin(const stereo::StereoPair& pair);
+  [[nodiscard]] VisualUpdate begin(const stereo::StereoPair& pair, Budget& budget);
   void track(const stereo::StereoPair& pair);
   [[nodiscard]] Fit locate(double dt_s, Budget& budget);
   [[nodiscard]] bool good(const Fit& fit) const;
@@ -60,8 +62,9 @@ class StereoOdometry final : public odometry::MotionSource {
   void lose(double dt_s);
   [[nodiscard]] bool gives_up(double dt_s) const;
   [[nodiscard]] bool wants_keyframe(int inliers) const;
-  void make_keyframe(const Image& left);
-  void begin_map(const Image& left);
+  void make_keyframe(const Image& left, Budget& budget);
+  void adjust(Budget& budget);
+  void begin_map(const Image& left, Budget& budget);
   [[nodiscard]] SE3 T_odom_eye() const { return filter_.state().T_odom_base * T_base_eye_; }
   [[nodiscard]] VisualUpdate report(Time stamp) const;
 
@@ -71,6 +74,7 @@ class StereoOdometry final : public odometry::MotionSource {
   FeatureTracker tracker_;
   LandmarkMap map_;
   PoseSolver solver_;
+  BundleAdjuster bundle_;
   PlaceMemory places_;
   odometry::MotionPrior prior_;
   odometry::MotionFilter filter_;    // at the last pair: corrected by it, or predicted if it was lost

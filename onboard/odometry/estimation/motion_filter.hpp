@@ -75,8 +75,7 @@ class MotionFilter {
   /// The same by a motion that something else has measured, and a twist with these standard deviations (m/s, rad/s).
   void predict_by(const UncertainPose& motion, const Vector6& twist, const Vector6& deviation, double dt);
 
-  /// Takes `state` for the prediction, with the uncertainty of the last predict(): what a search
-  /// has found.
+  /// Takes `state` instead, with the uncertainty as it is: what a search has found, or an adjustment.
   void believe(const MotionState& state) { state_ = state; }
 
   /// One Gauss–Newton step from `x` towards the maximum of the posterior; `n` was linearised at x.

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <random>
 
 #include "tests/support/stereo_view.hpp"
 
@@ -41,38 +40,16 @@ TEST(LandmarkMap, WithoutADisparityOrTooFarAwayThereIsNone) {
   EXPECT_EQ(map.size(), 0U);
 }
 
-TEST(LandmarkMap, MoreViewsMakeItMoreCertainAndBetter) {
-  std::mt19937 random(5);
-  std::normal_distribution<float> noise(0, 0.3F);
-  double first = 0, refined = 0;
-  for (std::uint32_t id = 0; id < 200; ++id) {
-    LandmarkMap map(kLandmarkEyes, kNoise, 40);
-    const Eigen::Vector3d p(0.4, 0.1, 5);
-    const auto noisy = [&](const SE3& T_odom_eye) {
-      Feature f = seen(id, T_odom_eye.inverse() * p);
-      f.left += Eigen::Vector2f(noise(random), noise(random));
-      *f.disparity += noise(random);
-      return f;
-    };
-    map.add(noisy({}), {}, 0);
-    const double before = map.find(id)->covariance.trace();
-    first += (map.find(id)->p_odom - p).squaredNorm();
-    for (int i = 1; i < 6; ++i) {
-      const SE3 T_odom_eye(Eigen::Quaterniond::Identity(), {0.2 * i, 0, 0.1 * i});
-      map.refine(noisy(T_odom_eye), T_odom_eye);
-    }
-    refined += (map.find(id)->p_odom - p).squaredNorm();
-    EXPECT_LT(map.find(id)->covariance.trace(), before / 4);
-  }
-  EXPECT_LT(refined, first / 4);
-}
-
-TEST(LandmarkMap, AViewThatDoesNotFitChangesNothing) {
+TEST(LandmarkMap, ALandmarkIsMovedToWhereItIsKnownToBe) {
   LandmarkMap map(kLandmarkEyes, kNoise, 40);
-  map.add(seen(1, {0, 0, 4}), {}, 0);
-  const Eigen::Vector3d before = map.find(1)->p_odom;
-  map.refine(seen(1, {0.5, 0, 4}), {});
-  EXPECT_EQ(map.find(1)->p_odom, before);
+  map.add(seen(1, {0, 0, 4}), {}, 2);
+  const Eigen::Vector3d there(0.1, 0, 4.1);
+  map.move(1, there, 0.01 * Eigen::Matrix3d::Identity());
+  map.move(5, there, Eigen::Matrix3d::Identity());
+  EXPECT_EQ(map.find(1)->p_odom, there);
+  EXPECT_EQ(map.find(1)->covariance(0, 0), 0.01);
+  EXPECT_EQ(map.find(1)->epoch, 2);
+  EXPECT_EQ(map.size(), 1U);
 }
 
 TEST(LandmarkMap, KeepsWhatFeaturesShow) {
