@@ -125,7 +125,6 @@ Result<RecordReport> record_all(const RecordArguments& options, const std::vecto
   std::vector<Source*> sources;
   for (const app::Device& device : devices) sources.push_back(device.source.get());
   app::LiveSources source(std::move(sources), clock);
-  app::catch_stop_signals();
   auto recorded = recording::record(source, clock, writer, record_options(options, writer));
   if (::isatty(STDERR_FILENO) != 0) std::fputc('\n', stderr);
   return recorded;
@@ -139,6 +138,7 @@ int fail_and_keep(recording::NewRecording& place, Error error) {
 }
 
 int record(const RecordArguments& options) {
+  app::catch_stop_signals();  // before the first file: until the first packet is read, seconds may pass
   const auto profile = app::load_profile(options.config);
   if (!profile) return app::fail(profile.error());
   const LiveClock clock;
