@@ -53,6 +53,7 @@ Robot::Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapp
   set_up_odometry(config, odometry_workers);
   set_up_cameras(config);
   if (lidar_) lidar_->resume(saved.T_odom_base, saved.twist, saved.stamp, saved.scans);
+  if (eyes_) eyes_->resume(saved.T_odom_base, saved.twist, saved.stamp, saved.keyframes);
   LocatedScan located;
   for (const odometry::PlacedScan& scan : saved.scans) {
     if (scan.stamp <= saved.map_stamp) continue;
@@ -105,11 +106,12 @@ Result<TrackPoint> Robot::locate(const Scan& scan, Budget& budget, LocatedScan& 
 Result<TrackPoint> Robot::locate(const stereo::StereoPair& pair, Budget& budget, LocatedScan& located) {
   if (!eyes_) return Error{Errc::kUnsupported, "a stereo picture came, but a LiDAR tells the motion", {}, {}, {}};
   const StageTimer timing(odometry_stage_);
+  const bool resuming = eyes_->resuming();
   const auto motion = eyes_->update(pair, budget);
   if (!motion) return motion.error();
   if (motion->lost) monitor_.event(motion->stamp, "odometry", "lost: the picture shows too few known places");
   located.points_base.clear();
-  return place(*motion, false, located);
+  return place(*motion, resuming, located);
 }
 
 const TrackPoint& Robot::place(const odometry::MotionUpdate& motion, bool resuming, LocatedScan& located) {
@@ -117,10 +119,10 @@ const TrackPoint& Robot::place(const odometry::MotionUpdate& motion, bool resumi
   located.T_odom_base = motion.T_odom_base;
   located.twist = motion.twist;
   if (motion.began || motion.apart) ++epoch_;
-  if (motion.apart)
+  if (motion.apart && !resuming)
     monitor_.event(motion.stamp, "odometry",
                    "a new map begins: how it lies to the one before is not known (kept as map-epoch-N.cairn)");
-  if (motion.began && resuming)
+  if ((motion.began || motion.apart) && resuming)
     monitor_.event(motion.stamp, "restart", "the robot is not where the saved map ends: it begins anew");
   located.epoch = epoch_;
   located.lost = motion.lost;
@@ -234,10 +236,6 @@ void Robot::take_back_new_people() {
 
 std::span<const people::Person> Robot::people() const {
   return people_ ? people_->people() : std::span<const people::Person>();
-}
-
-std::optional<double> Robot::eye_offset(people::Eye eye) const {
-  return people_ ? people_->offset(eye).angle() : std::nullopt;
 }
 
 Result<bool> Robot::see_people(people::Eye eye, const Detections& boxes) {

@@ -118,7 +118,8 @@ struct Resume {
   std::span<const odometry::PlacedScan> scans;
   UncertainPose T_odom_base;
   Vector6 twist = Vector6::Zero();
-  Time stamp{};  ///< of the pose
+  Time stamp{};                                            ///< of the pose
+  std::span<const visual_odometry::Keyframe> keyframes{};  ///< of a robot that both eyes tell its motion
 };
 
 /// The map of an epoch that has ended.
@@ -135,8 +136,8 @@ class Robot {
   /// the robot.
   Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapping_workers, Monitor& monitor);
 
-  /// The same for a restarted robot. If it is not where the previous run ended, its first scan
-  /// begins a new map.
+  /// The same for a restarted robot. If it is not where the previous run ended, its first scan begins a new map;
+  /// with eyes instead of a LiDAR, its pictures after a while.
   Robot(const RobotConfig& config, Workers& odometry_workers, Workers& mapping_workers, Monitor& monitor,
         const Resume& saved);
 
@@ -170,7 +171,9 @@ class Robot {
   /// The people around the robot at the last scan that extended the map. Of extend_map()'s thread.
   [[nodiscard]] std::span<const people::Person> people() const;
   /// How far the camera's boxes are beside the people, see people::EyeOffset; rad. None: too few were seen.
-  [[nodiscard]] std::optional<double> eye_offset(people::Eye eye) const;
+  [[nodiscard]] std::optional<double> eye_offset(people::Eye eye) const {
+    return people_ ? people_->offset(eye).angle() : std::nullopt;
+  }
   /// Where teammates are. Points on them stay out of the map, for kMateLife after `stamp`, and are no people. `epoch`:
   /// of the odom that they are in; of another than the map's, nothing is noted. Of extend_map()'s thread.
   void note_mates(std::span<const Mate> mates, std::uint32_t epoch);
@@ -182,6 +185,10 @@ class Robot {
   [[nodiscard]] bool resuming() const { return lidar_ && lidar_->resuming(); }
   /// Whether both eyes tell its motion, and no LiDAR.
   [[nodiscard]] bool sees_its_way() const { return eyes_.has_value(); }
+  /// The keyframe that the last picture became; null: it became none. Of locate()'s thread.
+  [[nodiscard]] const visual_odometry::Keyframe* new_keyframe() const {
+    return eyes_ ? eyes_->new_keyframe() : nullptr;
+  }
 
   [[nodiscard]] const std::vector<TrackPoint>& track() const { return track_; }
   /// Of locate()'s thread: pose and motion at the last scan, and the noise of a prediction from there.

@@ -91,8 +91,8 @@ struct StateFolder {
 };
 
 PreviousRun find_previous_run(StateFolder& state, const RobotProfile& profile, Time now, Monitor& monitor) {
-  PreviousRun previous =
-      find_previous_run(state.generations, profile.restart, profile.mapping.resolution_m, now, monitor);
+  PreviousRun previous = find_previous_run(state.generations, profile.restart,
+                                           {profile.mapping.resolution_m, profile.sees_its_way()}, now, monitor);
   previous.crash_loop = state.starts.begin(now, boot_id());
   return previous;
 }
@@ -102,12 +102,6 @@ PreviousRun recorded_previous_run(const std::filesystem::path& recording, Monito
   PreviousRun previous;
   previous.resumed = resumed_in_recording(recording, monitor);
   return previous;
-}
-
-/// A robot without a LiDAR cannot tell whether it is where the previous run ended.
-void forget_place(PreviousRun& previous, Monitor& monitor) {
-  previous.resumed.reset();
-  monitor.event({}, "restart", "the saved map is left alone: a robot without a LiDAR begins anew");
 }
 
 /// The profile for these options, if they fit together.
@@ -146,7 +140,6 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
                                 : recorded_previous_run(options.recording, result->monitor);
   auto sight = open_sight(options, *profile, chosen->file, door->recording.sources, result->monitor);
   if (!sight) return sight.error();
-  if (sight->eyes && previous.resumed) forget_place(previous, result->monitor);
   RobotTasks tasks(door->recording.sources, *profile, options, previous, *std::move(sight), result->monitor);
   const RunContext context{*door, *profile, options, previous, result->monitor, results->path()};
   LiveRun live_run(tasks, context, clock);

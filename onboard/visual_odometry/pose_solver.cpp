@@ -18,7 +18,7 @@ constexpr double kGate = 11.3;      // χ² of three numbers: 99 %
 constexpr double kUnseen = 1e8;     // pixels², variance of a disparity that was not measured
 constexpr double kWideScale = 25;   // the first steps' kernel is so many times wider, in χ²
 constexpr double kSettled = 1e-4;   // m, rad: a smaller step ends the iteration
-constexpr int kHypotheses = 60;
+constexpr int kHypotheses = 200;
 constexpr int kStepsOfThree = 6;
 
 /// Small and the same everywhere (Steele, Lea, Flood, "SplitMix", 2014).

@@ -12,6 +12,8 @@ using odometry::MotionFilter;
 namespace {
 
 constexpr double kBeforeTheEye_m = 0.1;  // landmarks that are nearer are not expected in the picture
+// Of the corners that look like a keyframe's, so many fit one pose. By chance, three in fifty do.
+constexpr double kRecognised = 0.2;
 
 odometry::OdometryConfig motion_of(const VisualOdometryConfig& c) {
   odometry::OdometryConfig config;
@@ -46,6 +48,7 @@ StereoOdometry::StereoOdometry(const VisualOdometryConfig& config, const stereo:
       map_(geometry, {config.pixel_noise, config.disparity_noise}, config.max_depth_m),
       solver_(config, geometry, T_base_eye),
       bundle_(config.adjustment, geometry, T_base_eye),
+      places_(geometry.baseline_m),
       prior_(motion_of(config)) {}
 
 Result<VisualUpdate> StereoOdometry::update(const stereo::StereoPair& pair, Budget& budget) {
@@ -54,6 +57,7 @@ Result<VisualUpdate> StereoOdometry::update(const stereo::StereoPair& pair, Budg
     return Error{Errc::kMalformed, "the stereo picture is not later than the one before", {}, {}, {}};
   const double dt_s = to_seconds(pair.stamp - last_followed_);
   last_ = pair.stamp;
+  if (!sought_since_) sought_since_ = pair.stamp;
   T_odom_previous_ = filter_.state().T_odom_base;
   filter_ = followed_;
   filter_.predict(dt_s, prior_.usual(true));
@@ -65,12 +69,12 @@ Result<VisualUpdate> StereoOdometry::update(const stereo::StereoPair& pair, Budg
   if (found) return_to(fit = *found);
   const bool lost = !followed && !found;
   if (lost) lose(dt_s);
-  const bool anew = lost && gives_up(dt_s);
+  const bool anew = lost && gives_up(pair.stamp);
   if (lost && !anew) tracker_.reject();
-  if (anew) begin_map(pair.left, budget);
-  if (!lost || anew) last_followed_ = pair.stamp;
+  if (anew) begin_map(pair, budget);
+  if (!lost || anew) know_place(pair.stamp);
   const bool keyframe = found || (followed && wants_keyframe(fit.inliers));
-  if (keyframe) make_keyframe(pair.left, budget);
+  if (keyframe) make_keyframe(pair, budget);
   VisualUpdate update = report(pair.stamp);
   update.lost = lost;
   update.reinitialised = update.apart = anew;
@@ -94,18 +98,41 @@ void StereoOdometry::track(const stereo::StereoPair& pair) {
 }
 
 VisualUpdate StereoOdometry::begin(const stereo::StereoPair& pair, Budget& budget) {
-  last_ = last_followed_ = pair.stamp;
+  last_ = pair.stamp;
+  know_place(pair.stamp);
   filter_.reset({}, at_the_start(config_));
   T_odom_previous_ = {};
   tracker_.follow(pair, [](const Feature&) { return std::nullopt; });
-  begin_map(pair.left, budget);
+  begin_map(pair, budget);
   VisualUpdate update = report(pair.stamp);
   update.began = update.keyframe = true;
   return update;
 }
 
+void StereoOdometry::resume(const UncertainPose& T_odom_base, const Vector6& twist, Time stamp,
+                            std::span<const Keyframe> keyframes) {
+  MotionFilter::Uncertainty known = at_the_start(config_);
+  known.total.topLeftCorner<6, 6>() += T_odom_base.covariance;
+  filter_.reset({T_odom_base.mean, twist}, known);
+  followed_ = filter_;
+  drift_.reset(T_odom_base.mean, filter_.odom_covariance());
+  for (Keyframe keyframe : keyframes) {
+    for (Landmark& landmark : keyframe.landmarks) landmark.epoch = drift_.epoch();
+    places_.restore(std::move(keyframe));
+  }
+  last_ = last_followed_ = stamp;
+  resuming_ = true;
+}
+
+/// The robot was followed, was found, or begins anew.
+void StereoOdometry::know_place(Time now) {
+  last_followed_ = now;
+  sought_since_ = now;
+  resuming_ = false;
+}
+
 /// A new map begins at the filter's pose.
-void StereoOdometry::begin_map(const Image& left, Budget& budget) {
+void StereoOdometry::begin_map(const stereo::StereoPair& pair, Budget& budget) {
   tracker_.adopt({});
   map_.clear();
   bundle_.clear();
@@ -113,7 +140,7 @@ void StereoOdometry::begin_map(const Image& left, Budget& budget) {
   keyframe_error_.setZero();
   drift_.reset(filter_.state().T_odom_base, filter_.odom_covariance());
   followed_ = filter_;
-  make_keyframe(left, budget);
+  make_keyframe(pair, budget);
 }
 
 Fit StereoOdometry::locate(double dt_s, Budget& budget) {
@@ -166,7 +193,8 @@ std::optional<Fit> StereoOdometry::find_again(const stereo::StereoPair& pair, do
   wide.predict(dt_s, prior_.anything(dt_s));
   odometry::MotionState voted{solver_.vote(matches_, place.T_odom_base), Vector6::Zero()};
   const Fit fit = solver_.align(matches_, wide, voted, budget);
-  if (!good(fit)) return std::nullopt;
+  const auto matches = static_cast<double>(matches_.size());
+  if (fit.inliers < config_.min_inliers || fit.inliers < kRecognised * matches) return std::nullopt;
   filter_ = wide;
   return fit;
 }
@@ -195,8 +223,9 @@ void StereoOdometry::lose(double dt_s) {
 }
 
 /// In darkness it waits: a new map would have no landmarks.
-bool StereoOdometry::gives_up(double dt_s) const {
-  return dt_s > config_.give_up_after_s && static_cast<int>(corners_.size()) > 3 * config_.min_inliers;
+bool StereoOdometry::gives_up(Time now) const {
+  return to_seconds(now - *sought_since_) > config_.give_up_after_s &&
+         static_cast<int>(corners_.size()) > 3 * config_.min_inliers;
 }
 
 bool StereoOdometry::wants_keyframe(int inliers) const {
@@ -217,7 +246,7 @@ void StereoOdometry::adjust(Budget& budget) {
   followed_ = filter_;
 }
 
-void StereoOdometry::make_keyframe(const Image& left, Budget& budget) {
+void StereoOdometry::make_keyframe(const stereo::StereoPair& pair, Budget& budget) {
   adjust(budget);
   tracker_.add_corners();
   for (const Feature& f : tracker_.features())
@@ -225,7 +254,7 @@ void StereoOdometry::make_keyframe(const Image& left, Budget& budget) {
   tracker_.drop([&](const Feature& f) { return map_.find(f.id) == nullptr; });
   map_.keep(tracker_.features());
   bundle_.see(tracker_.features(), map_);
-  places_.remember(left, tracker_.features(), map_, filter_.state().T_odom_base);
+  places_.remember(pair.stamp, pair.left, tracker_.features(), map_, filter_.state().T_odom_base);
   T_odom_keyframe_ = filter_.state().T_odom_base;
   keyframe_landmarks_ = static_cast<int>(map_.size());
 }

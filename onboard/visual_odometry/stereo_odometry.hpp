@@ -2,6 +2,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "hal/budget.hpp"
@@ -48,6 +49,17 @@ class StereoOdometry final : public odometry::MotionSource {
   /// was): the pair is not later than the last one.
   Result<VisualUpdate> update(const stereo::StereoPair& pair, Budget& budget);
 
+  /// To be called before the first pair: goes on where another one ended. `keyframes` are its last ones. Until a
+  /// picture shows one of them, the robot is lost; after VisualOdometryConfig::give_up_after_s of pictures it begins
+  /// anew.
+  void resume(const UncertainPose& T_odom_base, const Vector6& twist, Time stamp, std::span<const Keyframe> keyframes);
+  /// No picture has yet told whether the robot is where the other one ended.
+  [[nodiscard]] bool resuming() const { return resuming_; }
+  /// The keyframe that the last pair became; null: it became none.
+  [[nodiscard]] const Keyframe* new_keyframe() const {
+    return places_.newest() != nullptr && places_.newest()->stamp == last_ ? places_.newest() : nullptr;
+  }
+
   [[nodiscard]] const odometry::MotionFilter& motion() const override { return filter_; }
   [[nodiscard]] odometry::MotionNoise expected_noise() const override { return prior_.usual(true); }
 
@@ -60,11 +72,12 @@ class StereoOdometry final : public odometry::MotionSource {
   [[nodiscard]] std::optional<Fit> find_again(const stereo::StereoPair& pair, double dt_s, Budget& budget);
   void return_to(const Fit& fit);
   void lose(double dt_s);
-  [[nodiscard]] bool gives_up(double dt_s) const;
+  void know_place(Time now);
+  [[nodiscard]] bool gives_up(Time now) const;
   [[nodiscard]] bool wants_keyframe(int inliers) const;
-  void make_keyframe(const Image& left, Budget& budget);
+  void make_keyframe(const stereo::StereoPair& pair, Budget& budget);
   void adjust(Budget& budget);
-  void begin_map(const Image& left, Budget& budget);
+  void begin_map(const stereo::StereoPair& pair, Budget& budget);
   [[nodiscard]] SE3 T_odom_eye() const { return filter_.state().T_odom_base * T_base_eye_; }
   [[nodiscard]] VisualUpdate report(Time stamp) const;
 
@@ -85,6 +98,8 @@ class StereoOdometry final : public odometry::MotionSource {
   std::optional<Time> last_;
   Matrix6 keyframe_error_ = Matrix6::Zero();  // of the next keyframe's landmarks in common, a right perturbation
   Time last_followed_{};
+  std::optional<Time> sought_since_;  // of a robot that is lost; else the last pair. None: before the first pair
+  bool resuming_ = false;
   SE3 T_odom_previous_, T_odom_keyframe_;
   int keyframe_landmarks_ = 0;
 };

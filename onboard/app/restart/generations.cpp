@@ -19,7 +19,8 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMaxStateBytes = 4096;
 // Forty scans of the largest LiDAR, thinned, are less than half of that.
 constexpr std::uint64_t kMaxScansBytes = std::uint64_t{256} << 20;
-constexpr std::size_t kHashLine = 17;  // 16 hexadecimal digits and the end of the line
+constexpr std::uint64_t kMaxKeyframesBytes = std::uint64_t{16} << 20;  // ten of the most corners take 3 MB
+constexpr std::size_t kHashLine = 17;                                  // 16 hexadecimal digits and the end of the line
 
 std::string hash_line(std::string_view text) {
   std::string hex(kHashLine - 1, '0');
@@ -62,7 +63,7 @@ std::optional<Generation> Generations::load_file(std::size_t slot, Time now, con
   if (!map) return refuse(map.error());
   const Time stamp = state->stamp;
   const std::uint32_t epoch = state->epoch;
-  return Generation{std::move(*state), std::move(*map), stamp, epoch, {}};
+  return Generation{std::move(*state), std::move(*map), stamp, epoch, {}, {}};
 }
 
 std::optional<Generation> Generations::load(Time now, const mapping::MapLimits& limits) {
@@ -77,6 +78,7 @@ std::optional<Generation> Generations::load(Time now, const mapping::MapLimits& 
   sequence_ = newest->state.sequence;
   take_newer_pose(*newest, now);
   take_scans(*newest, now);
+  take_keyframes(*newest, now);
   return newest;
 }
 
@@ -99,6 +101,14 @@ void Generations::take_scans(Generation& generation, Time now) {
   auto saved = bytes ? decode_scans(*bytes) : Result<SavedScans>(bytes.error());
   if (!saved) return monitor_.event(now, "saved map", to_string(at(kScansFile, saved.error())));
   if (saved->epoch == generation.state.epoch) generation.scans = std::move(saved->scans);
+}
+
+void Generations::take_keyframes(Generation& generation, Time now) {
+  const auto bytes = read_file(folder_ / kKeyframesFile, kMaxKeyframesBytes);
+  if (!bytes && bytes.error().code == Errc::kNotFound) return;
+  auto saved = bytes ? decode_keyframes(*bytes) : Result<SavedKeyframes>(bytes.error());
+  if (!saved) return monitor_.event(now, "saved map", to_string(at(kKeyframesFile, saved.error())));
+  if (saved->epoch == generation.state.epoch) generation.keyframes = std::move(saved->keyframes);
 }
 
 std::vector<std::byte> Generations::encode(const mapping::SemanticOcTree& map, SavedState state) const {
@@ -130,6 +140,12 @@ Result<void> Generations::save_scans(const SavedScans& scans) try {
   return replace_file(folder_ / kScansFile, cairn::app::encode(scans), calls_);
 } catch (const std::bad_alloc&) {
   return Error{Errc::kLimit, "no memory to save the scans"};
+}
+
+Result<void> Generations::save_keyframes(const SavedKeyframes& keyframes) try {
+  return replace_file(folder_ / kKeyframesFile, cairn::app::encode(keyframes), calls_);
+} catch (const std::bad_alloc&) {
+  return Error{Errc::kLimit, "no memory to save the keyframes"};
 }
 
 }  // namespace cairn::app

@@ -24,9 +24,15 @@ struct ToSave {
     odometry::PlacedScan scan;
     std::uint32_t epoch = 0;
   };
-  LatestValue<TrackPoint> pose;  ///< from odometry
-  SpscQueue<Scan> scans{16};     ///< from mapping
-  SpscQueue<Map> maps{1};        ///< from mapping
+  /// A keyframe of visual odometry and its epoch.
+  struct Keyframe {
+    visual_odometry::Keyframe keyframe;
+    std::uint32_t epoch = 0;
+  };
+  LatestValue<TrackPoint> pose;       ///< from odometry
+  SpscQueue<Keyframe> keyframes{16};  ///< from odometry
+  SpscQueue<Scan> scans{16};          ///< from mapping
+  SpscQueue<Map> maps{1};             ///< from mapping
 };
 
 /// Hands the scans that a restart needs, and now and then a copy of the map, to the saving task. Part of the mapping

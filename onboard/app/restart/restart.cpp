@@ -12,13 +12,14 @@ namespace {
 constexpr std::uint64_t kMaxBootId = 128;
 
 /// Empty: nothing speaks against it.
-std::string_view objection(const Generation& saved, const RestartProfile& profile, double resolution_m, Time now) {
+std::string_view objection(const Generation& saved, const RestartProfile& profile, const Successor& by, Time now) {
   const SavedState& state = saved.state;
   if (state.boot.empty() || state.boot != boot_id()) return "the machine was started since";
   if (state.stamp > now || now - state.stamp > from_seconds(profile.within_s)) return "it is too old";
-  if (saved.map->getResolution() != resolution_m) return "it has another resolution";
+  if (saved.map->getResolution() != by.resolution_m) return "it has another resolution";
   if (saved.newest_epoch != state.epoch) return "a newer one was begun";
-  if (saved.scans.empty()) return "no scans were saved with it";
+  if (by.sees_its_way && saved.keyframes.empty()) return "no keyframes were saved with it";
+  if (!by.sees_its_way && saved.scans.empty()) return "no scans were saved with it";
   return {};
 }
 
@@ -45,14 +46,14 @@ std::string boot_id() {
   return id;
 }
 
-PreviousRun find_previous_run(Generations& generations, const RestartProfile& profile, double resolution_m, Time now,
-                              Monitor& monitor) {
+PreviousRun find_previous_run(Generations& generations, const RestartProfile& profile, const Successor& successor,
+                              Time now, Monitor& monitor) {
   PreviousRun previous;
   auto saved = generations.load(now);
   previous.state_lost = !saved && generations.damaged();
   if (!saved) return previous;
   previous.epoch = saved->newest_epoch;
-  const std::string_view why_not = objection(*saved, profile, resolution_m, now);
+  const std::string_view why_not = objection(*saved, profile, successor, now);
   if (why_not.empty())
     previous.resumed = std::move(*saved);
   else
@@ -61,7 +62,13 @@ PreviousRun find_previous_run(Generations& generations, const RestartProfile& pr
 }
 
 Resume resume(const Generation& saved) {
-  return {*saved.map, saved.map_stamp, saved.scans, saved.state.T_odom_base, saved.state.twist, saved.state.stamp};
+  return {.map = *saved.map,
+          .map_stamp = saved.map_stamp,
+          .scans = saved.scans,
+          .T_odom_base = saved.state.T_odom_base,
+          .twist = saved.state.twist,
+          .stamp = saved.state.stamp,
+          .keyframes = saved.keyframes};
 }
 
 Result<void> keep_with_recording(const std::filesystem::path& recording, const Generation& generation,
@@ -71,13 +78,15 @@ Result<void> keep_with_recording(const std::filesystem::path& recording, const G
   of_map.stamp = generation.map_stamp;
   if (auto saved = folder.save(*generation.map, of_map); !saved) return saved;
   if (auto saved = folder.save_state(generation.state); !saved) return saved;
-  return folder.save_scans({generation.state.epoch, generation.scans});
+  if (auto saved = folder.save_scans({generation.state.epoch, generation.scans}); !saved) return saved;
+  if (generation.keyframes.empty()) return {};
+  return folder.save_keyframes({generation.state.epoch, generation.keyframes});
 }
 
 std::optional<Generation> resumed_in_recording(const std::filesystem::path& recording, Monitor& monitor) {
   if (!std::filesystem::is_directory(recording / kResumeFolder)) return std::nullopt;
   auto saved = Generations(recording / kResumeFolder, monitor).load({});
-  if (!saved || saved->scans.empty()) {
+  if (!saved || (saved->scans.empty() && saved->keyframes.empty())) {
     monitor.event({}, "restart", "the recording's resume folder is damaged: not the same result");
     return std::nullopt;
   }

@@ -20,6 +20,12 @@ struct RestartProfile {
 
 void declare(config::Section& section, RestartProfile& profile);
 
+/// Who wants to go on in a saved map.
+struct Successor {
+  double resolution_m = 0.1;
+  bool sees_its_way = false;  ///< both eyes tell its motion, so it needs keyframes; a LiDAR needs scans
+};
+
 /// What a run finds of the previous one.
 struct PreviousRun {
   std::optional<Generation> resumed;  ///< this run goes on from here; none: it begins anew
@@ -32,9 +38,9 @@ struct PreviousRun {
 [[nodiscard]] std::string boot_id();
 
 /// The previous run, from its map on disk. This run goes on in that map if it is of this boot and this resolution, not
-/// too old, and has scans. If it does not, an event says why not.
+/// too old, and has what tells where it ended. If it does not, an event says why not.
 [[nodiscard]] PreviousRun find_previous_run(Generations& generations, const RestartProfile& profile,
-                                            double resolution_m, Time now, Monitor& monitor);
+                                            const Successor& successor, Time now, Monitor& monitor);
 
 /// `saved` must outlive the result.
 [[nodiscard]] Resume resume(const Generation& saved);

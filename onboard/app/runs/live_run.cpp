@@ -155,10 +155,12 @@ safety::Pulse LiveRun::add_saving(Generations& generations) {
   saving_.emplace(generations, to_save_, previous.epoch, boot_id(), context_.monitor);
   const auto& scheduled = add_live_only(profile.schedule.saving, *saving_);
   tasks_.publish_poses_to(to_save_.pose);
+  if (tasks_.visual) tasks_.visual->keep_keyframes(to_save_.keyframes);
   odometry::ScanSelection selection;
   if (previous.resumed) {
-    saving_->go_on_with(previous.resumed->scans);
-    selection = odometry::ScanSelection(previous.resumed->scans.back().T_odom_base);
+    saving_->go_on_with(*previous.resumed);
+    const auto& scans = previous.resumed->scans;
+    if (!scans.empty()) selection = odometry::ScanSelection(scans.back().T_odom_base);
   }
   tasks_.mapping.keep_copies({profile.odometry, from_seconds(profile.restart.save_map_every_s), selection, to_save_});
   return {.task = scheduled.spec.name, .limit = kSavingLimit, .beats = &scheduled.stats.ticks};

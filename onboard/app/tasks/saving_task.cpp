@@ -9,6 +9,7 @@ namespace cairn::app {
 void SavingTask::save(Time now) {
   save_pose(now);
   save_scans(now);
+  save_keyframes(now);
   save_copy(now);
 }
 
@@ -51,6 +52,19 @@ void SavingTask::save_scans(Time now) {
   }
   if (!news) return;
   note(now, generations_.save_scans({first_epoch_ + scans_epoch_, {scans_.scans().begin(), scans_.scans().end()}}));
+}
+
+void SavingTask::save_keyframes(Time now) {
+  bool news = false;
+  for (; const ToSave::Keyframe* in = in_.keyframes.front(); in_.keyframes.pop()) {
+    if (in->epoch != keyframes_epoch_) keyframes_.clear();
+    keyframes_epoch_ = in->epoch;
+    keyframes_.push_back(in->keyframe);
+    if (keyframes_.size() > visual_odometry::PlaceMemory::kPlaces) keyframes_.pop_front();
+    news = true;
+  }
+  if (!news) return;
+  note(now, generations_.save_keyframes({first_epoch_ + keyframes_epoch_, {keyframes_.begin(), keyframes_.end()}}));
 }
 
 void SavingTask::save_copy(Time now) {

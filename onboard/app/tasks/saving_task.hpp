@@ -2,7 +2,7 @@
 #pragma once
 
 #include <atomic>
-#include <span>
+#include <deque>
 #include <string>
 
 #include "hal/monitor.hpp"
@@ -12,17 +12,18 @@
 
 namespace cairn::app {
 
-/// Keeps on disk what the next run needs after a crash: the pose with every tick, the scans when there are new ones,
-/// the map when a copy of it is there. Live only. A slow or full disk delays this task alone.
+/// Keeps on disk what the next run needs after a crash: the pose with every tick, scans and keyframes when there
+/// are new ones, the map when a copy of it is there. Live only. A slow or full disk delays this task alone.
 class SavingTask final : public scheduler::Task {
  public:
   /// The references must outlive the task. `first_epoch`: the number on disk of this run's epoch 0.
   SavingTask(Generations& generations, ToSave& in, std::uint32_t first_epoch, std::string boot, Monitor& monitor)
       : generations_(generations), in_(in), first_epoch_(first_epoch), boot_(std::move(boot)), monitor_(monitor) {}
 
-  /// The scans that the run goes on with. They are of its epoch 0.
-  void go_on_with(std::span<const odometry::PlacedScan> scans) {
-    for (const odometry::PlacedScan& scan : scans) scans_.add(scan);
+  /// The scans and keyframes that the run goes on with. They are of its epoch 0.
+  void go_on_with(const Generation& saved) {
+    for (const odometry::PlacedScan& scan : saved.scans) scans_.add(scan);
+    keyframes_.assign(saved.keyframes.begin(), saved.keyframes.end());
   }
 
   void tick(scheduler::Tick& tick) override { save(tick.release()); }
@@ -38,6 +39,7 @@ class SavingTask final : public scheduler::Task {
  private:
   void save_pose(Time now);
   void save_scans(Time now);
+  void save_keyframes(Time now);
   void save_copy(Time now);
   void save_map(Time now, const mapping::SemanticOcTree& map, const TrackPoint& newest);
   [[nodiscard]] SavedState state_at(const TrackPoint& point) const;
@@ -50,6 +52,8 @@ class SavingTask final : public scheduler::Task {
   Monitor& monitor_;
   odometry::RecentScans scans_;
   std::uint32_t scans_epoch_ = 0;
+  std::deque<visual_odometry::Keyframe> keyframes_;
+  std::uint32_t keyframes_epoch_ = 0;
   std::uint64_t maps_saved_ = 0;
   std::atomic<bool> failing_{false};
 };

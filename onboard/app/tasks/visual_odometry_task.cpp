@@ -52,9 +52,19 @@ void VisualOdometryTask::look(const Packet& packet, Tick& tick) {
     if (!located->lost) ++figures_.tracked;
     teller_.tell(*located, robot_);
     hand_on(located_, packet.arrival, tick);
+    keep_keyframe(*located);
   }
   if (tick.takes_time()) latency_.record(tick.figure_now() - packet.arrival);
   if (progress_) progress_(packet.arrival, figures_.frames);
+}
+
+void VisualOdometryTask::keep_keyframe(const TrackPoint& located) {
+  const visual_odometry::Keyframe* keyframe = to_save_ == nullptr ? nullptr : robot_.new_keyframe();
+  ToSave::Keyframe* out = keyframe == nullptr ? nullptr : to_save_->back();
+  if (out == nullptr) return;  // a later one will do
+  out->keyframe = *keyframe;
+  out->epoch = located.epoch;
+  to_save_->push();
 }
 
 void VisualOdometryTask::hand_on(const LocatedScan& located, Time arrival, Tick& tick) {

@@ -7,6 +7,7 @@
 #include "hal/monitor.hpp"
 #include "hal/relaxed_counter.hpp"
 #include "onboard/app/profile/robot_profile.hpp"
+#include "onboard/app/restart/map_copier.hpp"
 #include "onboard/app/streams/pose_teller.hpp"
 #include "onboard/app/tasks/messages.hpp"
 #include "onboard/perception/stereo/rectifier.hpp"
@@ -39,6 +40,8 @@ class VisualOdometryTask final : public scheduler::Task {
 
   /// Live: who is told every pose. Scans are told by the task that measures points.
   [[nodiscard]] PoseTeller& teller() { return teller_; }
+  /// Live: keyframes are handed there for a restart. Not waited for.
+  void keep_keyframes(SpscQueue<ToSave::Keyframe>& out) { to_save_ = &out; }
 
   void tick(scheduler::Tick& tick) override;
 
@@ -48,6 +51,7 @@ class VisualOdometryTask final : public scheduler::Task {
   void look(const Packet& packet, scheduler::Tick& tick);
   [[nodiscard]] Result<void> read(const Packet& packet);
   void hand_on(const LocatedScan& located, Time arrival, scheduler::Tick& tick);
+  void keep_keyframe(const TrackPoint& located);
   void publish_status(scheduler::Tick& tick);
 
   Duration deadline_, map_period_;
@@ -60,6 +64,7 @@ class VisualOdometryTask final : public scheduler::Task {
   StageStats& latency_;
   Progress progress_;
   PoseTeller teller_;
+  SpscQueue<ToSave::Keyframe>* to_save_ = nullptr;
   stereo::StereoPair pair_;
   LocatedScan located_;
   Time next_view_{};  // the first picture from then on goes on

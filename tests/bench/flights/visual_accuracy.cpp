@@ -3,12 +3,15 @@
 // covariance, CPU time.
 //   visual_accuracy RECORDING… [KEY=VALUE …]
 // TRACE=1 prints every picture. VisualOdometryConfig's keys, and: every=N takes every N-th picture; dark=S,L makes the
-// pictures from second S on black for L seconds.
+// pictures from second S on black for L seconds; restart=S,L lets it end at second S, and another one go on L seconds
+// later from its last keyframes.
 #include <Eigen/Cholesky>
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <deque>
 #include <filesystem>
+#include <memory>
 #include <numbers>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
@@ -29,6 +32,7 @@ struct Settings {
   VisualOdometryConfig odometry;
   int every = 1;
   double dark_from_s = -1, dark_for_s = 0;
+  double restart_at_s = -1, restart_for_s = 0;
 };
 
 double percentile(std::vector<double> values, double share) {
@@ -128,10 +132,33 @@ void trace(double s, const VisualUpdate& u, const Figures& f) {
       f.error[3], f.error[4], f.error[5], f.sigma[0], f.sigma[1], f.sigma[2], u.twist.head<3>().norm());
 }
 
+/// What a restarted odometry goes on from.
+struct Kept {
+  std::deque<Keyframe> keyframes;
+  UncertainPose T_odom_base;
+  Vector6 twist = Vector6::Zero();
+  Time stamp{};
+
+  void keep(const StereoOdometry& odometry, const VisualUpdate& u) {
+    if (u.lost) return;
+    T_odom_base = u.T_odom_base;
+    twist = u.twist;
+    stamp = u.stamp;
+    if (odometry.new_keyframe() == nullptr) return;
+    keyframes.push_back(*odometry.new_keyframe());
+    if (keyframes.size() > PlaceMemory::kPlaces) keyframes.pop_front();
+  }
+};
+
 void run(const fs::path& recording, const Settings& settings) {
   const auto eyes = flights::eyes_of(recording);
   if (!eyes) return (void)std::printf("%s\n", to_string(eyes.error()).c_str());
-  StereoOdometry odometry(settings.odometry, eyes->rectifier.geometry(), eyes->T_base_eye);
+  const auto begin_anew = [&] {
+    return std::make_unique<StereoOdometry>(settings.odometry, eyes->rectifier.geometry(), eyes->T_base_eye);
+  };
+  auto odometry = begin_anew();
+  Kept kept;
+  bool restarted = settings.restart_at_s < 0;
   const flights::Truth truth = flights::load_truth(recording / "ground_truth.tum");
   const auto pictures = flights::pictures_of(recording);
   const SE3 T_start = truth.at(pictures.front().first);
@@ -141,14 +168,22 @@ void run(const fs::path& recording, const Settings& settings) {
   for (std::size_t i = 0; i < pictures.size(); i += static_cast<std::size_t>(settings.every)) {
     const auto& [ns, file] = pictures[i];
     const double s = static_cast<double>(ns - pictures.front().first) * 1e-9;
+    if (s >= settings.restart_at_s && s < settings.restart_at_s + settings.restart_for_s) continue;
+    if (!restarted && s >= settings.restart_at_s) {
+      odometry = begin_anew();
+      const std::vector<Keyframe> last(kept.keyframes.begin(), kept.keyframes.end());
+      odometry->resume(kept.T_odom_base, kept.twist, kept.stamp, last);
+      restarted = true;
+    }
     const bool dark = s >= settings.dark_from_s && s < settings.dark_from_s + settings.dark_for_s;
     const Image image = decoded(file, ns, dark);
     const Duration begin = thread_cpu_time();
     if (const auto done = eyes->rectifier.rectify(image, pair); !done) return;
     Budget budget = Budget::steps(most_steps(settings.odometry));
-    const auto u = odometry.update(pair, budget);
+    const auto u = odometry->update(pair, budget);
     figures.cpu_ms.push_back(to_milliseconds(thread_cpu_time() - begin));
     if (!u) return (void)std::printf("%s\n", to_string(u.error()).c_str());
+    kept.keep(*odometry, *u);
     const SE3 now = T_start.inverse() * truth.at(ns);
     if (i > 0) account(figures, *u, now, before);
     before = now;
@@ -160,6 +195,7 @@ void run(const fs::path& recording, const Settings& settings) {
 
 bool set(const std::string& key, const std::string& value, Settings& s) {
   if (key == "every") return (s.every = std::stoi(value)) > 0;
+  if (key == "restart") return std::sscanf(value.c_str(), "%lf,%lf", &s.restart_at_s, &s.restart_for_s) == 2;
   if (key == "dark") return std::sscanf(value.c_str(), "%lf,%lf", &s.dark_from_s, &s.dark_for_s) == 2;
   config::Section section;
   declare(section, s.odometry);

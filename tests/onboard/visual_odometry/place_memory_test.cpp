@@ -31,8 +31,8 @@ TEST(PlaceMemory, RecallsAPlaceFromNearBy) {
   View before({-2, 0, 1.4}, 0, 1), now({-1.8, 0.1, 1.4}, 0.05, 2), elsewhere({2, 0, 1.4}, 3, 3);
   LandmarkMap landmarks(kPlaceEyes, {0.35, 0.35}, 40);
   for (const Feature& f : before.tracker.features()) landmarks.add(f, before.T_world_eye, 0);
-  PlaceMemory memory;
-  memory.remember(before.pair.left, before.tracker.features(), landmarks, before.T_world_eye);
+  PlaceMemory memory(kPlaceEyes.baseline_m);
+  memory.remember(Time{}, before.pair.left, before.tracker.features(), landmarks, before.T_world_eye);
   const auto place = memory.recall(now.pair.left, now.tracker.features());
   ASSERT_GE(place.matches.size(), 15U);
   int right = 0;
@@ -51,7 +51,7 @@ TEST(PlaceMemory, DescriptorsDoNotLookOutsideOfThePicture) {
   Image picture;
   picture.resize(PixelFormat::kMono8, 40, 30);
   std::ranges::fill(picture.bytes, std::byte{7});
-  const std::vector<Eigen::Vector2f> corners{{0, 0}, {39, 29}, {0, 29}, {39, 0}};
+  const std::vector<Spot> corners{{{0, 0}, 1}, {{39, 29}, 2.5F}, {{0, 29}, 0.4F}, {{39, 0}, 10}};
   EXPECT_EQ(describe(picture, corners).size(), 4U);
 }
 

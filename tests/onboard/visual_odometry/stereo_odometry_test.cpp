@@ -112,6 +112,65 @@ TEST(StereoOdometry, AfterALongDarknessANewMapBeginsAndIsSaid) {
   EXPECT_FALSE(flight.updates.back().lost);
 }
 
+/// An odometry that flies for a second, and what it leaves.
+struct Ended {
+  std::vector<Keyframe> keyframes;
+  VisualUpdate last;
+};
+Ended fly_and_end(support::StereoView& view) {
+  StereoOdometry odometry(quick(), kFlightEyes, kFlightMount);
+  stereo::StereoPair pair;
+  Ended ended;
+  for (int i = 0; i < 15; ++i) {
+    view.shoot(flown(kPeriod_s * i) * kFlightMount, Time{from_seconds(1 + kPeriod_s * i)}, pair);
+    Budget budget = Budget::steps(most_steps(quick()));
+    ended.last = odometry.update(pair, budget).value();
+    if (odometry.new_keyframe() != nullptr) ended.keyframes.push_back(*odometry.new_keyframe());
+  }
+  return ended;
+}
+
+TEST(StereoOdometry, GoesOnWhereAnotherOneEnded) {
+  const support::World world = support::furnished_room();
+  support::StereoView view(world, kFlightEyes, 11);
+  const Ended ended = fly_and_end(view);
+  StereoOdometry odometry(quick(), kFlightEyes, kFlightMount);
+  odometry.resume(ended.last.T_odom_base, ended.last.twist, ended.last.stamp, ended.keyframes);
+  EXPECT_TRUE(odometry.resuming());
+  stereo::StereoPair pair;
+  for (int i = 25; i < 32; ++i) {
+    view.shoot(flown(kPeriod_s * i) * kFlightMount, Time{from_seconds(1 + kPeriod_s * i)}, pair);
+    Budget budget = Budget::steps(most_steps(quick()));
+    const VisualUpdate u = odometry.update(pair, budget).value();
+    EXPECT_FALSE(u.lost || u.began || u.apart) << i;
+    EXPECT_FALSE(odometry.resuming());
+    const SE3 truth = flown(0).inverse() * flown(kPeriod_s * i);
+    EXPECT_LT((u.T_odom_base.mean.translation() - truth.translation()).norm(), 0.05) << i;
+  }
+}
+
+TEST(StereoOdometry, WhereNoPictureShowsTheSavedPlaceAMapBeginsAnew) {
+  const support::World world = support::furnished_room();
+  support::StereoView view(world, kFlightEyes, 11);
+  const Ended ended = fly_and_end(view);
+  StereoOdometry odometry(quick(), kFlightEyes, kFlightMount);
+  odometry.resume(ended.last.T_odom_base, ended.last.twist, ended.last.stamp, ended.keyframes);
+  const SE3 elsewhere = SE3::from_xyz_rpy((Vector6() << 0, 0, 1.5, 0, 0, 3).finished());
+  stereo::StereoPair pair;
+  std::vector<VisualUpdate> updates;
+  for (int i = 0; i < 26; ++i) {
+    view.shoot(elsewhere * kFlightMount, Time{from_seconds(12 + kPeriod_s * i)}, pair);
+    Budget budget = Budget::steps(most_steps(quick()));
+    updates.push_back(odometry.update(pair, budget).value());
+    EXPECT_FALSE(updates.back().began);
+    if (updates.back().apart) break;
+  }
+  EXPECT_TRUE(updates.back().apart);
+  EXPECT_GT(updates.back().stamp - updates.front().stamp, from_seconds(quick().give_up_after_s));
+  EXPECT_TRUE(std::ranges::all_of(updates, &VisualUpdate::lost));
+  EXPECT_FALSE(odometry.resuming());
+}
+
 TEST(StereoOdometry, APictureThatIsNotLaterIsRefused) {
   const support::World world = support::furnished_room();
   support::StereoView view(world, kFlightEyes, 1);

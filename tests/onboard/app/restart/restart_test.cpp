@@ -29,9 +29,9 @@ class RestartTest : public testing::Test {
     ASSERT_TRUE(generations.save_state(state));
     ASSERT_TRUE(generations.save_scans({state.epoch, {odometry::PlacedScan{state.stamp, {}, {{1, 2, 3}}}}}));
   }
-  PreviousRun look(double now_s, double resolution_m = 0.1) {
+  PreviousRun look(double now_s, const Successor& by = {}) {
     Generations generations(folder.path(), *monitor);
-    return find_previous_run(generations, RestartProfile{}, resolution_m, at(now_s), *monitor);
+    return find_previous_run(generations, RestartProfile{}, by, at(now_s), *monitor);
   }
   [[nodiscard]] std::string said() const {
     return monitor->events().empty() ? std::string() : monitor->events().back().what;
@@ -78,7 +78,7 @@ TEST_F(RestartTest, BeginsAnewAndSaysWhy) {
   EXPECT_FALSE(look(10 + RestartProfile{}.within_s + 1).resumed);
   EXPECT_NE(said().find("too old"), std::string::npos);
   EXPECT_FALSE(look(9).resumed) << "from the future";
-  EXPECT_FALSE(look(11, 0.2).resumed);
+  EXPECT_FALSE(look(11, {.resolution_m = 0.2}).resumed);
   EXPECT_NE(said().find("resolution"), std::string::npos);
   state.boot = "another";
   save();
@@ -86,6 +86,31 @@ TEST_F(RestartTest, BeginsAnewAndSaysWhy) {
   EXPECT_FALSE(previous.resumed);
   EXPECT_EQ(previous.epoch, 3U) << "the next map must not take its number";
   EXPECT_NE(said().find("machine was started"), std::string::npos);
+}
+
+visual_odometry::Keyframe some_keyframe(double seconds) {
+  visual_odometry::Landmark landmark;
+  landmark.p_odom = {seconds, 2, 3};
+  landmark.covariance = 0.1 * Eigen::Matrix3d::Identity();
+  return {at(seconds), {}, {{1, 2, 3, 4}}, {landmark}};
+}
+
+TEST_F(RestartTest, ARobotThatSeesItsWayNeedsKeyframes) {
+  save();
+  EXPECT_FALSE(look(11, {.sees_its_way = true}).resumed);
+  EXPECT_NE(said().find("no keyframes"), std::string::npos) << said();
+  ASSERT_TRUE(Generations(folder.path(), *monitor).save_keyframes({state.epoch, {some_keyframe(9)}}));
+  const PreviousRun previous = look(11, {.sees_its_way = true});
+  ASSERT_TRUE(previous.resumed);
+  ASSERT_EQ(previous.resumed->keyframes.size(), 1U);
+  EXPECT_EQ(resume(*previous.resumed).keyframes.front().landmarks.front().p_odom.x(), 9);
+  const support::TemporaryFolder recording;
+  ASSERT_TRUE(keep_with_recording(recording.path(), *previous.resumed, *monitor));
+  const auto found = resumed_in_recording(recording.path(), *monitor);
+  ASSERT_TRUE(found);
+  EXPECT_EQ(found->keyframes.front().descriptors, previous.resumed->keyframes.front().descriptors);
+  ASSERT_TRUE(Generations(folder.path(), *monitor).save_keyframes({state.epoch + 1, {some_keyframe(9)}}));
+  EXPECT_FALSE(look(11, {.sees_its_way = true}).resumed) << "of another map";
 }
 
 TEST_F(RestartTest, AMapWhosePoseIsOfANewerEpochIsNotGoneOnIn) {
@@ -153,6 +178,22 @@ TEST_F(SavingTest, AfterADriveMapPoseAndScansAreThere) {
   // The first eight, and then one every 0.4 m; each thinned.
   EXPECT_EQ(previous.resumed->scans.size(), 8U + 5U);
   EXPECT_EQ(previous.resumed->scans.front().points_base.size(), 2U);
+}
+
+TEST_F(SavingTest, TheLastKeyframesOfTheEpochAreThere) {
+  const auto map = mapping::random_map<mapping::SemanticOcTree>(2, 50);
+  drive(0, 15, 1, *map);
+  const auto hand_over = [&](int number, std::uint32_t epoch) {
+    *in.keyframes.back() = {some_keyframe(0.1 * number), epoch};
+    in.keyframes.push();
+    task.save(at(1.5));
+  };
+  hand_over(1, 0);  // of the map before
+  for (int i = 2; i < 14; ++i) hand_over(i, 1);
+  const PreviousRun previous = look(1.5, {.sees_its_way = true});
+  ASSERT_TRUE(previous.resumed) << said();
+  ASSERT_EQ(previous.resumed->keyframes.size(), visual_odometry::PlaceMemory::kPlaces);
+  EXPECT_EQ(previous.resumed->keyframes.back().stamp, at(1.3));
 }
 
 TEST_F(SavingTest, ANewEpochForgetsTheScansAndTheHalfCopyOfTheOld) {
