@@ -155,8 +155,9 @@ TEST_P(CarriedAway, TheMapBeginsAnew) {
   std::unique_ptr<Robot> robot =
       std::make_unique<Robot>(journey.config, journey.workers, journey.workers, journey.monitor);
   for (int i = 0; i < scans; ++i) journey.step(*robot);
-  const app::Generation saved{state_of(journey), std::make_unique<mapping::SemanticOcTree>(robot->map()),
-                              journey.last.stamp, 0, journey.saved_scans().scans};
+  const app::Generation saved{state_of(journey),           std::make_unique<mapping::SemanticOcTree>(robot->map()),
+                              journey.last.stamp,          0,
+                              journey.saved_scans().scans, {}};
   journey.miss(60);
   Robot again(journey.config, journey.workers, journey.workers, journey.monitor, resume(saved));
   const Scan first = journey.next();
