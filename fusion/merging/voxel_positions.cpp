@@ -76,7 +76,7 @@ Result<std::vector<VoxelPosition>> voxel_positions(const mapping::SemanticOcTree
   return positions;
 }
 
-PositionFigures position_figures(std::span<const VoxelPosition> positions) {
+mapping::PositionFigures position_figures(std::span<const VoxelPosition> positions) {
   std::vector<double> all, shared, alone;
   for (const VoxelPosition& voxel : positions) {
     all.push_back(rms_m(voxel.position));
@@ -84,11 +84,11 @@ PositionFigures position_figures(std::span<const VoxelPosition> positions) {
     shared.push_back(all.back());
     alone.push_back(voxel.alone_m);
   }
-  PositionFigures figures{.voxels = all.size(),
-                          .shared = shared.size(),
-                          .mean_m = mean(all),
-                          .shared_mean_m = mean(shared),
-                          .shared_alone_m = mean(alone)};
+  mapping::PositionFigures figures{.voxels = all.size(),
+                                   .shared = shared.size(),
+                                   .mean_m = mean(all),
+                                   .shared_mean_m = mean(shared),
+                                   .shared_alone_m = mean(alone)};
   if (all.empty()) return figures;
   const auto most = all.begin() + static_cast<std::ptrdiff_t>(kMost * static_cast<double>(all.size() - 1));
   std::nth_element(all.begin(), most, all.end());

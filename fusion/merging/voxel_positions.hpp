@@ -8,6 +8,7 @@
 #include "fusion/merging/position.hpp"
 #include "hal/result.hpp"
 #include "hal/se3.hpp"
+#include "onboard/mapping/tree/position_figures.hpp"
 #include "onboard/mapping/tree/semantic_octree.hpp"
 
 namespace cairn::merging {
@@ -37,13 +38,6 @@ struct VoxelPosition {
                                                                  std::span<const PlacedMap> maps);
 
 /// rms_m() over the voxels of a fused map.
-struct PositionFigures {
-  std::size_t voxels = 0;        ///< occupied
-  std::size_t shared = 0;        ///< of these, known to several maps
-  double mean_m = 0, p95_m = 0;  ///< of all; 0 where there is none
-  double shared_mean_m = 0;      ///< of the shared ones
-  double shared_alone_m = 0;     ///< of the shared ones, by the map that knows each best, taken alone
-};
-[[nodiscard]] PositionFigures position_figures(std::span<const VoxelPosition> positions);
+[[nodiscard]] mapping::PositionFigures position_figures(std::span<const VoxelPosition> positions);
 
 }  // namespace cairn::merging

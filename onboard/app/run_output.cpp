@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/run_output.hpp"
 
+#include <algorithm>
 #include <fstream>
 #include <set>
 
@@ -217,10 +218,11 @@ Result<void> add_team_files(const RunFacts& facts, const fs::path& folder, repor
   if (!facts.tasks.team || !facts.tasks.team->team().team()) return {};
   const auto files = write_team(*facts.tasks.team->team().team(), folder);
   if (!files) return files.error();
-  const auto hash = sha256_of_files(*files);
+  const auto hash = sha256_of_files(files->same);
   if (!hash) return hash.error();
   report.team->sha256 = *hash;
-  hashed.insert(hashed.end(), files->begin(), files->end());
+  report.team->positions = files->positions;
+  hashed.insert(hashed.end(), files->same.begin(), files->same.end());
   return {};
 }
 
@@ -258,7 +260,7 @@ void remove_stale(const fs::path& out, const std::set<fs::path>& fresh) {
   if (fs::exists(out / recording::kIndexFile, ignored)) return;  // a recording's schedule.log is its own
   for (const fs::path& name : names_in(out)) {
     const bool not_in_every_run = name == kFailedRun || name == kPeople || name == "schedule.log" ||
-                                  name == "team.cairn" || name == "team.ot" || name == "team.tum" ||
+                                  std::ranges::find(kTeamFiles, name.string()) != kTeamFiles.end() ||
                                   name.string().starts_with(kEpochMap);
     if (not_in_every_run && !fresh.contains(name)) fs::remove_all(out / name, ignored);
   }

@@ -4,10 +4,16 @@
 #include <iterator>
 
 #include "drivers/recording/formats/trajectory_file.hpp"
+#include "fusion/merging/positions_file.hpp"
+#include "fusion/team/team_positions.hpp"
 #include "onboard/mapping/files/map_file.hpp"
+#include "onboard/mapping/files/point_file.hpp"
 
 namespace cairn::app {
 namespace {
+
+// Voxels whose places are told: they take 0.3 GB for a moment.
+constexpr std::size_t kMostPlaced = 2'000'000;
 
 /// Where a peer's odom frame lies in this robot's by now, by all that the team knows. None where it knows nothing.
 std::optional<UncertainPose> pose_of(const team::Team& team, peers::RobotId peer) {
@@ -84,15 +90,22 @@ void add_team(const TeamTask& task, report::RunReport& report) {
   report.team = std::move(stats);
 }
 
-Result<std::vector<std::filesystem::path>> write_team(const team::Team& team, const std::filesystem::path& out) {
-  const std::vector<std::filesystem::path> same{out / "team.cairn", out / "team.tum"};
+Result<TeamFiles> write_team(const team::Team& team, const std::filesystem::path& out) {
+  const auto [map, tum, tree, places] = kTeamFiles;
+  TeamFiles files{.same = {out / map, out / tum}, .positions = {}};
   std::vector<recording::StampedPose> poses;
   for (const auto& [robot, T_team_odom] : team.poses().T_team_odom)
     poses.push_back({Time{} + std::chrono::seconds(static_cast<std::int64_t>(robot)), T_team_odom});
-  if (const auto saved = mapping::save_cairn(team.map().map(), same[0]); !saved) return saved.error();
-  if (const auto saved = recording::write_tum(same[1], poses); !saved) return saved.error();
-  if (const auto saved = mapping::save_ot(team.map().map(), out / "team.ot"); !saved) return saved.error();
-  return same;
+  if (const auto saved = mapping::save_cairn(team.map().map(), files.same[0]); !saved) return saved.error();
+  if (const auto saved = recording::write_tum(files.same[1], poses); !saved) return saved.error();
+  if (const auto saved = mapping::save_ot(team.map().map(), out / tree); !saved) return saved.error();
+  const bool alone = team.poses().T_team_odom.size() < 2;
+  if (alone || !mapping::listable_voxels(team.map().map(), kMostPlaced)) return files;
+  const auto positions = team::team_positions(team);
+  if (!positions) return positions.error();
+  if (const auto saved = merging::save_positions(*positions, out / places); !saved) return saved.error();
+  files.positions = merging::position_figures(*positions);
+  return files;
 }
 
 }  // namespace cairn::app

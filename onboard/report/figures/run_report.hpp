@@ -11,6 +11,7 @@
 #include "hal/monitor.hpp"
 #include "hal/se3.hpp"
 #include "hal/time.hpp"
+#include "onboard/mapping/tree/position_figures.hpp"
 #include "onboard/report/figures/map_measures.hpp"
 #include "onboard/report/figures/trajectory_error.hpp"
 #include "onboard/report/pictures/map_picture.hpp"
@@ -124,7 +125,9 @@ struct TeamStats {
   std::uint64_t held_back_tiles = 0;         ///< that scans contradicted, and that were not said
   std::uint64_t satellite_fixes = 0;         ///< that came in, where the profile uses them
   std::optional<UncertainPose> T_site_odom;  ///< by satellites
-  std::string sha256;                        ///< over team.cairn and team.tum: the same on every robot of the team
+  /// How well places of voxels are known; none before a teammate is merged.
+  std::optional<mapping::PositionFigures> positions;
+  std::string sha256;  ///< over team.cairn and team.tum: the same on every robot of the team
 };
 
 /// The content of report.json and report.html. The run fills it in, and write_report() writes it. A figure that was not

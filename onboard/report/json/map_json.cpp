@@ -45,6 +45,15 @@ Json to_json(const MapSummary& map) {
           {"mean_entropy_label", or_null(map.mean_entropy_label)}};
 }
 
+Json to_json(const mapping::PositionFigures& f) {
+  return {{"voxels", f.voxels},
+          {"shared", f.shared},
+          {"mean_m", f.mean_m},
+          {"p95_m", f.p95_m},
+          {"shared_mean_m", f.shared_mean_m},
+          {"shared_alone_m", f.shared_alone_m}};
+}
+
 Json to_json(const MapComparison& c) {
   return {{"same", c.same},
           {"disagreeing", c.disagreeing},

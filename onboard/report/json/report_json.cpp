@@ -144,6 +144,7 @@ Json team_json(const RunReport& report) {
            {{"fixes", t.satellite_fixes},
             {"T_site_odom", t.T_site_odom ? numbers(t.T_site_odom->mean.matrix()) : Json(nullptr)},
             {"covariance", t.T_site_odom ? numbers(t.T_site_odom->covariance) : Json(nullptr)}}},
+          {"positions", t.positions ? to_json(*t.positions) : Json(nullptr)},
           {"sha256", t.sha256}};
 }
 

@@ -16,6 +16,7 @@ using Json = nlohmann::ordered_json;
 /// Field names are fixed, because scripts rely on them: docs/api.md lists them. A value that is not known is null.
 [[nodiscard]] Json to_json(const TrajectoryError& error);
 [[nodiscard]] Json to_json(const MapSummary& map);
+[[nodiscard]] Json to_json(const mapping::PositionFigures& figures);
 [[nodiscard]] Json to_json(const MapComparison& comparison);
 [[nodiscard]] Json to_json(const MapError& error);
 [[nodiscard]] Json to_json(const LabelError& error);

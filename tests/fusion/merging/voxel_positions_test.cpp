@@ -50,7 +50,7 @@ TEST(VoxelPositions, WhatTwoMapsKnowIsKnownBetterThanByEither) {
     EXPECT_EQ(rms_m(voxel.position) < voxel.alone_m, voxel.maps == 2);
   }
   EXPECT_EQ(shared, 5);
-  const PositionFigures figures = position_figures(*positions);
+  const mapping::PositionFigures figures = position_figures(*positions);
   EXPECT_EQ(figures.voxels, 15U);
   EXPECT_EQ(figures.shared, 5U);
   EXPECT_LT(figures.shared_mean_m, 0.75 * figures.shared_alone_m);

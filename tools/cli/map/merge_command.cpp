@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "fusion/merging/merge.hpp"
+#include "fusion/merging/positions_file.hpp"
 #include "fusion/merging/voxel_positions.hpp"
 #include "hal/clock.hpp"
 #include "hal/files/unfinished_folder.hpp"
@@ -23,7 +24,6 @@
 #include "onboard/report/figures/map_measures.hpp"
 #include "onboard/report/json/report_json.hpp"
 #include "tools/cli/map/pose_option.hpp"
-#include "tools/cli/map/positions_file.hpp"
 #include "tools/cli/map/save_map.hpp"
 
 namespace cairn::cli {
@@ -55,37 +55,28 @@ merging::Contributions contributions(std::shared_ptr<const mapping::SemanticOcTr
   return all;
 }
 
-report::Json to_json(const merging::PositionFigures& f) {
-  return {{"voxels", f.voxels},
-          {"shared", f.shared},
-          {"mean_m", f.mean_m},
-          {"p95_m", f.p95_m},
-          {"shared_mean_m", f.shared_mean_m},
-          {"shared_alone_m", f.shared_alone_m}};
-}
-
 /// Where the fused voxels are. Writes the file, if one is asked for.
-Result<std::optional<merging::PositionFigures>> positions(const Options& options, const mapping::SemanticOcTree& fused,
+Result<std::optional<mapping::PositionFigures>> positions(const Options& options, const mapping::SemanticOcTree& fused,
                                                           const merging::Contributions& all,
                                                           const Matrix6& covariance) {
-  if (!options.wants_positions()) return std::optional<merging::PositionFigures>();
+  if (!options.wants_positions()) return std::optional<mapping::PositionFigures>();
   std::vector<merging::PlacedMap> maps;
   for (const auto& [robot, contribution] : all)
     maps.push_back({contribution.map.get(), {contribution.T_fused_map, robot == 1 ? Matrix6::Zero() : covariance}});
   const auto found = merging::voxel_positions(fused, maps);
   if (!found) return found.error();
   if (!options.positions.empty())
-    if (const auto saved = save_positions(*found, options.positions); !saved) return saved.error();
+    if (const auto saved = merging::save_positions(*found, options.positions); !saved) return saved.error();
   return std::optional(merging::position_figures(*found));
 }
 
 int report(const Options& options, const mapping::SemanticOcTree& fused, double seconds,
-           const std::optional<merging::PositionFigures>& places) {
+           const std::optional<mapping::PositionFigures>& places) {
   const report::MapSummary summary = report::summarise(fused);
   if (options.json) {
     report::Json json{{"out", options.out.string()}, {"policy", options.policy}, {"seconds", seconds}};
     json.update(report::to_json(summary));
-    if (places) json["positions"] = to_json(*places);
+    if (places) json["positions"] = report::to_json(*places);
     return app::print(json);
   }
   std::cout << fmt::format("{}: {} voxels occupied, {} free\n", options.out.string(), summary.occupied, summary.free);
@@ -123,7 +114,8 @@ int run(const Options& options) {
   if (!T_a_b) return app::fail(T_a_b.error());
   const auto covariance = covariance_from_option("--covariance", options.covariance);
   if (!covariance) return app::fail(covariance.error());
-  if (const auto named = check_positions_name(options.positions); !named) return app::fail(named.error());
+  if (!options.positions.empty() && options.positions.extension() != ".ply")
+    return app::fail({Errc::kInvalidConfig, "the name must end in .ply", "--positions " + options.positions.string()});
   if (options.positions == options.out)
     return app::fail({Errc::kInvalidConfig, "is the same file as --out", "--positions " + options.positions.string()});
   for (const auto& input : {options.a, options.b})

@@ -21,6 +21,7 @@
 #include "onboard/client/map_mirror.hpp"
 #include "onboard/client/robot_stream.hpp"
 #include "onboard/mapping/files/map_file.hpp"
+#include "onboard/report/figures/map_measures.hpp"
 #include "tests/support/local_socket.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -239,6 +240,9 @@ TEST_F(TeamRun, IsRepeatedToTheBitThoughThePeerProcessDies) {
   EXPECT_EQ(ran.peers.at("second").tiles, 1U);
   EXPECT_GT(peer.known_items(), kLeastTiles) << "the peer knows the robot's map";
   const auto map = mapping::load_map(options_.out / "team.cairn").value();
+  ASSERT_TRUE(ran.team->positions) << "and how well the places of voxels are known";
+  EXPECT_EQ(ran.team->positions->voxels, report::summarise(*map).occupied);
+  EXPECT_TRUE(fs::exists(options_.out / "team_positions.ply"));
   const auto* pillar = map->search(map->keyToCoord(octomap::OcTreeKey(32768 + 600 + 3, 32768 + 600 + 4, 32768 + 8)));
   ASSERT_NE(pillar, nullptr);
   EXPECT_TRUE(map->isNodeOccupied(pillar)) << "and the robot the peer's pillar";
@@ -277,6 +281,7 @@ TEST_F(TeamRun, WithoutAPeerProcessTheRunIsAsGoodAsAlone) {
   EXPECT_GE((*result)->report.scans, kLeastPlayed);
   EXPECT_THAT((*result)->report.team->merged_with, ElementsAre());
   EXPECT_TRUE(fs::exists(options_.out / "team.cairn"));
+  EXPECT_FALSE(fs::exists(options_.out / "team_positions.ply")) << "there is nothing to be placed";
 }
 
 }  // namespace

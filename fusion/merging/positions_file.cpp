@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/cli/map/positions_file.hpp"
+#include "fusion/merging/positions_file.hpp"
 
 #include <cmath>
 #include <cstddef>
@@ -10,21 +10,16 @@
 #include "hal/bytes.hpp"
 #include "hal/files/file.hpp"
 
-namespace cairn::cli {
+namespace cairn::merging {
 
-Result<void> check_positions_name(const std::filesystem::path& path) {
-  if (path.empty() || path.extension() == ".ply") return {};
-  return Error{Errc::kInvalidConfig, "the name must end in .ply", "--positions " + path.string()};
-}
-
-Result<void> save_positions(std::span<const merging::VoxelPosition> voxels, const std::filesystem::path& path) {
+Result<void> save_positions(std::span<const VoxelPosition> voxels, const std::filesystem::path& path) {
   std::string header = "ply\nformat binary_little_endian 1.0\nelement vertex " + std::to_string(voxels.size()) + "\n";
   for (const char* name : {"x", "y", "z", "sigma_x", "sigma_y", "sigma_z"})
     header += std::string("property float ") + name + "\n";
   header += "property uchar maps\nend_header\n";
   const auto text = std::as_bytes(std::span(header));
   std::vector<std::byte> out(text.begin(), text.end());
-  for (const merging::VoxelPosition& voxel : voxels) {
+  for (const VoxelPosition& voxel : voxels) {
     for (const double coordinate : voxel.position.mean) append_le(out, static_cast<float>(coordinate));
     for (const double variance : voxel.position.covariance.diagonal())
       append_le(out, static_cast<float>(std::sqrt(variance)));
@@ -33,4 +28,4 @@ Result<void> save_positions(std::span<const merging::VoxelPosition> voxels, cons
   return write_file_atomic(path, out);
 }
 
-}  // namespace cairn::cli
+}  // namespace cairn::merging
