@@ -65,10 +65,32 @@ bool is_used(const SourceEntry& entry, const Devices& which) {
   return which.all || !recording::is_picture_kind(entry.kind);
 }
 
+/// The depth camera alone fills the map.
+bool only_depth_maps(const RobotProfile& profile) { return profile.lidar.enabled && !profile.lidar.maps; }
+
 /// Geometry goes on without it.
-bool may_be_missing(const SourceEntry& entry, const Devices& which) {
+bool may_be_missing(const SourceEntry& entry, const Devices& which, const RobotProfile& profile) {
   const bool eyes = which.eyes && entry.kind == recording::kCamera;
-  return !which.all && !eyes && recording::is_picture_kind(entry.kind);
+  const bool maps = entry.kind == recording::kDepth && only_depth_maps(profile);
+  return !which.all && !eyes && !maps && recording::is_picture_kind(entry.kind);
+}
+
+/// Without these there is neither motion nor map.
+Result<void> check_devices(const RobotProfile& profile) {
+  if (!profile.lidar.enabled && !(profile.sees_its_way() && profile.camera.exists()))
+    return Error{Errc::kInvalidConfig,
+                 "this robot has neither a LiDAR nor a stereo camera that may tell its motion",
+                 profile.name,
+                 {},
+                 "name camera.capture.device, and leave stereo.odometry at auto; its sensors can be recorded: cairn "
+                 "record"};
+  if (only_depth_maps(profile) && !profile.depth.exists())
+    return Error{Errc::kInvalidConfig,
+                 "nothing would enter the map: lidar.maps is false, and there is no depth camera",
+                 profile.name,
+                 {},
+                 "name depth.capture.device, or leave lidar.maps out"};
+  return {};
 }
 
 Result<Input> open_live(const RobotProfile& profile, const SourceEntry& entry, SourceId id, const Clock& clock) {
@@ -109,13 +131,7 @@ Result<void> add_decoders(Door& door, RobotProfile& profile, Monitor& monitor) {
 }  // namespace
 
 Result<Door> open_devices(const RobotProfile& profile, const Devices& which, const Clock& clock, Monitor& monitor) {
-  if (!profile.lidar.enabled && !(profile.sees_its_way() && profile.camera.exists()))
-    return Error{Errc::kInvalidConfig,
-                 "this robot has neither a LiDAR nor a stereo camera that may tell its motion",
-                 profile.name,
-                 {},
-                 "name camera.capture.device, and leave stereo.odometry at auto; its sensors can be recorded: cairn "
-                 "record"};
+  if (const auto fit = check_devices(profile); !fit) return fit.error();
   Door door;
   const Duration utc_offset = LiveClock::realtime_offset();
   door.recording.robot = profile.name;
@@ -124,7 +140,7 @@ Result<Door> open_devices(const RobotProfile& profile, const Devices& which, con
     if (!is_used(entry, which)) continue;
     const auto id = static_cast<SourceId>(door.inputs.size());
     auto input = open_live(profile, entry, id, clock);
-    if (!input && may_be_missing(entry, which)) {
+    if (!input && may_be_missing(entry, which, profile)) {
       monitor.event(clock.now(), "perception", to_string(input.error()));
       continue;
     }

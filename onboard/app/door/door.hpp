@@ -50,7 +50,8 @@ struct Devices {
 };
 
 /// Opens the devices of the profile; they listen from now on. Decoders report events to `monitor`. `monitor` and
-/// `clock` must outlive the door. Errors: kInvalidConfig (nothing could tell the motion), those of a driver.
+/// `clock` must outlive the door. Errors: kInvalidConfig (nothing could tell the motion, or fill the map), those of a
+/// driver.
 Result<Door> open_devices(const RobotProfile& profile, const Devices& which, const Clock& clock, Monitor& monitor);
 /// Opens a recording. Its name, models and ports replace those of `profile`. An unfinished one is an event. A
 /// source whose file cannot be opened returns that error once, and then ends. `monitor` must outlive the door. Errors:

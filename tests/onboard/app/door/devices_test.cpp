@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/door/devices.hpp"
-#include "tests/support/places.hpp"
 
 #include <gmock/gmock.h>
 
 #include <algorithm>
+
+#include "hal/monitor.hpp"
+#include "onboard/app/door/door.hpp"
+#include "tests/support/places.hpp"
 
 namespace cairn::app {
 namespace {
@@ -52,6 +55,17 @@ TEST(Devices, AMissingOneIsNamedWithItsRemedy) {
   devices = open_devices_of(profile, clock);
   ASSERT_FALSE(devices);
   EXPECT_THAT(to_string(devices.error()), HasSubstr("nocan7"));
+}
+
+TEST(Devices, ThatFillNoMapAreRefused) {
+  const LiveClock clock;
+  Monitor monitor;
+  RobotProfile profile;
+  profile.lidar.maps = false;
+  profile.depth.map.rate_hz = 5;
+  const auto door = open_devices(profile, {}, clock, monitor);
+  ASSERT_FALSE(door);
+  EXPECT_THAT(to_string(door.error()), HasSubstr("depth.capture.device"));
 }
 
 }  // namespace
