@@ -6,10 +6,11 @@
 #include <algorithm>
 #include <utility>
 
+#include "onboard/visual_odometry/landmark_view.hpp"
+
 namespace cairn::visual_odometry {
 namespace {
 
-constexpr double kNearestToEye_m = 0.1;
 constexpr double kStepAtMost_m = 0.5;    // of a keyframe: a longer one means that nothing holds it
 constexpr double kSettledBundle = 1e-5;  // m, rad: a smaller step ends the iteration
 // Where few landmarks are in view, keyframes stay near where the filter had them: 1 σ of a step
@@ -19,10 +20,9 @@ using Matrix6x3 = Eigen::Matrix<double, 6, 3>;
 
 }  // namespace
 
-/// One view, linearised: by a right perturbation of the keyframe's pose, and by the point.
+/// What one keyframe says of one point.
 struct BundleAdjuster::Row {
-  Eigen::Matrix<double, 3, 6> by_pose;
-  Eigen::Matrix3d by_point;
+  LandmarkView view;
   Eigen::Vector3d error;   // seen − expected
   Eigen::Vector3d weight;  // with that of Cauchy
 };
@@ -85,14 +85,8 @@ Eigen::Index BundleAdjuster::fixed() const {
 }
 
 bool BundleAdjuster::row(const View& view, const Point& point, Row& out) const {
-  const SE3 T_base_odom = pose_of(view).inverse();
-  const Eigen::Vector3d p_base = T_base_odom * point.p_odom;
-  const Eigen::Vector3d p_eye = T_eye_base_ * p_base;
-  if (p_eye.z() < kNearestToEye_m) return false;
-  const Eigen::Matrix3d by_base = geometry_.jacobian(p_eye) * T_eye_base_.rotation();
-  out.by_pose << -by_base, by_base * hat(p_base);
-  out.by_point = by_base * T_base_odom.rotation();
-  out.error = view.seen - geometry_.project(p_eye);
+  if (!view_landmark(geometry_, T_eye_base_, pose_of(view).inverse(), point.p_odom, out.view)) return false;
+  out.error = view.seen - out.view.expected;
   const double pixel = 1 / (config_.pixel_noise * config_.pixel_noise);
   out.weight = {pixel, pixel, view.both_eyes ? 1 / (config_.disparity_noise * config_.disparity_noise) : 0};
   out.weight *= 1 / (1 + out.error.cwiseAbs2().dot(out.weight));
@@ -103,15 +97,15 @@ void BundleAdjuster::add_to(Equations& equations, const Point& point, Eliminatio
   Row r;
   for (const View& view : point.views) {
     if (!row(view, point, r)) continue;
-    const Eigen::Matrix3d weighted = r.by_point.transpose() * r.weight.asDiagonal();
-    e.information += weighted * r.by_point;
+    const Eigen::Matrix3d weighted = r.view.by_point.transpose() * r.weight.asDiagonal();
+    e.information += weighted * r.view.by_point;
     e.towards += weighted * r.error;
     const auto slot = static_cast<Eigen::Index>(view.keyframe - oldest_) - fixed();
     if (slot < 0) continue;
-    const Matrix6x3 pose_weighted = r.by_pose.transpose() * r.weight.asDiagonal();
-    equations.aa.block<6, 6>(6 * slot, 6 * slot) += pose_weighted * r.by_pose;
+    const Matrix6x3 pose_weighted = r.view.by_pose.transpose() * r.weight.asDiagonal();
+    equations.aa.block<6, 6>(6 * slot, 6 * slot) += pose_weighted * r.view.by_pose;
     equations.ar.segment<6>(6 * slot) += pose_weighted * r.error;
-    e.couplings.push_back({slot, pose_weighted * r.by_point});
+    e.couplings.push_back({slot, pose_weighted * r.view.by_point});
   }
   e.uncertainty = e.information.inverse();
   for (const auto& a : e.couplings) {

@@ -4,12 +4,9 @@
 #include <Eigen/LU>
 #include <utility>
 
+#include "onboard/visual_odometry/landmark_view.hpp"
+
 namespace cairn::visual_odometry {
-namespace {
-
-constexpr double kBeforeEye_m = 0.1;  // of a landmark before the eye
-
-}  // namespace
 
 const Landmark* LandmarkMap::find(std::uint32_t id) const {
   const auto at = landmarks_.find(id);
@@ -19,7 +16,7 @@ const Landmark* LandmarkMap::find(std::uint32_t id) const {
 void LandmarkMap::add(const Feature& feature, const SE3& T_odom_eye, float epoch) {
   if (!feature.disparity || *feature.disparity < least_disparity_) return;
   const Eigen::Vector3d p_eye = geometry_.point(feature.left.x(), feature.left.y(), *feature.disparity);
-  if (p_eye.z() < kBeforeEye_m) return;
+  if (p_eye.z() < kNearest_m) return;
   const Eigen::Matrix3d J = T_odom_eye.rotation() * geometry_.jacobian(p_eye).inverse();
   Landmark landmark;
   landmark.p_odom = T_odom_eye * p_eye;

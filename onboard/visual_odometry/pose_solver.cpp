@@ -6,6 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "onboard/visual_odometry/landmark_view.hpp"
+
 namespace cairn::visual_odometry {
 
 using odometry::MotionState;
@@ -13,11 +15,10 @@ using odometry::Vector12;
 
 namespace {
 
-constexpr double kNearest_m = 0.1;  // of a landmark before the eye
-constexpr double kGate = 11.3;      // χ² of three numbers: 99 %
-constexpr double kUnseen = 1e8;     // pixels², variance of a disparity that was not measured
-constexpr double kWideScale = 25;   // the first steps' kernel is so many times wider, in χ²
-constexpr double kSettled = 1e-4;   // m, rad: a smaller step ends the iteration
+constexpr double kGate = 11.3;     // χ² of three numbers: 99 %
+constexpr double kUnseen = 1e8;    // pixels², variance of a disparity that was not measured
+constexpr double kWideScale = 25;  // the first steps' kernel is so many times wider, in χ²
+constexpr double kSettled = 1e-4;  // m, rad: a smaller step ends the iteration
 constexpr int kHypotheses = 200;
 constexpr int kStepsOfThree = 6;
 
@@ -33,9 +34,9 @@ std::uint64_t next_random(std::uint64_t& state) {
 
 /// What one match says at one pose.
 struct PoseSolver::Row {
-  Eigen::Matrix<double, 3, 6> J;  // of the expected pixel and disparity, by a right perturbation of T_odom_base
-  Eigen::Vector3d error;          // seen − expected
-  Eigen::Matrix3d weight;         // inverse covariance of the error
+  LandmarkView view;
+  Eigen::Vector3d error;   // seen − expected
+  Eigen::Matrix3d weight;  // inverse covariance of the error
 };
 
 PoseSolver::PoseSolver(const VisualOdometryConfig& config, const stereo::StereoGeometry& geometry,
@@ -43,17 +44,11 @@ PoseSolver::PoseSolver(const VisualOdometryConfig& config, const stereo::StereoG
     : config_(config), geometry_(geometry), T_base_eye_(T_base_eye), T_eye_base_(T_base_eye.inverse()) {}
 
 bool PoseSolver::row(const Match& match, const SE3& T_base_odom, Row& out) const {
-  const Eigen::Vector3d p_base = T_base_odom * match.landmark.p_odom;
-  const Eigen::Vector3d p_eye = T_eye_base_ * p_base;
-  if (p_eye.z() < kNearest_m) return false;
-  const Eigen::Matrix3d P = geometry_.jacobian(p_eye);
-  const Eigen::Matrix3d B = P * T_eye_base_.rotation();
-  out.J << -B, B * hat(p_base);
-  out.error = match.seen - geometry_.project(p_eye);
+  if (!view_landmark(geometry_, T_eye_base_, T_base_odom, match.landmark.p_odom, out.view)) return false;
+  out.error = match.seen - out.view.expected;
   const double pixel = config_.pixel_noise * config_.pixel_noise;
   const double disparity = match.both_eyes ? config_.disparity_noise * config_.disparity_noise : kUnseen;
-  const Eigen::Matrix3d A = B * T_base_odom.rotation();
-  Eigen::Matrix3d S = A * match.landmark.covariance * A.transpose();
+  Eigen::Matrix3d S = out.view.by_point * match.landmark.covariance * out.view.by_point.transpose();
   S.diagonal() += Eigen::Vector3d(pixel, pixel, disparity);
   if (!match.both_eyes) out.error.z() = 0;
   out.weight = S.inverse();
@@ -72,8 +67,8 @@ void PoseSolver::linearise(std::span<const Match> matches, const SE3& T_odom_bas
     if (!row(matches[i], T_base_odom, r)) continue;
     const double x2 = r.error.dot(r.weight * r.error);
     const double robust = 1 / (1 + x2 / (3 * scale));
-    const Eigen::Matrix<double, 6, 3> JtW = robust * r.J.transpose() * r.weight;
-    fit.equations.aa += JtW * r.J;
+    const Eigen::Matrix<double, 6, 3> JtW = robust * r.view.by_pose.transpose() * r.weight;
+    fit.equations.aa += JtW * r.view.by_pose;
     fit.equations.ar -= JtW * r.error;
     fit.uses[i] = {static_cast<float>(robust * r.weight(0, 0)), matches[i].landmark.epoch};
     if (x2 > kGate * scale) continue;
@@ -124,8 +119,9 @@ bool PoseSolver::from_three(std::span<const Match> matches, const int (&chosen)[
     Vector6 g = Vector6::Zero();
     for (const int i : chosen) {
       if (!row(matches[static_cast<std::size_t>(i)], T_odom_base.inverse(), r)) return false;
-      H += r.J.transpose() * r.weight * r.J;
-      g += r.J.transpose() * (r.weight * r.error);
+      const auto& J = r.view.by_pose;
+      H += J.transpose() * r.weight * J;
+      g += J.transpose() * (r.weight * r.error);
     }
     const Vector6 move = H.ldlt().solve(g);
     if (!move.allFinite() || move.head<3>().norm() > 5 || move.tail<3>().norm() > 1.5) return false;

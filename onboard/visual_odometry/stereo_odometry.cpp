@@ -5,13 +5,14 @@
 #include <algorithm>
 #include <utility>
 
+#include "onboard/visual_odometry/landmark_view.hpp"
+
 namespace cairn::visual_odometry {
 
 using odometry::MotionFilter;
 
 namespace {
 
-constexpr double kBeforeTheEye_m = 0.1;  // landmarks that are nearer are not expected in the picture
 // Of the corners that look like a keyframe's, so many fit one pose. In simulated flights, none of 216 pictures of other
 // places reached that.
 constexpr double kRecognised = 0.2;
@@ -94,7 +95,7 @@ void StereoOdometry::track(const stereo::StereoPair& pair) {
     const Landmark* landmark = map_.find(f.id);
     if (landmark == nullptr) return std::nullopt;
     const Eigen::Vector3d p = T_eye_odom * landmark->p_odom;
-    return p.z() > kBeforeTheEye_m ? std::optional(geometry_.project(p)) : std::nullopt;
+    return p.z() > kNearest_m ? std::optional(geometry_.project(p)) : std::nullopt;
   });
 }
 
