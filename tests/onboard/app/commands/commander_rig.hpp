@@ -45,12 +45,10 @@ class CommanderRig : public ::testing::Test {
     now_ += later;
     queue_.answers.clear();
     Packet packet;
-    const std::uint64_t before = allocations_of_this_thread();
     while (queue_.next(packet, {}).value() == Poll::kPacket) commander_.take(packet, situation());
     orders_ = commander_.take_orders();
     const DriveCommand wanted = commander_.wanted(now_).value_or(DriveCommand{});
     commander_.conclude(situation(), {std::min(wanted.v, most_), wanted.w, 0});
-    allocated_ += allocations_of_this_thread() - before;
     for (const auto& reply : commander_.replies()) (void)queue_.answer(reply.client, reply.answer);
     commander_.forget_replies();
   }
@@ -72,7 +70,6 @@ class CommanderRig : public ::testing::Test {
   Time now_{100s};
   double most_ = 1;
   Commander::Orders orders_;
-  std::uint64_t allocated_ = 0;
 };
 
 }  // namespace cairn::app::test
