@@ -145,6 +145,25 @@ const std::array kDevices{
 
 }  // namespace
 
+bool only_depth_maps(const RobotProfile& profile) { return profile.lidar.enabled && !profile.lidar.maps; }
+
+Result<void> check_devices(const RobotProfile& profile) {
+  if (!profile.lidar.enabled && !(profile.sees_its_way() && profile.camera.exists()))
+    return Error{Errc::kInvalidConfig,
+                 "this robot has neither a LiDAR nor a stereo camera that may tell its motion",
+                 profile.name,
+                 {},
+                 "name camera.capture.device, and leave stereo.odometry at auto; its sensors can be recorded: cairn "
+                 "record"};
+  if (only_depth_maps(profile) && !profile.depth.exists())
+    return Error{Errc::kInvalidConfig,
+                 "nothing would enter the map: lidar.maps is false, and there is no depth camera",
+                 profile.name,
+                 {},
+                 "name depth.capture.device, or leave lidar.maps out"};
+  return {};
+}
+
 std::vector<SourceEntry> devices_of(const RobotProfile& profile) {
   std::vector<SourceEntry> entries;
   for (const DeviceRow& row : kDevices)

@@ -29,6 +29,12 @@ struct Device {
 /// the sources of a recording of this robot; the SourceId of a packet is the index in this list.
 [[nodiscard]] std::vector<recording::SourceEntry> devices_of(const RobotProfile& profile);
 
+/// Whether the depth camera alone fills the map.
+[[nodiscard]] bool only_depth_maps(const RobotProfile& profile);
+/// Error kInvalidConfig: no device of the profile could tell the robot's motion, or none could fill its map. Such a
+/// robot can be recorded only.
+[[nodiscard]] Result<void> check_devices(const RobotProfile& profile);
+
 /// Opens the device of `entry`, which is one of devices_of(). `clock` must outlive it. No frame is sent to a drive.
 /// Errors: those of the driver, each with its remedy; kInvalidConfig: no device is of this kind.
 [[nodiscard]] Result<Device> open_device(const RobotProfile& profile, const recording::SourceEntry& entry, SourceId id,

@@ -65,32 +65,11 @@ bool is_used(const SourceEntry& entry, const Devices& which) {
   return which.all || !recording::is_picture_kind(entry.kind);
 }
 
-/// The depth camera alone fills the map.
-bool only_depth_maps(const RobotProfile& profile) { return profile.lidar.enabled && !profile.lidar.maps; }
-
 /// Geometry goes on without it.
 bool may_be_missing(const SourceEntry& entry, const Devices& which, const RobotProfile& profile) {
   const bool eyes = which.eyes && entry.kind == recording::kCamera;
   const bool maps = entry.kind == recording::kDepth && only_depth_maps(profile);
   return !which.all && !eyes && !maps && recording::is_picture_kind(entry.kind);
-}
-
-/// Without these there is neither motion nor map.
-Result<void> check_devices(const RobotProfile& profile) {
-  if (!profile.lidar.enabled && !(profile.sees_its_way() && profile.camera.exists()))
-    return Error{Errc::kInvalidConfig,
-                 "this robot has neither a LiDAR nor a stereo camera that may tell its motion",
-                 profile.name,
-                 {},
-                 "name camera.capture.device, and leave stereo.odometry at auto; its sensors can be recorded: cairn "
-                 "record"};
-  if (only_depth_maps(profile) && !profile.depth.exists())
-    return Error{Errc::kInvalidConfig,
-                 "nothing would enter the map: lidar.maps is false, and there is no depth camera",
-                 profile.name,
-                 {},
-                 "name depth.capture.device, or leave lidar.maps out"};
-  return {};
 }
 
 Result<Input> open_live(const RobotProfile& profile, const SourceEntry& entry, SourceId id, const Clock& clock) {

@@ -96,6 +96,9 @@ Findings examine_profile(const std::filesystem::path& path, Duration listen) {
   if (entries.empty())
     findings.push_back(
         {Level::kProblem, "profile: it has no device", "name one: camera.capture.device, drive.interface, …"});
+  else if (const auto runs = app::check_devices(*profile); !runs)
+    findings.push_back(
+        {Level::kNote, "profile: cairn run would not start: " + std::string(runs.error().cause), runs.error().detail});
   for (const auto& entry : entries)
     std::ranges::move(examine_device(*profile, entry, listen), std::back_inserter(findings));
   std::ranges::move(examine_networks(profile->perception.networks, path), std::back_inserter(findings));

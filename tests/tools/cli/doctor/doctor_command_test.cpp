@@ -85,6 +85,13 @@ TEST(DoctorCommand, DevicesOfAProfileAreOpenedAndListenedTo) {
   for (const std::size_t i : {1U, 2U}) EXPECT_NE(json["findings"][i]["remedy"], "");
 }
 
+TEST(DoctorCommand, AProfileThatWouldNotRunIsNoted) {
+  const TemporaryFolder folder;
+  put(folder / "robot.yaml", "lidar: {enabled: false}\ndrive: {interface: nocan7}");
+  const Outcome o = doctor({"--config", folder / "robot.yaml", "--root", folder / "", "--seconds", "0.01"});
+  EXPECT_THAT(o.out, HasSubstr("note: profile: cairn run would not start: this robot has neither a LiDAR nor"));
+}
+
 TEST(DoctorCommand, AFaultyProfileIsAProblemWithItsLine) {
   const TemporaryFolder folder;
   put(folder / "robot.yaml", "camera: {captuer: 1}");
