@@ -198,6 +198,20 @@ class TeamRun : public testing::Test {
   RunOptions options_;
 };
 
+/// The robot knows the peer's pillar.
+void expect_pillar(const mapping::SemanticOcTree& map) {
+  const auto* pillar = map.search(map.keyToCoord(octomap::OcTreeKey(32768 + 600 + 3, 32768 + 600 + 4, 32768 + 8)));
+  ASSERT_NE(pillar, nullptr);
+  EXPECT_TRUE(map.isNodeOccupied(pillar));
+}
+
+/// Of a merged team, it is known how well the places of voxels are.
+void expect_placed(const report::RunReport& ran, const mapping::SemanticOcTree& map, const fs::path& out) {
+  ASSERT_TRUE(ran.team->positions);
+  EXPECT_EQ(ran.team->positions->voxels, report::summarise(map).occupied);
+  EXPECT_TRUE(fs::exists(out / "team_positions.ply"));
+}
+
 TEST_F(TeamRun, IsRepeatedToTheBitThoughThePeerProcessDies) {
   record_drive(folder_ / "drive");
   options_.record = folder_ / "recorded";
@@ -240,12 +254,8 @@ TEST_F(TeamRun, IsRepeatedToTheBitThoughThePeerProcessDies) {
   EXPECT_EQ(ran.peers.at("second").tiles, 1U);
   EXPECT_GT(peer.known_items(), kLeastTiles) << "the peer knows the robot's map";
   const auto map = mapping::load_map(options_.out / "team.cairn").value();
-  ASSERT_TRUE(ran.team->positions) << "and how well the places of voxels are known";
-  EXPECT_EQ(ran.team->positions->voxels, report::summarise(*map).occupied);
-  EXPECT_TRUE(fs::exists(options_.out / "team_positions.ply"));
-  const auto* pillar = map->search(map->keyToCoord(octomap::OcTreeKey(32768 + 600 + 3, 32768 + 600 + 4, 32768 + 8)));
-  ASSERT_NE(pillar, nullptr);
-  EXPECT_TRUE(map->isNodeOccupied(pillar)) << "and the robot the peer's pillar";
+  expect_pillar(*map);
+  expect_placed(ran, *map, options_.out);
   ASSERT_TRUE(mirror);
   expect_mirrored(*map, *mirror);
 
