@@ -6,7 +6,6 @@
 #include <algorithm>
 
 #include "onboard/app/commands/commander.hpp"
-#include "onboard/app/runs/allocations.hpp"
 #include "tests/support/command_queue.hpp"
 
 namespace cairn::app::test {

@@ -5,6 +5,7 @@
 
 #include <limits>
 
+#include "onboard/app/runs/allocations.hpp"
 #include "tests/onboard/app/commands/commander_rig.hpp"
 
 namespace cairn::app {
