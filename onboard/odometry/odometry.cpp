@@ -50,7 +50,7 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget, c
   const double dt_s = relocaliser_.moving_time_s(tracking_.seconds_since_followed(prepared.stamp));
   const MotionFilter before = filter_;
   Fit fit = align(selected, dt_s, budget);
-  if (tracking_.is_fragment(prepared.duration_s) && !tracking_.fits(fit)) {
+  if (tracking_.is_fragment(prepared.duration_s) && (!tracking_.fits(fit) || second_look_.doubtful(fit))) {
     filter_ = before;
     return Error{Errc::kTruncated, "a piece of a revolution does not fit the map of the recent past: it is left out"};
   }
@@ -112,7 +112,9 @@ Fit LidarOdometry::align(const Selection& selected, double dt_s, Budget& budget)
     first = fit();
   }
   by_wheels_ = by_wheels.has_value();
-  if (relocaliser_.pending() || !second_look_.needed(first, dt_s)) return first;
+  // A sector of the surroundings fits in many places.
+  if (tracking_.is_fragment(selected.duration_s) || relocaliser_.pending()) return first;
+  if (!second_look_.needed(first, dt_s)) return first;
   return look_farther(selected, first, dt_s, by_wheels ? &*by_wheels : nullptr, budget).value_or(first);
 }
 
@@ -218,12 +220,19 @@ MotionState LidarOdometry::start_hypothesis(const Selection& selected, double dt
 void LidarOdometry::correct(const Fit& fit, double dt_s) {
   const double overconfidence = std::max(1.0, fit.misfit()) * config_.correlation_factor;
   filter_.update(fit.state, {fit.equations, fit.degeneracy, overconfidence}, map_.drift(registration_.uses()));
+  if (!tracking_.last_was_fragment()) learn(fit, dt_s);
   if (!map_.settled()) filter_.forget_gap();
-  prior_.learn(fit.state.twist - followed_.state().twist, dt_s);
-  second_look_.learn(fit);
   wheel_aid_.followed(wheels_, filter_.motion_to(fit.state.T_odom_base), fit.degeneracy);
   followed_ = filter_;
   wheels_.followed();
+}
+
+/// What later scans are judged by. A piece of a revolution teaches nothing: millimetres within a millisecond would be
+/// metres per second.
+void LidarOdometry::learn(const Fit& fit, double dt_s) {
+  filter_.follow_motion();
+  prior_.learn(fit.state.twist - followed_.state().twist, dt_s);
+  second_look_.learn(fit);
 }
 
 /// A new map begins at the filter's pose.

@@ -99,6 +99,7 @@ class LidarOdometry final : public MotionSource {
   [[nodiscard]] bool follow(const Fit& fit, const SE3& motion, double dt_s);
   [[nodiscard]] bool lose(Track track, double dt_s);
   void correct(const Fit& fit, double dt_s);
+  void learn(const Fit& fit, double dt_s);
   void reinitialise();
   void keep_first(const PreparedScan& scan, const Selection& selected);
   [[nodiscard]] Fit straighten_first(const Selection& selected, Fit fit, double dt_s, Budget& budget);

@@ -12,9 +12,9 @@ constexpr double kGap = 1.8;
 // Of a revolution. A shorter scan after a gap led a turning robot astray (test
 // ATurnThatEndsWhileNoScanComesIsFollowed).
 constexpr double kWholeScan = 0.6;
-// Per scan. A motor may turn faster from now on: the longest revolution that counts halves within
-// seven scans.
-constexpr double kRevolutionDecay = 0.9;
+// The longest revolution that counts gets shorter by this share of the time that passes. A motor may turn faster from
+// now on: one that turns twice as fast is noticed within seven scans.
+constexpr double kShorter = 0.1;
 constexpr int kDirections = 6;  // in which a robot moves
 // Of min_matches: fewer say nothing, however few directions they are asked about.
 constexpr double kFewestShare = 1.0 / 3.0;
@@ -51,7 +51,8 @@ bool TrackingState::is_fragment_after_gap(double dt_s, double duration_s) const 
 bool TrackingState::is_fragment(double duration_s) const { return duration_s < kWholeScan * revolution_s_; }
 
 void TrackingState::advance(Time stamp, double duration_s) {
-  revolution_s_ = std::max(duration_s, kRevolutionDecay * revolution_s_);
+  last_was_fragment_ = is_fragment(duration_s);
+  revolution_s_ = std::max(duration_s, revolution_s_ - kShorter * duration_s);
   last_stamp_ = stamp;
 }
 

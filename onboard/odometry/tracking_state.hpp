@@ -43,6 +43,8 @@ class TrackingState {
   [[nodiscard]] bool is_fragment_after_gap(double dt_s, double duration_s) const;
   /// The scan shows less than 0.6 of a revolution.
   [[nodiscard]] bool is_fragment(double duration_s) const;
+  /// So was the last one that was used.
+  [[nodiscard]] bool last_was_fragment() const { return last_was_fragment_; }
   /// Takes note of a scan that is used.
   void advance(Time stamp, double duration_s);
 
@@ -63,6 +65,7 @@ class TrackingState {
   std::optional<Time> last_stamp_;
   Time followed_stamp_{};
   double revolution_s_ = 0;  // the longest of the last scans; 0 while scans have no firing times
+  bool last_was_fragment_ = false;
   int lost_in_a_row_ = 0;
 };
 

@@ -171,7 +171,6 @@ void MotionFilter::update(const MotionState& x, const Measurement& m, const Matr
   step_covariance_ =
       (G * local_before_ * G.transpose() + keep * process_ * keep.transpose() + noise).topLeftCorner<6, 6>();
   state_ = x;
-  follow_motion();
 }
 
 UncertainPose MotionFilter::pose() const {

@@ -83,6 +83,9 @@ class MotionFilter {
   /// Ends the iteration at x. `map_covariance` is that of the matched planes' common displacement,
   /// as the covariance of a left perturbation of T_odom_base.
   void update(const MotionState& x, const Measurement& m, const Matrix6& map_covariance);
+  /// After an update: notes how far the motion since the last predict() differs from the twist. The next predict()
+  /// corrects the twist by a share of it. The pose's error, divided by the time of the motion, is part of it.
+  void follow_motion();
 
   [[nodiscard]] const MotionState& state() const { return state_; }
   [[nodiscard]] const Uncertainty& uncertainty() const { return uncertainty_; }
@@ -100,7 +103,6 @@ class MotionFilter {
   [[nodiscard]] Vector6 replace_open(const Vector6& expected, double dt, const MotionNoise& noise,
                                      const OpenMotion& open);
   void carry(const SE3& motion);
-  void follow_motion();
 
   MotionState state_;
   Uncertainty uncertainty_;

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <functional>
 #include <optional>
 #include <utility>
@@ -14,6 +15,23 @@
 namespace cairn::odometry {
 
 inline const SE3 kMount = SE3::from_xyz_rpy((Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished());
+
+/// What a revolution's packets from one share of it to another make.
+inline Scan part_of(const Scan& whole, double from, double to) {
+  const auto at = [&](double share) {
+    return static_cast<std::uint32_t>(share * static_cast<double>((whole.valid.end - whole.valid.start).count()));
+  };
+  Scan part = whole;
+  part.cloud = {};
+  part.incomplete = true;
+  part.valid = {whole.valid.start + Duration(at(from)), whole.valid.start + Duration(at(to))};
+  for (std::size_t i = 0; i < whole.cloud.size(); ++i) {
+    const std::uint32_t offset = whole.cloud.offset_ns[i];
+    if (offset < at(from) || offset > at(to) || (offset == at(to) && to < 1)) continue;
+    part.cloud.push_back(whole.cloud.xyz[i], 0, offset - at(from), 0, ReturnType::kStrongest);
+  }
+  return part;
+}
 
 /// One scan after the other from a ride through a world, and what the odometry made of it.
 class Ride {
@@ -29,18 +47,18 @@ class Ride {
   void lose(int scans) { count_ += scans; }
   /// The last `share` of the next revolution alone, as after a pause.
   Result<OdometryUpdate> step_with_the_end_of_a_scan(double share) {
-    const Scan whole = lidar_.scan(world_, path_, 0.1 * count_++);
-    Scan part = whole;
-    part.cloud = {};
-    part.incomplete = true;
-    const auto skipped =
-        static_cast<std::uint32_t>((1 - share) * static_cast<double>((whole.valid.end - whole.valid.start).count()));
-    part.valid.start = whole.valid.start + Duration(skipped);
-    for (std::size_t i = 0; i < whole.cloud.size(); ++i)
-      if (whole.cloud.offset_ns[i] >= skipped)
-        part.cloud.push_back(whole.cloud.xyz[i], 0, whole.cloud.offset_ns[i] - skipped, 0, ReturnType::kStrongest);
     Budget budget = Budget::steps(most_steps({}));
-    return odometry_.update(part, budget);
+    return odometry_.update(part_of(lidar_.scan(world_, path_, 0.1 * count_++), 1 - share, 1), budget);
+  }
+  /// The next revolution in two pieces: its first `share`, and the rest.
+  std::array<Result<OdometryUpdate>, 2> step_in_two(double share) {
+    const Scan whole = lidar_.scan(world_, path_, 0.1 * count_++);
+    const auto fed = [&](double from, double to) {
+      Budget budget = Budget::steps(most_steps({}));
+      return odometry_.update(part_of(whole, from, to), budget);
+    };
+    auto first = fed(0, share);
+    return {std::move(first), fed(share, 1)};
   }
   OdometryUpdate feed(const Scan& scan) {
     Budget budget = Budget::steps(most_steps({}));

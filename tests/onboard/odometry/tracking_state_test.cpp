@@ -79,6 +79,15 @@ TEST_F(Tracking, AMotorMayTurnFasterFromNowOn) {
   EXPECT_FALSE(state_.is_fragment_after_gap(0.5, 0.1));
 }
 
+TEST_F(Tracking, AShortPieceSaysLittleOfHowLongARevolutionTakes) {
+  state_.begin(time_at(0));
+  state_.advance(time_at(0.1), 0.1);
+  EXPECT_FALSE(state_.last_was_fragment());
+  state_.advance(time_at(0.101), 0.001);
+  EXPECT_TRUE(state_.last_was_fragment());
+  EXPECT_TRUE(state_.is_fragment(0.058));
+}
+
 TEST_F(Tracking, AFitIsFollowedIfEnoughPointsMatchAndFit) {
   EXPECT_EQ(judge(fit_with(60, 24)), Track::kFollowed);
   EXPECT_EQ(judge(fit_with(59, 59)), Track::kLost) << "too few matches";

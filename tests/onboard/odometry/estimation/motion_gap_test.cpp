@@ -16,6 +16,7 @@ void believe(MotionFilter& filter, const MotionState& x) {
   equations.aa = equations.ttaa = 1e4 * Matrix6::Identity();
   filter.predict(kStep, kFree);
   filter.update(x, {equations, {}, 1}, Matrix6::Zero());
+  filter.follow_motion();
 }
 
 TEST(MotionGap, ATwistThatThePosesDoNotShowIsCorrected) {
