@@ -44,7 +44,6 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget, c
   const PreparedScan& prepared = preparation_.prepare(scan);
   const Selection selected = selector_.select(prepared);
   if (!tracking_.began()) return begin(prepared, selected);
-
   if (tracking_.is_fragment_after_gap(tracking_.seconds_since_last(prepared.stamp), prepared.duration_s))
     return Error{Errc::kTruncated, "the first scan after a gap is less than a revolution"};
   const double dt_s = relocaliser_.moving_time_s(tracking_.seconds_since_followed(prepared.stamp));
@@ -61,8 +60,7 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget, c
   if (place == Relocalisation::kElsewhere) return begin(prepared, selected);
 
   const SE3 motion = filter_.motion_to(fit.state.T_odom_base);
-  const bool told = bridged(dt_s);
-  const int patience = told || !map_.settled() ? config_.reinitialise_after : config_.give_up_after;
+  const int patience = bridged(dt_s) || !map_.settled() ? config_.reinitialise_after : config_.give_up_after;
   const Track track = tracking_.judge(fit, motion, dt_s, map_.patches(), second_look_.sure(fit, dt_s), patience);
   const bool clear = track == Track::kFollowed ? follow(fit, motion, dt_s) : lose(track, dt_s);
   deskewer_.deskew(prepared, filter_.state().twist);
@@ -73,13 +71,12 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget, c
 
 /// The fit corrects the prediction. True if the scan shall be added to the map.
 bool LidarOdometry::follow(const Fit& fit, const SE3& motion, double dt_s) {
-  const Vector6 twist_before = followed_.state().twist;
   const bool blurred = second_look_.blurred(fit);
   correct(fit, dt_s);
-  const bool wrong = twist_check_.contradicts(motion, dt_s, twist_before, filter_.state().twist);
-  if (!wrong || map_.settled()) return !blurred;
-  // While the map is young, it was made with the wrong twist. The poses show the right one.
-  filter_.believe({.T_odom_base = filter_.state().T_odom_base, .twist = motion.log() / dt_s});
+  const bool badly_begun = !map_.settled() && twist_check_.contradicted();
+  if (!badly_begun && !twist_check_.map_confirms_wrong_twist()) return !blurred;
+  // The map was made with the wrong twist. The poses show the right one.
+  if (badly_begun) filter_.believe({.T_odom_base = filter_.state().T_odom_base, .twist = motion.log() / dt_s});
   reinitialise();
   return true;
 }
@@ -112,9 +109,8 @@ Fit LidarOdometry::align(const Selection& selected, double dt_s, Budget& budget)
     first = fit();
   }
   by_wheels_ = by_wheels.has_value();
-  // A sector of the surroundings fits in many places.
-  if (tracking_.is_fragment(selected.duration_s) || relocaliser_.pending()) return first;
-  if (!second_look_.needed(first, dt_s)) return first;
+  const bool sector = tracking_.is_fragment(selected.duration_s);  // fits in many places
+  if (sector || relocaliser_.pending() || !second_look_.needed(first, dt_s)) return first;
   return look_farther(selected, first, dt_s, by_wheels ? &*by_wheels : nullptr, budget).value_or(first);
 }
 
@@ -227,11 +223,12 @@ void LidarOdometry::correct(const Fit& fit, double dt_s) {
   wheels_.followed();
 }
 
-/// What later scans are judged by. A piece of a revolution teaches nothing: millimetres within a millisecond would be
-/// metres per second.
+/// What later scans are judged by. Not by a piece of a revolution: millimetres would be metres per second.
 void LidarOdometry::learn(const Fit& fit, double dt_s) {
   filter_.follow_motion();
-  prior_.learn(fit.state.twist - followed_.state().twist, dt_s);
+  twist_check_.note(filter_.motion_to(fit.state.T_odom_base), dt_s, followed_.state().twist, fit.state.twist);
+  if (const Vector6 lacking = twist_check_.lacking(); !lacking.isZero()) filter_.mend_twist(lacking);
+  prior_.learn(filter_.state().twist - followed_.state().twist, dt_s);
   second_look_.learn(fit);
 }
 
@@ -283,8 +280,7 @@ OdometryUpdate LidarOdometry::report(Time stamp, const Fit& fit, Track track) co
 void LidarOdometry::resume(const UncertainPose& T_odom_base, const Vector6& twist, Time stamp,
                            std::span<const PlacedScan> scans) {
   tracking_.begin(stamp);
-  const MotionState at_rest{.T_odom_base = T_odom_base.mean, .twist = Vector6::Zero()};
-  filter_.reset(at_rest, relocaliser_.expect(T_odom_base, twist));
+  filter_.reset({.T_odom_base = T_odom_base.mean, .twist = Vector6::Zero()}, relocaliser_.expect(T_odom_base, twist));
   T_odom_previous_ = T_odom_base.mean;
   reinitialise();
   for (const PlacedScan& scan : scans) {

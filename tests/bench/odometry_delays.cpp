@@ -74,6 +74,7 @@ struct Followed {
 };
 
 void follow(const Scan& scan, LidarOdometry& odometry, Monitor& monitor, Followed& out) {
+  if (out.scans.empty() && scan.incomplete) return;  // a robot leaves it out, too
   Budget budget = Budget::steps(most_steps({}));
   const auto update = odometry.update(scan, budget);
   if (!update) return monitor.event(scan.valid.end, "odometry", to_string(update.error()));

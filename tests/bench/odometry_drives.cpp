@@ -54,11 +54,17 @@ double quantile(std::vector<double> values, double share) {
   return values.empty() ? 0.0 : values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
+constexpr double kWrongTwist_m_s = 0.3, kWrongTwist_rad_s = 0.1;
+
 struct Figures {
   double way_m = 0, ate_m = 0, icp_m = 0, worst_m = 0, end_m = 0, end_deg = 0, nees = 0;
   int n = 0, lost = 0, longest = 0, reinitialised = 0;
   Eigen::Vector3d inside = Eigen::Vector3d::Zero();
+  Vector6 twist_off = Vector6::Zero();  // mean over the last second: true motion per second - twist
   std::vector<double> ms, lost_ms;
+  [[nodiscard]] bool twist_wrong() const {
+    return twist_off.head<3>().norm() > kWrongTwist_m_s || twist_off.tail<3>().norm() > kWrongTwist_rad_s;
+  }
 };
 
 void trace(std::size_t i, const OdometryUpdate& u, const SE3& true_step, const SE3& truth, double ms) {
@@ -104,6 +110,8 @@ Figures follow(const bench::RecordedDrive& drive, const Settings& settings, std:
     const SE3 step = drive.truth[i - 1].inverse() * drive.truth[i];
     if (settings.trace) trace(i, *u, step, truth, ms);
     f.way_m += step.translation().norm();
+    const double dt_s = to_seconds(drive.scans[i].valid.end - drive.scans[i - 1].valid.end);
+    f.twist_off += 0.1 * (step.log() / dt_s - u->twist - f.twist_off);
     const Vector6 e = (u->T_odom_base.mean.inverse() * truth).log();
     f.nees += e.dot(u->T_odom_base.covariance.ldlt().solve(e)) / 6;
     for (int k = 0; k < 3; ++k) f.inside[k] += std::abs(e[k]) < 3 * std::sqrt(u->T_odom_base.covariance(k, k));
@@ -135,20 +143,23 @@ void begin_often(const bench::RecordedDrive& drive, Settings settings) {
   constexpr std::size_t kTenSeconds = 100;
   settings.icp = false;
   double worst = 0;
-  int off = 0, lost = 0;
+  int off = 0, lost = 0, twisted = 0;
   const std::size_t last = drive.scans.size() > kTenSeconds ? drive.scans.size() - kTenSeconds : 0;
   for (int k = 0; k < settings.starts; ++k) {
     const std::size_t first =
         12 + (last - 12) * static_cast<std::size_t>(k) / static_cast<std::size_t>(settings.starts);
     const Figures f = follow(drive, settings, first, kTenSeconds);
-    if (f.end_m > 0.5)
-      std::printf("  begun at scan %zu: %.2f m %.1f deg off, lost %d\n", first, f.end_m, f.end_deg, f.lost);
+    if (f.end_m > 0.5 || f.twist_wrong())
+      std::printf("  begun at scan %zu: %.2f m %.1f deg, twist %.2f m/s %.2f rad/s off, lost %d\n", first, f.end_m,
+                  f.end_deg, f.twist_off.head<3>().norm(), f.twist_off.tail<3>().norm(), f.lost);
+    twisted += f.twist_wrong() ? 1 : 0;
     off += f.end_m > 0.5 ? 1 : 0;
     lost += f.lost;
     worst = std::max(worst, f.end_m);
   }
-  std::printf("%-34s %d starts: %d off by more than 0.5 m after 10 s, worst %.3f m, lost %d scans\n",
-              drive.name.c_str(), settings.starts, off, worst, lost);
+  std::printf(
+      "%-34s %d starts: %d off by more than 0.5 m after 10 s, worst %.3f m, %d with a wrong twist, lost %d scans\n",
+      drive.name.c_str(), settings.starts, off, worst, twisted, lost);
   std::fflush(stdout);
 }
 

@@ -78,6 +78,12 @@ class MotionFilter {
   /// Takes `state` instead, with the uncertainty as it is: what a search has found, or an adjustment.
   void believe(const MotionState& state) { state_ = state; }
 
+  /// Adds what poses show that the twist lacks. The gap is closed then.
+  void mend_twist(const Vector6& lacking) {
+    state_.twist += lacking;
+    forget_gap();
+  }
+
   /// One Gauss–Newton step from `x` towards the maximum of the posterior; `n` was linearised at x.
   [[nodiscard]] Vector12 step(const MotionState& x, const Measurement& m) const;
   /// Ends the iteration at x. `map_covariance` is that of the matched planes' common displacement,

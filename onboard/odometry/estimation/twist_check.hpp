@@ -11,14 +11,24 @@ namespace cairn::odometry {
 class TwistCheck {
  public:
   /// Takes note of a scan that was followed: the base made `motion` in `dt_s` seconds (> 0), while
-  /// its twist went from `before` to `after` (m/s, rad/s). True if they have contradicted each
-  /// other over some scans.
-  [[nodiscard]] bool contradicts(const SE3& motion, double dt_s, const Vector6& before, const Vector6& after);
+  /// its twist went from `before` to `after` (m/s, rad/s).
+  void note(const SE3& motion, double dt_s, const Vector6& before, const Vector6& after);
+  /// They have contradicted each other over some scans, by so much that it shows although the robot jerks.
+  [[nodiscard]] bool contradicted() const;
+  /// What the twist of the scan last noted lacks, where the two have contradicted each other for seconds, be it by
+  /// little. It is to be added to that twist.
+  [[nodiscard]] Vector6 lacking();
+  /// The map goes on confirming the wrong twist, although for seconds scans have been added to it with the right one.
+  [[nodiscard]] bool map_confirms_wrong_twist() const;
   /// The twist is made anew from the poses.
-  void reset() { difference_.setZero(); }
+  void reset();
 
  private:
-  Vector6 difference_ = Vector6::Zero();  // mean over some scans of: motion per second − twist
+  // Means of: motion per second − twist. Over some scans, and over some seconds. Both begin as 0.
+  Vector6 fast_ = Vector6::Zero(), slow_ = Vector6::Zero();
+  double slow_weight_ = 0;           // of what was noted, in slow_
+  Vector6 added_ = Vector6::Zero();  // to the last twist
+  int mended_scans_ = 0;             // in a row
 };
 
 }  // namespace cairn::odometry
