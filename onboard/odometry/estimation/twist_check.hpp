@@ -16,7 +16,7 @@ class TwistCheck {
   /// They have contradicted each other over some scans, by so much that it shows although the robot jerks.
   [[nodiscard]] bool contradicted() const;
   /// What the twist of the scan last noted lacks, where the two have contradicted each other for seconds, be it by
-  /// little. It is to be added to that twist.
+  /// little. It counts as added to that twist. To be asked once after each note().
   [[nodiscard]] Vector6 lacking();
   /// The map goes on confirming the wrong twist, although for seconds scans have been added to it with the right one.
   [[nodiscard]] bool map_confirms_wrong_twist() const;
