@@ -34,11 +34,11 @@ struct ScheduleProfile {
   scheduler::TaskSpec perception{
       .name = "perception", .rate_hz = 50, .phase_ms = 4, .deadline_ms = 400, .soft_ms = 60, .busy_hz = 5, .nice = 5};
   scheduler::TaskSpec detection{
-      .name = "detection", .rate_hz = 50, .phase_ms = 6, .deadline_ms = 300, .soft_ms = 50, .busy_hz = 5, .nice = 5};
+      .name = "detection", .rate_hz = 50, .phase_ms = 6, .deadline_ms = 150, .soft_ms = 50, .busy_hz = 5, .nice = 5};
   scheduler::TaskSpec thermal_detection{.name = "thermal_detection",
                                         .rate_hz = 50,
                                         .phase_ms = 7,
-                                        .deadline_ms = 300,
+                                        .deadline_ms = 150,
                                         .soft_ms = 10,
                                         .busy_hz = 5,
                                         .nice = 5};
