@@ -67,7 +67,8 @@ std::optional<BoxLifter::Box> BoxLifter::box_of(const Detection& found, const De
              .top = top->y() / top->z(),
              .bottom = bottom->y() / bottom->z(),
              .open_top = cut_above,
-             .open_bottom = cut_below};
+             .open_bottom = cut_below,
+             .score = found.score};
 }
 
 /// 0: as it should be; infinite: this box is of something else. The sum of how far the cluster is from the middle of
@@ -100,12 +101,12 @@ void BoxLifter::assign(const Detections& boxes) {
     std::size_t best = seen_.size();
     for (std::size_t k = 0; k < seen_.size(); ++k) {
       const double mismatched = mismatch(*box, seen_[k]);
-      if (verdicts_[k] == Verdict::kPerson || mismatched >= least) continue;
+      if (answers_[k].verdict == Verdict::kPerson || mismatched >= least) continue;
       least = mismatched;
       best = k;
     }
     if (best < seen_.size())
-      verdicts_[best] = Verdict::kPerson;
+      answers_[best] = {Verdict::kPerson, box->score, seen_[best].depth};
     else
       apart_.push_back(*box);
   }
@@ -147,19 +148,19 @@ std::span<const BoxBeside> BoxLifter::offsets(const Detections& boxes, std::span
   return offsets_;
 }
 
-std::span<const Verdict> BoxLifter::judge(const Detections& boxes, std::span<const Cluster> clusters,
-                                          const SE3& T_odom_base) {
+std::span<const Answer> BoxLifter::judge(const Detections& boxes, std::span<const Cluster> clusters,
+                                         const SE3& T_odom_base) {
   T_optical_odom_ = T_optical_base_ * T_odom_base.inverse();
   seen_.clear();
   apart_.clear();
   for (const Cluster& cluster : clusters) seen_.push_back(look_at(cluster, T_optical_odom_));
-  verdicts_.assign(clusters.size(), Verdict::kNothing);
-  if (boxes.width < 1 || boxes.height < 1) return verdicts_;
+  answers_.assign(clusters.size(), {});
+  if (boxes.width < 1 || boxes.height < 1) return answers_;
   assign(boxes);
   for (std::size_t i = 0; i < seen_.size(); ++i)
-    if (verdicts_[i] == Verdict::kNothing && seen_[i].in_view && seen_[i].depth < farthest_ && !covered(i))
-      verdicts_[i] = Verdict::kSilence;
-  return verdicts_;
+    if (answers_[i].verdict == Verdict::kNothing && seen_[i].in_view && seen_[i].depth < farthest_ && !covered(i))
+      answers_[i] = {Verdict::kSilence, 0, seen_[i].depth};
+  return answers_;
 }
 
 /// The nearest of the depths at which many points are. A cut box tells the least depth only.
@@ -188,7 +189,7 @@ std::optional<Lifted> BoxLifter::lift(const Box& box, std::span<const Eigen::Vec
     if (last - first < kFewestPoints) continue;
     Eigen::Vector2d sum(0, 0);
     for (std::size_t i = first; i < last; ++i) sum += within[i].point->head<2>().cast<double>();
-    return Lifted{sum / static_cast<double>(last - first), 0};
+    return Lifted{.position = sum / static_cast<double>(last - first), .ground = 0, .score = box.score};
   }
   return std::nullopt;
 }

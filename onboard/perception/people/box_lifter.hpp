@@ -21,10 +21,18 @@ enum class Verdict : std::uint8_t {
   kSilence,  ///< in view, and no box belongs to it
 };
 
+/// The verdict on one cluster.
+struct Answer {
+  Verdict verdict = Verdict::kNothing;
+  float score = 0;      ///< of the box
+  double distance = 0;  ///< m along the view
+};
+
 /// Where the points of somebody are who has a box and no cluster.
 struct Lifted {
   Eigen::Vector2d position{0, 0};  ///< of the body's middle, odom, m
   float ground = 0;                ///< z of the ground there
+  float score = 0;                 ///< of the box
 };
 
 /// Boxes of a picture → the clusters that they belong to. A box takes the cluster in whose direction it is, that is as
@@ -34,8 +42,8 @@ class BoxLifter {
   /// `T_base_camera`: the mount, in body axes. Beyond `farthest_m` silence means nothing.
   BoxLifter(const cameras::CameraModel& camera, const SE3& T_base_camera, double farthest_m);
 
-  /// `T_odom_base`: when the picture was taken. One verdict for each cluster; valid until the next call.
-  std::span<const Verdict> judge(const Detections& boxes, std::span<const Cluster> clusters, const SE3& T_odom_base);
+  /// `T_odom_base`: when the picture was taken. One answer for each cluster; valid until the next call.
+  std::span<const Answer> judge(const Detections& boxes, std::span<const Cluster> clusters, const SE3& T_odom_base);
   /// Of the same picture: boxes that are of none of the clusters, and the nearest of these points that are in their
   /// direction and as far away as the box is high. The ground is not told.
   [[nodiscard]] std::vector<Lifted> lift(std::span<const Eigen::Vector3f> points_odom);
@@ -56,6 +64,7 @@ class BoxLifter {
   struct Box {
     double left, right, top, bottom;
     bool open_top, open_bottom;  // cut by the picture's rim
+    float score;
   };
   struct Seen {
     bool in_front = false, in_view = false;
@@ -73,7 +82,7 @@ class BoxLifter {
   SE3 T_optical_base_;
   double farthest_;
   std::vector<Seen> seen_;
-  std::vector<Verdict> verdicts_;
+  std::vector<Answer> answers_;
   std::vector<Box> apart_;  // boxes of none of the clusters
   SE3 T_optical_odom_;
   std::vector<std::uint32_t> order_;

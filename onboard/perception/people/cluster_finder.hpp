@@ -20,8 +20,9 @@ struct Cluster {
   float top = 0;                                     ///< m above the ground, of the points
   float extent = 0;                                  ///< m, the larger horizontal one
   std::uint32_t points = 0;
-  float entered = 0;  ///< share of the points in places that were free before
-  float known = 0;    ///< share of the points in places where something was before
+  float entered = 0;     ///< share of the points in places that were free before
+  float known = 0;       ///< share of the points in places where something was before
+  bool upright = false;  ///< as high and as wide as somebody who stands, and well seen
 };
 
 /// Which points make clusters.
@@ -64,6 +65,7 @@ class ClusterFinder {
   [[nodiscard]] std::uint32_t cell_of(const Eigen::Vector3f& point) const;
   [[nodiscard]] Body body_of(std::span<const std::uint32_t> members, std::span<const Eigen::Vector3f> points_odom,
                              const ClusterChoice& choice) const;
+  static bool is_upright(const Body& body, float seen_up_to);
   void add_if_person_sized(const Body& body);
   void part(std::span<const Eigen::Vector3f> points_odom, const ClusterChoice& choice, const Body& whole);
 

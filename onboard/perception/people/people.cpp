@@ -139,12 +139,14 @@ bool People::hear(Eye eye, const Detections& boxes, Time scan, const SE3& T_odom
   const auto remembered = std::ranges::find(scans_, scan, &Remembered::stamp);
   if (!lifter || remembered == scans_.end()) return false;
   compare(eye, boxes, *remembered, T_odom_base);
-  const auto verdicts = lifter->judge(boxes, remembered->bodies, T_odom_base);
-  verdicts_.assign(verdicts.begin(), verdicts.end());
+  const auto answers = lifter->judge(boxes, remembered->bodies, T_odom_base);
+  answers_.assign(answers.begin(), answers.end());
   const bool moved = offset(eye).moved();
-  if (moved) std::ranges::replace(verdicts_, Verdict::kSilence, Verdict::kNothing);
+  if (moved)
+    std::ranges::replace_if(
+        answers_, [](const Answer& a) { return a.verdict == Verdict::kSilence; }, Answer{});
   const DetectorTrust& trust = eye == Eye::kThermal ? config_.thermal : config_.visible;
-  tracker_.hear(scan, verdicts_, trust);
+  tracker_.hear(scan, answers_, trust);
   if (moved) return true;  // its boxes point beside the people
   auto lifted = lifter->lift(remembered->loose);
   for (Lifted& found : lifted) {

@@ -94,7 +94,7 @@ class People {
   std::vector<std::uint8_t> mask_;
   std::vector<std::uint32_t> furniture_;  // reused
   std::vector<BoxLifter::Known> known_;   // reused
-  std::vector<Verdict> verdicts_;         // reused
+  std::vector<Answer> answers_;           // reused
 };
 
 }  // namespace cairn::people

@@ -7,7 +7,11 @@ void declare(config::Section& s, DetectorTrust& t) {
   s.number("recall", t.recall, {0.01, 0.99}, "", "share of the people in view that the detector finds in a picture");
   s.number("false_share", t.false_share, {0.001, 0.5}, "",
            "share of other person-sized things in view that it takes for people");
-  s.number("farthest_m", t.farthest_m, {1, 100}, "m", "beyond it, silence of the detector means nothing");
+  s.number("usual_score", t.usual_score, {0, 1}, "", "score of a box that shows a person");
+  s.number("score_slope", t.score_slope, {0, 100}, "nat",
+           "a box counts so much more for each 1 of a larger score; 0: all boxes count alike");
+  s.number("farthest_m", t.farthest_m, {1, 100}, "m",
+           "from here on, silence of the detector means nothing; nearer, it means ever more");
 }
 
 void declare(config::Section& s, PeopleConfig& c) {

@@ -4,16 +4,9 @@
 #include <string>
 
 #include "hal/config/config.hpp"
+#include "onboard/perception/people/detector_trust.hpp"
 
 namespace cairn::people {
-
-/// How far a detector's answer can be trusted: its shares on validation pictures. The recalls are those of the shipped
-/// networks, see their cards; the shares of false boxes are assumed.
-struct DetectorTrust {
-  double recall = 0.45;       ///< of people in view and near enough, those that it finds
-  double false_share = 0.02;  ///< of other person-sized things in view, those that it takes for people
-  double farthest_m = 10;     ///< beyond it, silence of the detector means nothing
-};
 
 /// How people are found and followed: section `perception.people` of a profile.
 struct PeopleConfig {
@@ -23,7 +16,8 @@ struct PeopleConfig {
   double confirm = 4;           ///< evidence in nats from which somebody is a person; about 50 to 1
   double patience_s = 1;        ///< a track without a measurement for so long ends
   double mask_radius_m = 0.45;  ///< points so near to a person's middle stay out of the map
-  DetectorTrust visible, thermal{.recall = 0.65, .false_share = 0.02, .farthest_m = 10};
+  DetectorTrust visible;
+  DetectorTrust thermal{.recall = 0.75, .false_share = 0.026, .usual_score = 0.78, .score_slope = 14, .farthest_m = 10};
 };
 
 /// Keys, units and bounds.

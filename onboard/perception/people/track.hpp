@@ -66,6 +66,10 @@ class Track {
   [[nodiscard]] int misses() const { return misses_; }
   /// Its points are in places that were free. True once: when that was so in enough scans.
   bool enters() { return ++entered_ == kEnters; }
+  /// It is as high and as wide as a person, in places of which nothing was known. True once: when that was so in enough
+  /// scans.
+  bool stands_upright() { return ++upright_ == kUpright; }
+  [[nodiscard]] bool upright() const { return upright_ >= kUpright; }
   [[nodiscard]] bool newcomer() const { return entered_ >= kEnters; }
   [[nodiscard]] Duration age() const { return person_.stamp - began_; }
 
@@ -97,11 +101,12 @@ class Track {
   Eigen::Matrix4d covariance_;
   Person person_;
   Time began_, last_seen_, last_sure_, last_sighted_{};
-  static constexpr int kEnters = 3;  // scans
+  static constexpr int kEnters = 2, kUpright = 2;  // scans
   double evidence_;
   bool known_walker_ = false;
   int misses_ = 0;
   int entered_ = 0;  // scans in which its points were in free places
+  int upright_ = 0;  // scans in which it was as high and as wide as a person
   std::deque<Step> steps_;
 };
 

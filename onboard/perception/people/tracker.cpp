@@ -17,17 +17,21 @@ constexpr double kBody = 0.35;           // m; nearer together two people cannot
 constexpr double kReach = 0.6;           // m; from the middle of two to each of them
 
 // Evidence, nats.
-constexpr double kEnterEvidence = 3;  // furniture does not come
-constexpr double kKnownDoubt = 0.3;   // in each scan, of what stood there before
-constexpr double kDoubt = 0;          // below, a person is none any more
+constexpr double kEnterEvidence = 3;    // furniture does not come
+constexpr double kUprightEvidence = 2;  // it is as high and as wide as a person, where nothing was known
+constexpr double kKnownDoubt = 0.3;     // in each scan, of what stood there before
+constexpr double kDoubt = 0;            // below, a person is none any more
 
 // Shares of a cluster's points, and its extent, m.
-constexpr float kEntered = 0.6F;    // of who comes into free places
-constexpr float kLongKnown = 0.5F;  // of what stood there before
-constexpr float kMostKnown = 0.3F;  // of who walks
-constexpr float kWide = 0.2F;       // edges of walls are thinner
+constexpr float kEntered = 0.6F;         // of who comes into free places
+constexpr float kEnteredUpright = 0.3F;  // the same, of what is as high and as wide as a person
+constexpr float kUnknown = 0.1F;         // of what may have come with the view
+constexpr float kLongKnown = 0.5F;       // of what stood there before
+constexpr float kMostKnown = 0.3F;       // of who walks
+constexpr float kWide = 0.2F;            // edges of walls are thinner
 
 constexpr double kShortWalk = 0.45, kShortWalkTime = 0.45;  // m and s, of who came into free places
+constexpr double kFewSteps = 0.3, kFewStepsTime = 0.25;     // m and s, of who did so upright
 constexpr Duration kHope = std::chrono::milliseconds(300);  // for what has just been seen first
 constexpr Duration kRemembered = std::chrono::seconds(4);   // who is hidden
 constexpr int kMisses = 3;                                  // scans that look through where somebody is expected
@@ -74,12 +78,16 @@ void Tracker::weigh_ways(Time stamp, std::span<const Cluster> clusters, const Se
 /// What the map knew of the places where a track is now.
 void Tracker::weigh_places(Track& track, const Cluster& seen) {
   if (track.confirmed) return;  // what is taken back counts as free
-  if (seen.entered >= kEntered && seen.extent >= kWide && track.enters()) track.weigh(kEnterEvidence);
+  const bool comes =
+      (seen.entered >= kEntered && seen.extent >= kWide) || (seen.entered >= kEnteredUpright && seen.upright);
+  if (comes && track.enters()) track.weigh(kEnterEvidence);
+  if (seen.upright && seen.known < kUnknown && track.stands_upright()) track.weigh(kUprightEvidence);
   if (seen.known >= kLongKnown && !track.newcomer()) track.weigh(-kKnownDoubt);
 }
 
 bool Tracker::walks(const Track& track, const Cluster& seen, const SeenThrough& seen_through) const {
   if (!config_.movers || track.known_walker() || seen.known > kMostKnown) return false;
+  if (track.newcomer() && track.upright() && track.walked(kFewSteps, kFewStepsTime)) return true;
   const bool far_enough = track.newcomer() ? track.walked(kShortWalk, kShortWalkTime) : track.walked();
   return far_enough && seen_through(track);
 }
@@ -177,17 +185,15 @@ void Tracker::begin_tracks(Time stamp, std::span<const Cluster> clusters) {
   }
 }
 
-void Tracker::hear(Time stamp, std::span<const Verdict> verdicts, const DetectorTrust& trust) {
-  const double seen = std::log(trust.recall / trust.false_share);
-  const double missed = std::log((1 - trust.recall) / (1 - trust.false_share));
+void Tracker::hear(Time stamp, std::span<const Answer> answers, const DetectorTrust& trust) {
   for (Track& track : tracks_) {
     const auto step = std::ranges::find(track.steps(), stamp, &Step::stamp);
     if (step == track.steps().end() || step->body < 0) continue;
     const auto body = static_cast<std::size_t>(step->body);
-    if (body >= verdicts.size() || verdicts[body] == Verdict::kNothing) continue;
-    const bool person = verdicts[body] == Verdict::kPerson;
+    if (body >= answers.size() || answers[body].verdict == Verdict::kNothing) continue;
+    const bool person = answers[body].verdict == Verdict::kPerson;
     if (person) track.sighted(stamp);
-    track.weigh(person ? seen : missed);
+    track.weigh(person ? trust.of_box(answers[body].score) : trust.of_silence(answers[body].distance));
     judge(track);
   }
   list_people();
@@ -204,7 +210,6 @@ std::vector<std::pair<std::uint32_t, std::size_t>> Tracker::bodies_of_people(Tim
 }
 
 void Tracker::hear_apart(Time stamp, Time now, std::span<const Lifted> lifted, const DetectorTrust& trust) {
-  const double seen = std::log(trust.recall / trust.false_share);
   for (const Lifted& found : lifted) {
     Track* nearest = nullptr;
     double least = kReach;
@@ -222,7 +227,7 @@ void Tracker::hear_apart(Time stamp, Time now, std::span<const Lifted> lifted, c
       if (now > stamp) nearest->predict(now);
     }
     nearest->sighted(stamp);
-    nearest->weigh(seen);
+    nearest->weigh(trust.of_box(found.score));
     judge(*nearest);
   }
   list_people();

@@ -16,9 +16,8 @@
 namespace cairn::people {
 
 /// Clusters of scans and verdicts of detectors → tracks. Every cluster is followed; a track is a person once the
-/// evidence is large enough. A detector's verdict adds ln(recall / false_share) or ln((1 − recall) / (1 −
-/// false_share)): a sequential test (Wald, 1945), in which any number of cameras add up. Walking adds as much as
-/// confirms.
+/// evidence is large enough: a sequential test (Wald, 1945), in which any number of cameras add up. What a detector
+/// adds is in DetectorTrust. Walking adds as much as confirms.
 class Tracker {
  public:
   static constexpr std::size_t kMostTracks = 256;  ///< people or not
@@ -41,7 +40,7 @@ class Tracker {
   /// Of the last scan: its clusters, and after them people who were found without one.
   [[nodiscard]] std::span<const Cluster> bodies() const { return bodies_; }
   /// What a detector said of the bodies of the scan at `stamp`, of the last two seconds.
-  void hear(Time stamp, std::span<const Verdict> verdicts, const DetectorTrust& trust);
+  void hear(Time stamp, std::span<const Answer> answers, const DetectorTrust& trust);
   /// Whose body each of bodies() of the scan at `stamp` was: a person's id and its number in bodies().
   [[nodiscard]] std::vector<std::pair<std::uint32_t, std::size_t>> bodies_of_people(Time stamp) const;
   /// Boxes of the same picture that are of none of these bodies: where the scan has points in their direction. Somebody

@@ -43,8 +43,10 @@ class BoxLifterTest : public ::testing::Test {
   std::vector<Verdict> judge(const std::vector<Detection>& found, const std::vector<Cluster>& clusters,
                              const SE3& T_odom_base = {}) {
     const Detections boxes{.source = {}, .stamp = {}, .width = kWidth, .height = kHeight, .found = found};
-    const auto verdicts = lifter_.judge(boxes, clusters, T_odom_base);
-    return {verdicts.begin(), verdicts.end()};
+    const auto answers = lifter_.judge(boxes, clusters, T_odom_base);
+    std::vector<Verdict> verdicts;
+    for (const Answer& answer : answers) verdicts.push_back(answer.verdict);
+    return verdicts;
   }
   BoxLifter lifter_{camera(), SE3::from_xyz_rpy((Vector6() << 0, 0, kCameraHeight, 0, 0, 0).finished()), 15};
 };
@@ -54,6 +56,23 @@ using enum Verdict;
 TEST_F(BoxLifterTest, EachBoxFindsItsCluster) {
   EXPECT_EQ(judge({box_at(8, -2), box_at(5, 1)}, {cluster_at(5, 1), cluster_at(8, -2), cluster_at(6, 4)}),
             (std::vector{kPerson, kPerson, kSilence}));
+}
+
+TEST_F(BoxLifterTest, ScoresComeWithTheVerdicts) {
+  const Detections boxes{.source = {},
+                         .stamp = {},
+                         .width = kWidth,
+                         .height = kHeight,
+                         .found = {box_at(8, -2, 1.72, 0.6F), box_at(4, 2, 1.72, 0.7F)}};
+  const std::vector<Cluster> clusters{cluster_at(5, 1), cluster_at(8, -2)};
+  const auto answers = lifter_.judge(boxes, clusters, {});
+  EXPECT_EQ(answers[0].score, 0);
+  EXPECT_EQ(answers[1].score, 0.6F);
+  std::vector<Eigen::Vector3f> points;
+  for (int i = 0; i < 10; ++i) points.emplace_back(4, 2, 0.3F + 0.1F * static_cast<float>(i));
+  const auto lifted = lifter_.lift(points);
+  ASSERT_EQ(lifted.size(), 1U);
+  EXPECT_EQ(lifted[0].score, 0.7F);
 }
 
 TEST_F(BoxLifterTest, WhoStandsCloseFillsThePicture) {
@@ -93,8 +112,8 @@ TEST_F(BoxLifterTest, PicturesOfAnotherSizeAreScaled) {
   Detection box = box_at(5, 1);
   box.x /= 2, box.y /= 2, box.width /= 2, box.height /= 2;
   const Detections half{.source = {}, .stamp = {}, .width = kWidth / 2, .height = kHeight / 2, .found = {box}};
-  EXPECT_EQ(lifter_.judge(half, std::vector{cluster_at(5, 1)}, {})[0], kPerson);
-  EXPECT_EQ(lifter_.judge({}, std::vector{cluster_at(5, 1)}, {})[0], kNothing) << "a picture without a size";
+  EXPECT_EQ(lifter_.judge(half, std::vector{cluster_at(5, 1)}, {})[0].verdict, kPerson);
+  EXPECT_EQ(lifter_.judge({}, std::vector{cluster_at(5, 1)}, {})[0].verdict, kNothing) << "a picture without a size";
 }
 
 TEST_F(BoxLifterTest, BoxesThatAreNoneChangeNothing) {

@@ -34,6 +34,17 @@ TEST(ClusterFinder, FindsEverybodyWhereTheyStand) {
   }
 }
 
+TEST(ClusterFinder, KnowsWhoStandsUpright) {
+  const auto upright = [](const Cylinder& body) {
+    const auto found = clusters_of(scan_of({body}));
+    return found.size() == 1 && found[0].upright;
+  };
+  EXPECT_TRUE(upright({{4, 0}}));
+  EXPECT_TRUE(upright({{1.5, 0}})) << "the LiDAR does not look up to the head";
+  EXPECT_FALSE(upright({{4, 0}, 0.25, 1.05})) << "as low as a chair";
+  EXPECT_FALSE(upright({{4, 0}, 0.08, 1.7})) << "as narrow as a pole";
+}
+
 TEST(ClusterFinder, WallsFurnitureAndWhatHangsAreNobody) {
   EXPECT_TRUE(clusters_of(scan_of({})).empty()) << "a wall";
   EXPECT_TRUE(clusters_of(scan_of({{{4, 0}, 0.3, 0.6}})).empty()) << "a bin";

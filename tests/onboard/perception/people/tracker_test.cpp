@@ -24,13 +24,19 @@ class TrackerTest : public ::testing::Test {
                            .extent = 0.5F,
                            .points = 40,
                            .entered = entered_,
-                           .known = known_});
+                           .known = known_,
+                           .upright = upright_});
     tracker_.predict(now_);
     tracker_.step(
         now_, clusters_, [this](const Vector2d&, std::span<const Vector2d>) { return beside_; },
         [this](const Track&) { return through_; }, [this](const Track&) { return empty_; });
   }
-  void hear(std::vector<Verdict> verdicts) { tracker_.hear(now_, verdicts, config_.visible); }
+  /// Of the clusters; boxes have a large score.
+  void hear(const std::vector<Verdict>& verdicts) {
+    std::vector<Answer> answers;
+    for (const Verdict verdict : verdicts) answers.push_back({verdict, 0.8F, 3});
+    tracker_.hear(now_, answers, config_.visible);
+  }
 
   PeopleConfig config_;
   Tracker tracker_{config_};
@@ -39,6 +45,7 @@ class TrackerTest : public ::testing::Test {
   std::optional<Vector2d> beside_;
   bool through_ = false, empty_ = false;
   float entered_ = 0, known_ = 0;
+  bool upright_ = false;
 };
 
 TEST_F(TrackerTest, TwoPicturesMakeAPerson) {
@@ -114,6 +121,24 @@ TEST_F(TrackerTest, WhoCameIsAPersonAfterAFewSteps) {
   EXPECT_EQ(tracker_.people().size(), 1U);
 }
 
+TEST_F(TrackerTest, WhoCameUprightIsAPersonSooner) {
+  entered_ = 0.4F;
+  for (int i = 0; i < 4; ++i) scan({{3 + 0.1 * i, 0}});
+  EXPECT_TRUE(tracker_.people().empty()) << "it is not upright";
+  upright_ = true;
+  for (int i = 4; i < 6; ++i) scan({{3 + 0.1 * i, 0}});
+  EXPECT_EQ(tracker_.people().size(), 1U);
+}
+
+TEST_F(TrackerTest, WhatStandsUprightIsNobodyUntilAPictureSaysSo) {
+  upright_ = true;
+  entered_ = 1;
+  for (int i = 0; i < 20; ++i) scan({{3, 0}});
+  EXPECT_TRUE(tracker_.people().empty());
+  hear({Verdict::kPerson});
+  EXPECT_EQ(tracker_.people().size(), 1U);
+}
+
 TEST_F(TrackerTest, WhatSlidesAlongAWallIsNobody) {
   through_ = true;
   known_ = 0.4F;
@@ -151,7 +176,7 @@ TEST_F(TrackerTest, WhereRaysGoThroughNobodyIsAndWhoAppearsNearbyIsTheSame) {
 }
 
 TEST_F(TrackerTest, BoxesWithoutAClusterMakeAPersonToo) {
-  const Lifted there{.position = {4, 1}, .ground = 0};
+  const Lifted there{.position = {4, 1}, .ground = 0, .score = 0.8F};
   beside_ = Vector2d(4, 1);
   for (int i = 0; i < 2; ++i) {
     scan({});
@@ -244,7 +269,7 @@ TEST_F(TrackerTest, NewPeopleAreToldOnceWithTheirWay) {
 
 TEST_F(TrackerTest, VerdictsOfAnotherScanOrAnotherNumberChangeNothing) {
   scan({{3, 0}});
-  tracker_.hear(now_ + kScan, std::vector{Verdict::kPerson}, config_.visible);
+  tracker_.hear(now_ + kScan, std::vector<Answer>{{Verdict::kPerson, 1, 3}}, config_.visible);
   tracker_.hear(now_, {}, config_.visible);
   scan({{3, 0}});
   hear({Verdict::kPerson});
