@@ -10,6 +10,7 @@
 namespace cairn::people {
 namespace {
 
+constexpr double kAlong = 0.7;                     // cosine of the angle between two ways that are alike
 constexpr float kBeside = 0.4F;                    // m from where somebody is expected beside a wall
 constexpr double kOnBoard = 2.5, kSteady = 0.3;    // m from the LiDAR, and of that place
 constexpr double kKnownBefore = 0.5;               // nats a scan: a detector's boxes still outweigh it
@@ -19,6 +20,13 @@ constexpr int kFewestFree = 6;                     // voxels of 117
 constexpr float kWhole = 0.7F;                     // m; a body of which the map knows a part already
 constexpr float kSame = 0.6F;                      // m between two clusters of one body
 constexpr double kHalf = 0.12;                     // m from the side that is seen to the middle
+
+/// What comes into view beside a robot slides the way that the robot drives, and no farther. `driven`: the robot's way
+/// since the track began.
+bool slides(const Track& track, const Eigen::Vector2d& driven) {
+  const Eigen::Vector2d way = track.steps().back().position - track.steps().front().position;
+  return way.norm() < driven.norm() && way.dot(driven) > kAlong * way.norm() * driven.norm();
+}
 
 }  // namespace
 
@@ -43,8 +51,13 @@ void People::observe(const PeopleScan& scan, const Known& known) {
       scan.stamp, clusters_,
       [&](const Eigen::Vector2d& at, std::span<const Eigen::Vector2d> others) { return look_for(at, others, scan); },
       [&](const Track& track) {
+        if (carried(track, scan)) return false;
         const Step& first = track.steps().front();
-        return !carried(track, scan) && is_free(first.position, track.person().ground, known) &&
+        const auto began = std::ranges::find(scans_, first.stamp, &Remembered::stamp);
+        if (track.newcomer() && track.upright() && began != scans_.end() &&
+            !slides(track, scan.sensor_odom.head<2>().cast<double>() - began->sensor))
+          return true;
+        return is_free(first.position, track.person().ground, known) &&
                seen_through(first.position, track.person().ground, scan.points_odom, scan.sensor_odom);
       },
       [&](const Track& track) {

@@ -87,8 +87,9 @@ void Tracker::weigh_places(Track& track, const Cluster& seen) {
 
 bool Tracker::walks(const Track& track, const Cluster& seen, const SeenThrough& seen_through) const {
   if (!config_.movers || track.known_walker() || seen.known > kMostKnown) return false;
-  if (track.newcomer() && track.upright() && track.walked(kFewSteps, kFewStepsTime)) return true;
-  const bool far_enough = track.newcomer() ? track.walked(kShortWalk, kShortWalkTime) : track.walked();
+  const bool far_enough = track.newcomer() && track.upright() ? track.walked(kFewSteps, kFewStepsTime)
+                          : track.newcomer()                  ? track.walked(kShortWalk, kShortWalkTime)
+                                                              : track.walked();
   return far_enough && seen_through(track);
 }
 

@@ -88,6 +88,16 @@ TEST_F(PeopleTest, WhatRidesOnTheRobotIsNobody) {
   EXPECT_TRUE(people_.people().empty());
 }
 
+/// The robot drives at 2 m/s. Something 0.3 m farther on after some scans may have come into view there.
+TEST_F(PeopleTest, WhoComesAlongWithTheRobotIsJudgedWithMoreCare) {
+  for (const double step : {0.1, -0.1}) {
+    people_.clear();
+    settled_x_ = 1000;
+    for (int i = 0; i < 5; ++i) observe({{{4 + (step - 0.2) * i, 2}}}, {0.2F * static_cast<float>(i), 0, 0});
+    EXPECT_EQ(people_.people().size(), step > 0 ? 0U : 1U) << step;
+  }
+}
+
 TEST_F(PeopleTest, ACameraTellsWhoStands) {
   const auto camera = cameras::CameraModel::create(
       {.width = 672, .height = 376, .fx = 350, .fy = 350, .cx = 335.5, .cy = 187.5, .distortion = {}});

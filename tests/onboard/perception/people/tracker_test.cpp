@@ -123,6 +123,7 @@ TEST_F(TrackerTest, WhoCameIsAPersonAfterAFewSteps) {
 
 TEST_F(TrackerTest, WhoCameUprightIsAPersonSooner) {
   entered_ = 0.4F;
+  through_ = true;
   for (int i = 0; i < 4; ++i) scan({{3 + 0.1 * i, 0}});
   EXPECT_TRUE(tracker_.people().empty()) << "it is not upright";
   upright_ = true;
