@@ -3,8 +3,8 @@
 
 namespace cairn::people {
 
-/// How far a detector's answer can be trusted. Its shares are those of person-sized clusters in view, measured on
-/// drives whose people are known; see docs/people.md.
+/// How far a detector's answer can be trusted. Its shares are those of person-sized clusters in view. The defaults are
+/// near what was counted on simulated drives; see docs/people.md.
 struct DetectorTrust {
   double recall = 0.6;        ///< of people in view and near enough, those that it finds
   double false_share = 0.06;  ///< of other person-sized things in view, those that it takes for people

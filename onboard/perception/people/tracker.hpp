@@ -27,7 +27,8 @@ class Tracker {
   /// nothing. Points that are nearer to one of `others` are theirs.
   using LookFor = std::function<std::optional<Eigen::Vector2d>(const Eigen::Vector2d& position,
                                                                std::span<const Eigen::Vector2d> others)>;
-  /// Whether the scan's rays go through the place where this track began to walk, and it is not the robot's own.
+  /// Whether the scan's rays go through a place of this track: of a walk, the one where it began. For a walk also true
+  /// of who came upright and does not slide along with the robot, and never of what is the robot's own.
   using SeenThrough = std::function<bool(const Track& track)>;
 
   explicit Tracker(const PeopleConfig& config) : config_(config) {}
