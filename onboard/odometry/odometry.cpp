@@ -46,6 +46,8 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget, c
   if (!tracking_.began()) return begin(prepared, selected);
   if (tracking_.is_fragment_after_gap(tracking_.seconds_since_last(prepared.stamp), prepared.duration_s))
     return Error{Errc::kTruncated, "the first scan after a gap is less than a revolution"};
+  if (first_ && tracking_.is_piece_after(first_->scan.duration_s, prepared.stamp, prepared.duration_s))
+    return Error{Errc::kTruncated, "a piece of a revolution shows too little of the motion at the start of a map"};
   const double dt_s = relocaliser_.moving_time_s(tracking_.seconds_since_followed(prepared.stamp));
   const MotionFilter before = filter_;
   Fit fit = align(selected, dt_s, budget);
@@ -157,9 +159,8 @@ bool LidarOdometry::bridged(double dt_s) const {
   return needed && !wheel_aid_.wrong_scale() && wheels_.since_followed().has_value();
 }
 
-/// The first scan of a map was taken in an unknown motion, so its points are skewed. The second one
-/// is skewed alike and fits, with a twist of zero. But the way between the two shows the motion. The
-/// map is made again from the first scan's points, deskewed with it.
+/// The first scan of a map was taken in an unknown motion, so its points are skewed. The second one is skewed alike and
+/// fits, with a twist of zero. But the way between the two shows the motion: the map is made again, deskewed with it.
 Fit LidarOdometry::straighten_first(const Selection& selected, Fit fit, double dt_s, Budget& budget) {
   const FirstScan first = *std::exchange(first_, std::nullopt);
   if (!tracking_.fits(fit) || fit.degeneracy.count > 0) return fit;  // it does not show the motion
@@ -200,8 +201,7 @@ OdometryUpdate LidarOdometry::begin(const PreparedScan& scan, const Selection& s
   insert(selected);
   keep_first(scan, selected);
   OdometryUpdate update = report(scan.stamp);
-  update.began = true;
-  update.converged = true;
+  update.began = update.converged = true;
   return update;
 }
 

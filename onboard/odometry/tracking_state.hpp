@@ -43,6 +43,8 @@ class TrackingState {
   [[nodiscard]] bool is_fragment_after_gap(double dt_s, double duration_s) const;
   /// The scan shows less than 0.6 of a revolution.
   [[nodiscard]] bool is_fragment(double duration_s) const;
+  /// The last scan took `whole_s`, and less than 0.9 of it has come since, no three times as long ago.
+  [[nodiscard]] bool is_piece_after(double whole_s, Time stamp, double duration_s) const;
   /// So was the last one that was used.
   [[nodiscard]] bool last_was_fragment() const { return last_was_fragment_; }
   /// Takes note of a scan that is used.

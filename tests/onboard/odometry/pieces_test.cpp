@@ -44,5 +44,32 @@ TEST_P(Pieces, TellNoMotionThatWholeRevolutionsDoNotTell) {
   }
 }
 
+/// The second scan of a map says how the first one is skewed.
+TEST(Odometry, AMapsFirstMotionIsThatOfAWholeRevolution) {
+  static const std::vector<OdometryUpdate> usual = in_whole_revolutions();
+  for (const double share : {0.3, 0.5, 0.72, 0.85}) {
+    Ride ride(support::lobby().world, curve);
+    ride.step();
+    for (const auto& piece : ride.step_in_two(share)) EXPECT_FALSE(piece) << share;
+    for (int i = 2; i < kScans; ++i) {
+      const OdometryUpdate update = ride.step(), &expected = usual[static_cast<std::size_t>(i)];
+      EXPECT_LT((expected.T_odom_base.mean.inverse() * update.T_odom_base.mean).translation().norm(), 0.02) << i;
+    }
+  }
+}
+
+TEST(Odometry, ScansThatBecomeShorterAfterTheFirstOneAreFollowed) {
+  Ride ride(support::lobby().world, curve);
+  ride.step();
+  OdometryUpdate last;
+  for (int i = 1; i < 20; ++i)
+    for (const auto& half : ride.step_in_two(0.5)) {
+      EXPECT_TRUE(half || i <= 3) << i;
+      EXPECT_TRUE(!half || i >= 3) << i;
+      if (half) last = *half;
+    }
+  EXPECT_LT(ride.error(last).norm(), 0.1);
+}
+
 }  // namespace
 }  // namespace cairn::odometry
