@@ -26,7 +26,7 @@ constexpr std::uint64_t kDaytimeStream = 20, kDriveStream = 21, kPeopleStream = 
 Result<void> check(const SimulationConfig& config) {
   Error error{Errc::kInvalidConfig, "cannot simulate that", "simulate", {}, ""};
   if (config.robots < 1 || config.robots > kMaxRobots) error.detail += "robots must be 1 to 16; ";
-  if (config.people < 0 || config.people > kMaxPeople) error.detail += "people must be 0 to 50; ";
+  if (config.people.count < 0 || config.people.count > kMaxPeople) error.detail += "people must be 0 to 50; ";
   if (!(config.seconds > 0 && config.seconds <= kMaxSeconds)) error.detail += "seconds must be above 0, at most 3600; ";
   if (!is_robot_name(config.name)) error.detail += "a name has 1 to 32 letters, digits, - and _; ";
   if (config.profile != "husky" && config.profile != "uav") error.detail += "the profiles are husky and uav; ";
@@ -91,7 +91,7 @@ Result<Stage> set_up(const SimulationConfig& config) {
   std::string world_ot = true_map(*world, *tracer, *paths);
   auto trajectories = drive_all(config, *world, plan, *paths);
   Crowd people;
-  if (config.people > 0) {
+  if (config.people.count > 0) {
     people = Crowd(*world, FloorPlan(*world), trajectories, config.people, mix(config.seed ^ kPeopleStream));
   }
   const Climate climate = Climate::of(*world, config.night);

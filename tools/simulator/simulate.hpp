@@ -12,6 +12,7 @@
 #include "tools/simulator/lidar/lidar.hpp"
 #include "tools/simulator/motion/drive.hpp"
 #include "tools/simulator/motion/flight.hpp"
+#include "tools/simulator/people/crowd.hpp"
 #include "tools/simulator/sensors/depth_sensor.hpp"
 #include "tools/simulator/sensors/motor_bus.hpp"
 #include "tools/simulator/sensors/stereo.hpp"
@@ -34,7 +35,7 @@ struct SimulationConfig {
   std::uint64_t seed = 1;  ///< paths, noise, dropouts, clocks; the world itself does not depend on it
   std::filesystem::path out;
   std::string name = "robot";     ///< robots and their folders are called so, with _1, _2, … behind
-  int people = 0;                 ///< who walk about; with none, nothing else changes
+  CrowdConfig people;             ///< who walk about; with none, nothing else changes
   bool night = false;             ///< the sun is down and all lamps are off
   std::string profile = "husky";  ///< or uav: it flies, and carries the camera alone
   Sensors sensors;
@@ -50,7 +51,7 @@ struct SimulationConfig {
 
   [[nodiscard]] bool flies() const { return profile == "uav"; }
   /// Whether the classes of the LiDAR's returns are written, too: with the camera or with people.
-  [[nodiscard]] bool labelled() const { return people > 0 || sensors.camera; }
+  [[nodiscard]] bool labelled() const { return people.count > 0 || sensors.camera; }
 };
 
 /// Turns the robots into quadrotors: the camera alone, below the middle and 30° down.

@@ -80,7 +80,7 @@ TEST_P(GroundTruth, EveryPicturesPeopleAreToldUnderTheStampThatTheDecodersGiveIt
   c.out = folder / "out";
   c.sensors = {false, true, true, false, false, false};
   c.stereo.lens = {84, 46, 44, 44, 42, 23};
-  c.people = 12;
+  c.people.count = 12;
   const auto robots = simulate(c);
   ASSERT_TRUE(robots) << to_string(robots.error());
   TrueBoxes truth(c.out / "robot_1");

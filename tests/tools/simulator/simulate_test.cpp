@@ -94,7 +94,7 @@ TEST_F(Simulate, AnotherSeedGivesOtherPathsAndNoiseInTheSameWorld) {
 
 TEST_F(Simulate, PeopleAreSeenByTheLidarAndToldInACsv) {
   SimulationConfig crowded = config("crowded");
-  crowded.people = 5;
+  crowded.people.count = 5;
   crowded.threads = 2;
   SimulationConfig again = crowded;
   again.out = dir_ / "again";
@@ -125,7 +125,7 @@ class SimulateIn : public Simulate, public ::testing::WithParamInterface<const c
   [[nodiscard]] SimulationConfig with_all_sensors(const std::string& name) const {
     SimulationConfig c = config(name);
     c.scene = GetParam();
-    c.people = 3;
+    c.people.count = 3;
     c.sensors = Sensors::all();
     c.stereo.lens = {84, 46, 44, 44, 42, 23};
     c.depth.lens = {106, 60, 54, 54, 53, 30};

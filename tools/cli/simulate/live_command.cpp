@@ -29,6 +29,7 @@ constexpr std::array kForRecordings{
     Foreign{"--name", "the profile of the robot's program has its name"},
     Foreign{"--robots", "start one simulation for each robot, each with its own --to, --can and --estop"},
     Foreign{"--people", "nobody walks in a live world"},
+    Foreign{"--people-pause", "nobody walks in a live world"},
     Foreign{"--night", "a live robot has no camera"},
     Foreign{"--profile", "a live robot is a husky"},
     Foreign{"--motion", "the robot moves as its motors are told"},

@@ -132,8 +132,11 @@ CLI::Validator robot_name() {
 }
 
 void add_world_options(CLI::App& sub, simulator::SimulationConfig& s) {
-  sub.add_option("--people", s.people, "number of people who walk about and cross the robots' paths")
+  sub.add_option("--people", s.people.count, "number of people who walk about and cross the robots' paths")
       ->check(CLI::Range(0, simulator::kMaxPeople))
+      ->capture_default_str();
+  sub.add_option("--people-pause", s.people.pause_s, "people stand for so long wherever they arrive, s")
+      ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
   sub.add_flag("--night", s.night, "the sun is down and all lamps are off");
   sub.add_option("--profile", s.profile, "husky drives; uav flies and carries a camera only")

@@ -35,13 +35,13 @@ std::vector<Eigen::Vector2d> places(const std::vector<Walker>& walkers) {
 
 }  // namespace
 
-Crowd::Crowd(const World& world, const FloorPlan& plan, std::span<const Trajectory> robots, int count,
+Crowd::Crowd(const World& world, const FloorPlan& plan, std::span<const Trajectory> robots, const CrowdConfig& config,
              std::uint64_t seed)
     : start_(robots.front().start()) {
   std::vector<Walker> walkers;
-  for (std::size_t i = 0; i < static_cast<std::size_t>(count); ++i) {
+  for (std::size_t i = 0; i < static_cast<std::size_t>(config.count); ++i) {
     people_.push_back({draw_build(seed, i), {}, {}});
-    walkers.emplace_back(plan, robots, i, people_[i].build.height, seed);
+    walkers.emplace_back(plan, robots, i, people_[i].build.height, from_seconds(config.pause_s), seed);
   }
   for (Time t = start_; t <= robots.front().end(); t += kStep) {
     const auto now = places(walkers);

@@ -22,6 +22,12 @@ struct Stride {
   double phase = 0;                ///< rad, of the legs; see pose()
 };
 
+/// How many walk about, and how.
+struct CrowdConfig {
+  int count = 0;
+  double pause_s = 0;  ///< they stand for so long wherever they arrive
+};
+
 /// People who walk through the world of one run: from place to place, crossing where robots are going to drive. They
 /// see robots and each other and step aside (forces after Helbing and Molnár, "Social force model", 1995); robots do
 /// not see them. Everybody's way is known from start to end, so that asking changes nothing.
@@ -33,9 +39,9 @@ class Crowd {
   static constexpr double kShoulders = 0.25;  ///< m, the least clearance of a person's middle
 
   Crowd() = default;
-  /// `count` people for the time of `robots`' trajectories, of which there is at least one. The same arguments give the
-  /// same walks.
-  Crowd(const World& world, const FloorPlan& plan, std::span<const Trajectory> robots, int count, std::uint64_t seed);
+  /// For the time of `robots`' trajectories, of which there is at least one. The same arguments give the same walks.
+  Crowd(const World& world, const FloorPlan& plan, std::span<const Trajectory> robots, const CrowdConfig& config,
+        std::uint64_t seed);
 
   [[nodiscard]] std::size_t size() const { return people_.size(); }
   /// Linear between steps; before the start and after the end people stand where they are.

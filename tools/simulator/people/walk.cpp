@@ -44,11 +44,12 @@ Vector2d place(const Trajectory& robot, Time t) { return robot.xyz_rpy(t).head<2
 }  // namespace
 
 Walker::Walker(const FloorPlan& plan, std::span<const Trajectory> robots, std::uint64_t number, double height,
-               std::uint64_t seed)
+               Duration pause, std::uint64_t seed)
     : plan_(plan),
       robots_(robots),
       robot_(static_cast<std::size_t>(number % robots.size())),
       height_(height),
+      pause_(pause),
       random_(seed, number) {
   pace_ = random_.uniform(Crowd::kSlowest, Crowd::kFastest);
   const Vector2d centre = place(robots[robot_], robots[robot_].start());
@@ -82,6 +83,11 @@ void Walker::choose_goal(Time t) {
   }
 }
 
+void Walker::stand(Time t) {
+  path_.clear();
+  patience_ = t + pause_;
+}
+
 Vector2d Walker::ahead() {
   constexpr double kReach = 0.7;
   while (next_ + 1 < path_.size() && (path_[next_] - stride_.position).norm() < kReach) ++next_;
@@ -112,7 +118,10 @@ void Walker::turn(double dt) {
 
 void Walker::step(Time t, double dt, std::span<const Vector2d> others, std::size_t self) {
   const bool arrived = !path_.empty() && (path_.back() - stride_.position).norm() < 0.4;
-  if (arrived || t >= patience_) choose_goal(t);
+  if (arrived && pause_ > Duration::zero())
+    stand(t);
+  else if (arrived || t >= patience_)
+    choose_goal(t);
   const Vector2d change = wish(t, others, self) - stride_.velocity;
   Vector2d velocity = stride_.velocity + limited(change, kAcceleration * dt);
   const Vector2d moved = stride_.position + dt * velocity;

@@ -14,8 +14,9 @@ namespace cairn::simulator {
 /// Somebody on the way. All walkers of a crowd advance together, step by step.
 class Walker {
  public:
-  /// Starts near where `robots[number % robots]` starts, at a place where there is room.
-  Walker(const FloorPlan& plan, std::span<const Trajectory> robots, std::uint64_t number, double height,
+  /// Starts near where `robots[number % robots]` starts, at a place where there is room. Stands for `pause` wherever
+  /// the way ends, and gives way meanwhile.
+  Walker(const FloorPlan& plan, std::span<const Trajectory> robots, std::uint64_t number, double height, Duration pause,
          std::uint64_t seed);
 
   [[nodiscard]] const Stride& stride() const { return stride_; }
@@ -26,6 +27,7 @@ class Walker {
 
  private:
   void choose_goal(Time t);
+  void stand(Time t);
   [[nodiscard]] Eigen::Vector2d ahead();
   [[nodiscard]] Eigen::Vector2d wish(Time t, std::span<const Eigen::Vector2d> others, std::size_t self);
   void turn(double dt);
@@ -34,6 +36,7 @@ class Walker {
   std::span<const Trajectory> robots_;
   std::size_t robot_;
   double height_, pace_;
+  Duration pause_;
   Random random_;
   Stride stride_;
   Path path_;

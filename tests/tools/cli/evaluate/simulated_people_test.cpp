@@ -33,7 +33,7 @@ class SimulatedPeople : public ::testing::Test {
     config.scene = "corridor";
     config.seconds = 1.5;
     config.seed = 70001;
-    config.people = 6;
+    config.people.count = 6;
     config.out = *made_ / "sim";
     const auto robots = simulator::simulate(config);
     ASSERT_TRUE(robots) << to_string(robots.error());

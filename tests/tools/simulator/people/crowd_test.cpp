@@ -22,8 +22,8 @@ class CrowdInLobby : public ::testing::Test {
     const auto paths = RoutePlanner(world_, plan_, 5).plan(1, 60);
     robots_.push_back(drive(world_, plan_, (*paths)[0], kFirstStep, std::chrono::seconds(30), {}, 5));
   }
-  [[nodiscard]] Crowd crowd(int count = 6, std::uint64_t seed = 1) const {
-    return {world_, plan_, robots_, count, seed};
+  [[nodiscard]] Crowd crowd(int count = 6, std::uint64_t seed = 1, double pause_s = 0) const {
+    return {world_, plan_, robots_, {.count = count, .pause_s = pause_s}, seed};
   }
 
   World world_;
@@ -63,6 +63,38 @@ TEST_F(CrowdInLobby, ComesNearTheRobot) {
 TEST_F(CrowdInLobby, SameSeedSameWalksAndAnotherSeedOthers) {
   EXPECT_EQ(crowd().to_csv(), crowd().to_csv());
   EXPECT_NE(crowd().to_csv(), crowd(6, 2).to_csv());
+}
+
+/// The longest time that somebody stood, s.
+double longest_stand(const Crowd& people, std::size_t person, Time from, Time to) {
+  double longest = 0, stood = 0;
+  for (Time t = from; t < to; t += Crowd::kStep) {
+    stood = people.stride(person, t).velocity.norm() < 0.02 ? stood + to_seconds(Crowd::kStep) : 0;
+    longest = std::max(longest, stood);
+  }
+  return longest;
+}
+
+TEST_F(CrowdInLobby, StandsForTheChosenTimeWhereItArrivesAndGoesOn) {
+  constexpr double kPause = 6;
+  const Crowd people = crowd(6, 1, kPause);
+  const Time end = robots_[0].end();
+  int stood = 0, went_on = 0;
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    const double longest = longest_stand(people, i, kFirstStep, end);
+    EXPECT_LT(longest, kPause + 0.5);
+    if (longest < kPause - 2) continue;
+    ++stood;
+    went_on += people.stride(i, end).velocity.norm() > 0.3 ? 1 : 0;
+  }
+  EXPECT_GE(stood, 2);
+  EXPECT_GE(went_on, 1);
+}
+
+TEST_F(CrowdInLobby, WithoutAPauseNobodyStandsForLong) {
+  const Crowd people = crowd();
+  for (std::size_t i = 0; i < people.size(); ++i)
+    EXPECT_LT(longest_stand(people, i, kFirstStep, robots_[0].end()), 3) << i;
 }
 
 TEST_F(CrowdInLobby, CsvSaysWhereEverybodyIs) {

@@ -25,7 +25,7 @@ struct SceneWithPeople {
         climate(Climate::of(world, night)) {
     place = RoutePlanner(world, plan, 1).places().front();
     const std::vector<Trajectory> robots{resting(place, 0.0)};
-    if (people > 0) crowd = Crowd(world, plan, robots, people, 3);
+    if (people > 0) crowd = Crowd(world, plan, robots, {.count = people}, 3);
   }
 
   [[nodiscard]] Trajectory resting(const Eigen::Vector2d& at, double yaw, int seconds = 20) const {
