@@ -227,7 +227,7 @@ void Robot::take_back_new_people() {
       const Eigen::Vector3f t = scan->T_odom_base.translation().cast<float>();
       points_odom_.clear();
       for (const Eigen::Vector3f& p : scan->points_base)
-        if (const Eigen::Vector3f point = R * p + t; people_->in_body(point, step.position, track->person().ground))
+        if (const Eigen::Vector3f point = R * p + t; people_->in_body(point, step.position, step.ground))
           points_odom_.push_back(point);
       mapper_.take_back(points_odom_);
     }

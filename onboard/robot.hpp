@@ -170,6 +170,10 @@ class Robot {
   Result<bool> see_people(people::Eye eye, const Detections& boxes);
   /// The people around the robot at the last scan that extended the map. Of extend_map()'s thread.
   [[nodiscard]] std::span<const people::Person> people() const;
+  /// See People.
+  [[nodiscard]] std::span<const people::Answered> answered() const {
+    return people_ ? people_->answered() : std::span<const people::Answered>();
+  }
   /// How far the camera's boxes are beside the people, see people::EyeOffset; rad. None: too few were seen.
   [[nodiscard]] std::optional<double> eye_offset(people::Eye eye) const {
     return people_ ? people_->offset(eye).angle() : std::nullopt;

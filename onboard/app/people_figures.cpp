@@ -4,6 +4,8 @@
 #include <numbers>
 #include <optional>
 
+#include "hal/files/file.hpp"
+
 namespace cairn::app {
 
 void add_people(const RobotTasks& tasks, report::RunReport& report) {
@@ -28,6 +30,20 @@ void add_people(const RobotTasks& tasks, report::RunReport& report) {
                               .correcting = looked.correcting,
                               .offset_deg = offset ? std::optional(*offset * 180 / std::numbers::pi) : std::nullopt};
   }
+}
+
+Result<std::vector<std::filesystem::path>> write_people(const RobotTasks& tasks, const people::PeopleConfig& config,
+                                                        Duration shift, const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  if (!tasks.robot.follows_people()) return files;
+  const auto write = [&](const char* name, const std::string& text) {
+    files.push_back(folder / name);
+    return write_file_atomic(files.back(), text);
+  };
+  if (const auto r = write(kPeopleFiles[0], tasks.mapping.people_log().to_csv(shift)); !r) return r.error();
+  if (!config.log_answers) return files;
+  if (const auto r = write(kPeopleFiles[1], tasks.mapping.box_joiner().answers().to_csv(shift)); !r) return r.error();
+  return files;
 }
 
 }  // namespace cairn::app

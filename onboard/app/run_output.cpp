@@ -26,7 +26,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kMap = "map.cairn";
-constexpr const char* kPeople = "people.csv";
 constexpr const char* kEpochMap = "map-epoch-";
 
 /// See Recording::time_shift_ns.
@@ -205,13 +204,6 @@ Result<void> write_earlier_maps(const RunFacts& facts, const fs::path& folder, r
   return {};
 }
 
-/// Where people were, in a run that followed them.
-Result<void> write_people(const RunFacts& facts, const fs::path& folder, std::vector<fs::path>& hashed) {
-  if (!facts.tasks.robot.follows_people()) return {};
-  hashed.push_back(folder / kPeople);
-  return write_file_atomic(hashed.back(), facts.tasks.mapping.people_log().to_csv(shift_of(facts)));
-}
-
 /// What a team run leaves besides, as a part of what is to be repeated.
 Result<void> add_team_files(const RunFacts& facts, const fs::path& folder, report::RunReport& report,
                             std::vector<fs::path>& hashed) {
@@ -235,7 +227,9 @@ Result<report::RunReport> write_results(const RunFacts& facts, const fs::path& f
   if (const auto r = write_trajectory(hashed[0], facts.tasks.robot.track(), shift_of(facts)); !r) return r.error();
   if (const auto r = mapping::save_cairn(facts.tasks.robot.map(), hashed[1]); !r) return r.error();
   if (const auto r = mapping::save_ot(facts.tasks.robot.map(), folder / "map.ot"); !r) return r.error();
-  if (const auto r = write_people(facts, folder, hashed); !r) return r.error();
+  const auto people = write_people(facts.tasks, facts.profile.perception.people, shift_of(facts), folder);
+  if (!people) return people.error();
+  hashed.insert(hashed.end(), people->begin(), people->end());
   if (const auto r = write_earlier_maps(facts, folder, report, hashed); !r) return r.error();
   if (const auto r = add_team_files(facts, folder, report, hashed); !r) return r.error();
   const auto hash = sha256_of_files(hashed);
@@ -259,7 +253,8 @@ void remove_stale(const fs::path& out, const std::set<fs::path>& fresh) {
   std::error_code ignored;
   if (fs::exists(out / recording::kIndexFile, ignored)) return;  // a recording's schedule.log is its own
   for (const fs::path& name : names_in(out)) {
-    const bool not_in_every_run = name == kFailedRun || name == kPeople || name == "schedule.log" ||
+    const bool not_in_every_run = name == kFailedRun || name == "schedule.log" ||
+                                  std::ranges::find(kPeopleFiles, name.string()) != kPeopleFiles.end() ||
                                   std::ranges::find(kTeamFiles, name.string()) != kTeamFiles.end() ||
                                   name.string().starts_with(kEpochMap);
     if (not_in_every_run && !fresh.contains(name)) fs::remove_all(out / name, ignored);

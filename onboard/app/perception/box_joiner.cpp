@@ -33,6 +33,7 @@ void BoxJoiner::join(people::Eye eye, Time now) {
     }
     const auto told = robot_.see_people(eye, waiting.front());
     if (told && !*told) return;  // the scan after the picture is still to come
+    if (told) answers_.add(robot_.answered());
     if (!told) leave_out(waiting.front(), to_string(told.error()));
   }
 }

@@ -6,6 +6,7 @@
 #include "hal/labels.hpp"
 #include "hal/monitor.hpp"
 #include "hal/relaxed_counter.hpp"
+#include "onboard/app/perception/answer_log.hpp"
 #include "onboard/app/perception/waiting_list.hpp"
 #include "onboard/robot.hpp"
 
@@ -28,6 +29,8 @@ class BoxJoiner {
 
   /// Pictures without scans around them. Any thread may read.
   [[nodiscard]] const RelaxedCounter& apart() const { return apart_; }
+  /// What the detectors said, where the profile asks for it.
+  [[nodiscard]] const AnswerLog& answers() const { return answers_; }
 
  private:
   void join(people::Eye eye, Time now);
@@ -37,6 +40,7 @@ class BoxJoiner {
   Monitor& monitor_;
   std::array<WaitingList<Detections>, 2> waiting_;
   RelaxedCounter apart_;
+  AnswerLog answers_;
 };
 
 }  // namespace cairn::app

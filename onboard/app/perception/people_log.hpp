@@ -15,8 +15,8 @@
 
 namespace cairn::app {
 
-/// Where people were during a run, for people.csv: t,id,x,y,vx,vy,sigma_m,sightings in seconds, metres and m/s of odom.
-/// A row for each person and scan, in the order of time.
+/// Where people were during a run, for people.csv: t,id,x,y,vx,vy,sigma_m,sightings,z in seconds, metres and m/s of
+/// odom; z is of the ground. A row for each person and scan, in the order of time.
 class PeopleLog {
  public:
   static constexpr std::size_t kMostRows = std::size_t{1} << 22U;  ///< 11 hours with ten people; then no more are kept
@@ -45,7 +45,7 @@ class PeopleLog {
   struct Row {
     Time stamp;
     std::uint32_t id, sightings;
-    float x, y, vx, vy, sigma;
+    float x, y, vx, vy, sigma, z;
   };
   std::vector<Row> rows_;
   std::atomic<std::uint32_t> tracks_{0}, now_{0};

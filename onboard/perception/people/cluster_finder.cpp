@@ -178,10 +178,11 @@ void ClusterFinder::add_if_person_sized(const Body& body) {
   if (body.plan.count() < kFewest || body.extent() > kWidest || body.bottom > kHighestBottom) return;
   if (body.plan.on_a_line(kLongPiece, kThinPiece)) return;
   const Vector2f away = body.middle() - sensor_.head<2>();
-  const float seen_up_to = sensor_height_ + kSteepest * away.norm() - kCell;
+  const float ground = ground_at(body.middle());
+  const float seen_up_to = sensor_.z() - ground + kSteepest * away.norm() - kCell;
   if (body.top < std::min(kLowestTop, seen_up_to)) return;
   clusters_.push_back({.centre = body.middle() + kHalfBody * away.normalized(),
-                       .ground = ground_.height(body.middle().x(), body.middle().y()),
+                       .ground = ground,
                        .top = body.top,
                        .extent = body.extent(),
                        .points = body.plan.count(),

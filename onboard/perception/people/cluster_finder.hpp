@@ -42,7 +42,10 @@ class ClusterFinder {
   void measure(std::span<const Eigen::Vector3f> points_odom, const Eigen::Vector3f& sensor_odom, float sensor_height_m);
   /// The clusters of the scan that was measured. Valid until the next call.
   const std::vector<Cluster>& find(std::span<const Eigen::Vector3f> points_odom, const ClusterChoice& choice = {});
-  [[nodiscard]] const GroundGrid& ground() const { return ground_; }
+  /// z of the ground at a place of odom, in the last scan.
+  [[nodiscard]] float ground_at(const Eigen::Vector2f& place_odom) {
+    return ground_.height(place_odom.x(), place_odom.y());
+  }
   /// Of the last scan: height above the ground of each point; 0 where it is too far.
   [[nodiscard]] std::span<const float> heights() const { return heights_; }
   /// Whether a point of the last scan is on a straight wall, see WallCells. Only points that may be somebody's are.

@@ -57,8 +57,8 @@ void People::observe(const PeopleScan& scan, const Known& known) {
         if (track.newcomer() && track.upright() && began != scans_.end() &&
             !slides(track, scan.sensor_odom.head<2>().cast<double>() - began->sensor))
           return true;
-        return is_free(first.position, track.person().ground, known) &&
-               seen_through(first.position, track.person().ground, scan.points_odom, scan.sensor_odom);
+        return is_free(first.position, first.ground, known) &&
+               seen_through(first.position, first.ground, scan.points_odom, scan.sensor_odom);
       },
       [&](const Track& track) {
         return seen_through(track.person().position, track.person().ground, scan.points_odom, scan.sensor_odom);
@@ -105,8 +105,8 @@ void People::find_bodies(const PeopleScan& scan, std::span<const Eigen::Vector2d
 }
 
 /// Somebody beside a wall or in a group has no cluster. The points that are new there are the body's.
-std::optional<Eigen::Vector2d> People::look_for(const Eigen::Vector2d& position,
-                                                std::span<const Eigen::Vector2d> others, const PeopleScan& scan) const {
+std::optional<Tracker::Beside> People::look_for(const Eigen::Vector2d& position,
+                                                std::span<const Eigen::Vector2d> others, const PeopleScan& scan) {
   const Eigen::Vector2f expected = position.cast<float>();
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
   int count = 0;
@@ -120,7 +120,8 @@ std::optional<Eigen::Vector2d> People::look_for(const Eigen::Vector2d& position,
     ++count;
   }
   if (count < kFewestBeside) return std::nullopt;
-  return Eigen::Vector2d(sum / count);
+  const Eigen::Vector2d middle = sum / count;
+  return Tracker::Beside{middle, finder_.ground_at(middle.cast<float>())};
 }
 
 /// What keeps its place beside the LiDAR while the robot drives is the robot, or rides on it.
@@ -160,15 +161,22 @@ bool People::hear(Eye eye, const Detections& boxes, Time scan, const SE3& T_odom
         answers_, [](const Answer& a) { return a.verdict == Verdict::kSilence; }, Answer{});
   const DetectorTrust& trust = eye == Eye::kThermal ? config_.thermal : config_.visible;
   tracker_.hear(scan, answers_, trust);
+  if (config_.log_answers) note_answers(eye, *remembered);
   if (moved) return true;  // its boxes point beside the people
   auto lifted = lifter->lift(remembered->loose);
   for (Lifted& found : lifted) {
     found.position += kHalf * (found.position - remembered->sensor).normalized();
-    found.ground =
-        finder_.ground().height(static_cast<float>(found.position.x()), static_cast<float>(found.position.y()));
+    found.ground = finder_.ground_at(found.position.cast<float>());
   }
   tracker_.hear_apart(scan, scans_.back().stamp, lifted, trust);
   return true;
+}
+
+void People::note_answers(Eye eye, const Remembered& scan) {
+  answered_.clear();
+  for (std::size_t i = 0; i < answers_.size(); ++i)
+    if (answers_[i].verdict != Verdict::kNothing)
+      answered_.push_back({scan.stamp, eye, scan.bodies[i].centre, scan.bodies[i].ground, answers_[i]});
 }
 
 void People::compare(Eye eye, const Detections& boxes, const Remembered& scan, const SE3& T_odom_base) {

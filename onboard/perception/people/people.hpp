@@ -23,6 +23,15 @@ namespace cairn::people {
 /// The two kinds of cameras that see people.
 enum class Eye : std::uint8_t { kVisible, kThermal };
 
+/// What a detector said of a body of the scan at `scan`.
+struct Answered {
+  Time scan{};
+  Eye eye = Eye::kVisible;
+  Eigen::Vector2f body{0, 0};  ///< its middle, odom, m
+  float ground = 0;            ///< z of the ground there
+  Answer answer;
+};
+
 /// A scan, in odom.
 struct PeopleScan {
   Time stamp{};
@@ -49,6 +58,8 @@ class People {
   /// What a detector saw in a picture, taken with base_link at `T_odom_base`. `scan`: the stamp of the scan nearest to
   /// the exposure. False: that scan is not remembered, or there is no such eye.
   bool hear(Eye eye, const Detections& boxes, Time scan, const SE3& T_odom_base);
+  /// With `log_answers`: what the last hear() was told of each body in view. Valid until the next hear().
+  [[nodiscard]] std::span<const Answered> answered() const { return answered_; }
   /// Whether the camera's boxes are beside the people: then its silence about somebody counts for nothing.
   [[nodiscard]] const EyeOffset& offset(Eye eye) const { return offsets_[static_cast<std::size_t>(eye)]; }
   /// Another odom begins: everybody is forgotten.
@@ -71,14 +82,15 @@ class People {
   };
   static constexpr std::size_t kScans = 24;  // remembered
   [[nodiscard]] const std::optional<BoxLifter>& lifter(Eye e) const { return lifters_[static_cast<std::size_t>(e)]; }
-  [[nodiscard]] std::optional<Eigen::Vector2d> look_for(const Eigen::Vector2d& position,
+  [[nodiscard]] std::optional<Tracker::Beside> look_for(const Eigen::Vector2d& position,
                                                         std::span<const Eigen::Vector2d> others,
-                                                        const PeopleScan& scan) const;
+                                                        const PeopleScan& scan);
   [[nodiscard]] static bool is_free(const Eigen::Vector2d& position, float ground, const Known& known);
   void ask_map(const PeopleScan& scan, const Known& known);
   void find_bodies(const PeopleScan& scan, std::span<const Eigen::Vector2d> seeds);
   void compare(Eye eye, const Detections& boxes, const Remembered& scan, const SE3& T_odom_base);
   void remember(const PeopleScan& scan, std::span<const Cluster> bodies);
+  void note_answers(Eye eye, const Remembered& scan);
   [[nodiscard]] bool carried(const Track& track, const PeopleScan& scan) const;
   void doubt_furniture(const PeopleScan& scan);
   void fill_mask(const PeopleScan& scan);
@@ -95,6 +107,7 @@ class People {
   std::vector<std::uint32_t> furniture_;  // reused
   std::vector<BoxLifter::Known> known_;   // reused
   std::vector<Answer> answers_;           // reused
+  std::vector<Answered> answered_;
 };
 
 }  // namespace cairn::people

@@ -24,6 +24,8 @@ void declare(config::Section& s, PeopleConfig& c) {
   s.number("confirm", c.confirm, {0.5, 10}, "nat", "evidence from which somebody is a person");
   s.number("patience_s", c.patience_s, {0.1, 10}, "s", "a track ends when nothing was seen of it for so long");
   s.number("mask_radius_m", c.mask_radius_m, {0.1, 2}, "m", "points so near to a person's middle stay out of the map");
+  s.flag("log_answers", c.log_answers,
+         "what the detectors say of each body goes to answers.csv of the run, for cairn evaluate detectors");
   s.group("visible", c.visible, "how far the detector of colour pictures is trusted");
   s.group("thermal", c.thermal, "how far the detector of thermal pictures is trusted");
 }

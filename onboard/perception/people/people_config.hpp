@@ -16,8 +16,10 @@ struct PeopleConfig {
   double confirm = 4;           ///< evidence in nats from which somebody is a person; about 50 to 1
   double patience_s = 1;        ///< a track without a measurement for so long ends
   double mask_radius_m = 0.45;  ///< points so near to a person's middle stay out of the map
+  bool log_answers = false;     ///< what the detectors say of each body goes to answers.csv
   DetectorTrust visible;
-  DetectorTrust thermal{.recall = 0.75, .false_share = 0.026, .usual_score = 0.78, .score_slope = 14, .farthest_m = 10};
+  DetectorTrust thermal{
+      .recall = 0.91, .false_share = 0.039, .usual_score = 0.74, .score_slope = 12.3, .farthest_m = 10};
 };
 
 /// Keys, units and bounds.

@@ -43,7 +43,7 @@ Track::Track(Time stamp, const Vector2d& position, float ground, std::int32_t bo
   person_.ground = ground;
   person_.seen = true;
   publish();
-  steps_.push_back({stamp, position, body});
+  steps_.push_back({stamp, position, body, ground});
 }
 
 void Track::publish() {
@@ -64,7 +64,7 @@ void Track::predict(Time stamp) {
   person_.stamp = stamp;
   person_.seen = false;
   publish();
-  steps_.push_back({stamp, person_.position, -1});
+  steps_.push_back({stamp, person_.position, -1, person_.ground});
   while (stamp - steps_.front().stamp > kMemory) steps_.pop_front();
 }
 
@@ -84,7 +84,8 @@ void Track::update(const Vector2d& position, double sigma_m, std::int32_t body) 
   last_seen_ = person_.stamp;
   misses_ = 0;
   publish();
-  if (!steps_.empty() && steps_.back().stamp == person_.stamp) steps_.back() = {person_.stamp, position, body};
+  if (!steps_.empty() && steps_.back().stamp == person_.stamp)
+    steps_.back() = {person_.stamp, position, body, person_.ground};
 }
 
 void Track::restart(const Vector2d& position, std::int32_t body) {
@@ -94,7 +95,7 @@ void Track::restart(const Vector2d& position, std::int32_t body) {
   last_seen_ = person_.stamp;
   misses_ = 0;
   publish();
-  steps_.assign(1, {person_.stamp, position, body});
+  steps_.assign(1, {person_.stamp, position, body, person_.ground});
 }
 
 void Track::weigh(double nats) { evidence_ = std::clamp(evidence_ + nats, kLeast, kMost); }

@@ -28,6 +28,7 @@ struct Step {
   Time stamp{};
   Eigen::Vector2d position = Eigen::Vector2d::Zero();  ///< odom, m
   std::int32_t body = -1;                              ///< number in Tracker::bodies() of that scan; -1: predicted
+  float ground = 0;                                    ///< z of the ground there, odom, m
 };
 
 /// Constant velocity in the plane, disturbed by white acceleration; a Kalman filter of x, y, vx, vy.
@@ -87,6 +88,8 @@ class Track {
     sure(stamp);
     last_sighted_ = std::max(last_sighted_, stamp);
   }
+  /// What the ground is like where it was measured.
+  void stand_on(float ground) { person_.ground = steps_.back().ground = ground; }
   void name(std::uint32_t id) { person_.id = id; }
 
   bool confirmed = false;  ///< it is a person

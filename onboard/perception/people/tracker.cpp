@@ -112,6 +112,7 @@ void Tracker::associate(std::span<const Cluster> clusters) {
     if (taken_[pair.cluster] || track.person().seen) continue;
     taken_[pair.cluster] = true;
     track.update(clusters[pair.cluster].centre.cast<double>(), kClusterSigma, static_cast<std::int32_t>(pair.cluster));
+    track.stand_on(clusters[pair.cluster].ground);
     track.sure(track.person().stamp);
   }
   find_again(clusters);
@@ -135,6 +136,7 @@ void Tracker::find_again(std::span<const Cluster> clusters) {
     taken_[pair.cluster] = true;
     track.hidden = false;
     track.restart(clusters[pair.cluster].centre.cast<double>(), static_cast<std::int32_t>(pair.cluster));
+    track.stand_on(clusters[pair.cluster].ground);
     track.sure(track.person().stamp);
   }
 }
@@ -155,7 +157,8 @@ void Tracker::look_beside(const LookFor& look_for) {
     });
     const auto found = look_for(person.position, others);
     if (!found) continue;
-    track.update(*found, kBesideSigma, static_cast<std::int32_t>(bodies_.size()));
+    track.update(found->position, kBesideSigma, static_cast<std::int32_t>(bodies_.size()));
+    track.stand_on(found->ground);
     bodies_.push_back(
         {.centre = person.position.cast<float>(), .ground = person.ground, .top = 0, .extent = 0, .points = 0});
   }

@@ -25,8 +25,12 @@ class Tracker {
 
   /// What is measured of somebody at this place who has no cluster, such as a person beside a wall or in a group; none:
   /// nothing. Points that are nearer to one of `others` are theirs.
-  using LookFor = std::function<std::optional<Eigen::Vector2d>(const Eigen::Vector2d& position,
-                                                               std::span<const Eigen::Vector2d> others)>;
+  struct Beside {
+    Eigen::Vector2d position{0, 0};  ///< odom, m
+    float ground = 0;                ///< z of the ground there
+  };
+  using LookFor =
+      std::function<std::optional<Beside>(const Eigen::Vector2d& position, std::span<const Eigen::Vector2d> others)>;
   /// Whether the scan's rays go through a place of this track: of a walk, the one where it began. For a walk also true
   /// of who came upright and does not slide along with the robot, and never of what is the robot's own.
   using SeenThrough = std::function<bool(const Track& track)>;

@@ -12,12 +12,10 @@
 #include <string>
 #include <vector>
 
-#include "drivers/recording/formats/trajectory_file.hpp"
+#include "hal/files/file.hpp"
 #include "onboard/app/cli/working_line.hpp"
 #include "onboard/app/profile/recorded_profile.hpp"
-#include "onboard/report/figures/trajectory_error.hpp"
 #include "onboard/report/json/report_json.hpp"
-#include "tools/cli/evaluate/path.hpp"
 #include "tools/cli/evaluate/people_error.hpp"
 #include "tools/cli/evaluate/people_file.hpp"
 #include "tools/cli/evaluate/people_scene.hpp"
@@ -33,6 +31,7 @@ struct PeopleOptions {
   fs::path run, truth;
   double within_m = PeopleZone{}.within_m;
   std::string view = "any";
+  fs::path details;
   bool json = false;
 };
 
@@ -54,20 +53,13 @@ fs::path file_of(const PeopleOptions& options) {
   return fs::is_directory(options.truth, ignored) ? options.truth / "people.csv" : options.truth;
 }
 
-/// The run's rows in the world: the first common pose of both trajectories says where odom is.
+/// The run's rows in the world.
 Result<std::vector<PersonRow>> tracks_in_world(const fs::path& run, const fs::path& recording) {
   auto rows = read_people(run / "people.csv");
   if (!rows) return rows;
-  const fs::path file = run / "trajectory.tum";
-  const auto estimate = recording::read_tum(file);
-  if (!estimate) return at(file.string(), estimate.error());
-  const auto truth = Path::read(recording / "ground_truth.tum");
-  if (!truth) return truth.error();
-  const auto matched = report::match_by_time(*estimate, truth->poses(), report::TrajectoryErrorOptions{}.max_gap);
-  if (matched.empty()) return Error{Errc::kMalformed, "both trajectories have no common time", file.string(), {}, {}};
-  const SE3 T_world_odom = report::align(matched, report::Alignment::kFirst);
-  for (PersonRow& row : *rows)
-    row.position = (T_world_odom * Eigen::Vector3d(row.position.x(), row.position.y(), 0)).head<2>();
+  const auto T_world_odom = place_of_odom(run, recording);
+  if (!T_world_odom) return T_world_odom.error();
+  for (PersonRow& row : *rows) row.position = middle_in_world(*T_world_odom, row.position, row.ground);
   return rows;
 }
 
@@ -150,10 +142,22 @@ void print(const std::string& where, const PeopleError& e) {
                            e.ghosts_s.size(), e.ghost_p95_s());
 }
 
+/// A row for each person and track that counts in a scan.
+Result<void> write_details(const fs::path& file, const PeopleError& error) {
+  std::string text = "t,what,person,track,x,y\n";
+  for (const PeopleDetail& d : error.details)
+    text += fmt::format("{:.6f},{},{},{},{:.3f},{:.3f}\n", to_seconds(d.stamp.time_since_epoch()), d.what, d.person,
+                        d.track, d.position.x(), d.position.y());
+  return write_file_atomic(file, text);
+}
+
 int evaluate_people(const PeopleOptions& options) {
   const auto figures =
       app::while_working("placing the recording's returns in the world", [&] { return compare(options); });
   if (!figures) return app::fail(figures.error());
+  if (!options.details.empty())
+    if (const auto written = write_details(options.details, figures->in_view); !written)
+      return app::fail(written.error());
   if (options.json) return app::print(to_json(options, *figures));
   print(options.view == "around" ? "all around" : "in the cameras' view", figures->in_view);
   print("all around", figures->around);
@@ -185,6 +189,9 @@ void add_evaluate_people_command(app::Commands& commands, CLI::App& evaluate) {
                   "the figures called around are always of everybody")
       ->check(CLI::IsMember({"any", "camera", "thermal", "around"}))
       ->capture_default_str();
+  sub->add_option("--details", o->details,
+                  "a file for a row of each scan and person or track of the first figures: t,what,person,track,x,y in "
+                  "the world; what is found, missed, switched or false");
   sub->add_flag("--json", o->json, "one JSON object on stdout");
   sub->callback([&commands, o] { commands.job = [o] { return evaluate_people(*o); }; });
 }

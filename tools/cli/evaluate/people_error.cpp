@@ -64,8 +64,10 @@ void PeopleJudge::note_found(const PeopleFrame::Person& person, const PeopleFram
   ++error_.found;
   error_.squared_m2 += (person.position - track.position).squaredNorm();
   const auto known = found_by_.find(person.id);
-  if (known != found_by_.end() && known->second.track != track.id && stamp - known->second.counted <= kAbsent)
-    ++error_.id_switches;
+  const bool switched =
+      known != found_by_.end() && known->second.track != track.id && stamp - known->second.counted <= kAbsent;
+  if (switched) ++error_.id_switches;
+  error_.details.push_back({stamp, switched ? "switched" : "found", person.id, track.id, person.position});
   found_by_.insert_or_assign(person.id, Known{track.id, stamp});
 }
 
@@ -74,6 +76,7 @@ void PeopleJudge::note_ghosts(const PeopleFrame& frame, const std::vector<bool>&
   for (std::size_t t = 0; t < frame.tracks.size(); ++t) {
     if (at_somebody[t] || !frame.tracks[t].counts) continue;
     ++error_.false_tracks;
+    error_.details.push_back({frame.stamp, "false", -1, frame.tracks[t].id, frame.tracks[t].position});
     const auto before = ghosts_.find(frame.tracks[t].id);
     now[frame.tracks[t].id] = {before == ghosts_.end() ? frame.stamp : before->second.first, frame.stamp};
   }
@@ -95,6 +98,8 @@ void PeopleJudge::count(const PeopleFrame& frame, const Pairs& pairs) {
   for (std::size_t p = 0; p < frame.people.size(); ++p) {
     if (!frame.people[p].counts) continue;
     ++error_.people;
+    if (!pairs.contains(p))
+      error_.details.push_back({frame.stamp, "missed", frame.people[p].id, -1, frame.people[p].position});
     // Somebody who is there and not found keeps the track that they had.
     const auto known = found_by_.find(frame.people[p].id);
     if (known != found_by_.end() && frame.stamp - known->second.counted <= kAbsent) known->second.counted = frame.stamp;

@@ -28,14 +28,24 @@ struct PeopleFrame {
   std::vector<Track> tracks;
 };
 
+/// What one person or track counted as in a frame.
+struct PeopleDetail {
+  Time stamp{};
+  const char* what = "";           ///< found, missed, switched (found by another track than before), or false
+  std::int64_t person = -1;        ///< -1: nobody
+  std::int64_t track = -1;         ///< -1: none
+  Eigen::Vector2d position{0, 0};  ///< of the person; of a false track, its own
+};
+
 /// Figures of `cairn evaluate people`, over all frames.
 struct PeopleError {
-  std::uint64_t people = 0;        ///< persons that count, each once a frame
-  std::uint64_t found = 0;         ///< of these, with a track
-  std::uint64_t false_tracks = 0;  ///< tracks that count at nobody, each once a frame
-  std::uint64_t id_switches = 0;   ///< persons who were found by another track than before
-  double squared_m2 = 0;           ///< sum over `found`: squared distance of track and person
-  std::vector<double> ghosts_s;    ///< how long each track was at nobody, each time, in rising order
+  std::uint64_t people = 0;           ///< persons that count, each once a frame
+  std::uint64_t found = 0;            ///< of these, with a track
+  std::uint64_t false_tracks = 0;     ///< tracks that count at nobody, each once a frame
+  std::uint64_t id_switches = 0;      ///< persons who were found by another track than before
+  double squared_m2 = 0;              ///< sum over `found`: squared distance of track and person
+  std::vector<PeopleDetail> details;  ///< in the order of time
+  std::vector<double> ghosts_s;       ///< how long each track was at nobody, each time, in rising order
 
   [[nodiscard]] std::optional<double> precision() const;  ///< found / (found + false_tracks)
   [[nodiscard]] std::optional<double> recall() const;     ///< found / people

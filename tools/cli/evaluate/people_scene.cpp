@@ -6,7 +6,10 @@
 #include <map>
 
 #include "drivers/recording/formats/recording.hpp"
+#include "drivers/recording/formats/trajectory_file.hpp"
+#include "onboard/report/figures/trajectory_error.hpp"
 #include "tools/cli/evaluate/mover_error.hpp"
+#include "tools/cli/evaluate/path.hpp"
 #include "tools/cli/evaluate/true_scans.hpp"
 
 namespace cairn::cli {
@@ -14,7 +17,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr Duration kSameScan = std::chrono::milliseconds(45);      // less than half a turn of the LiDAR
 constexpr Duration kLongestStep = std::chrono::milliseconds(500);  // between two rows of a person
 
 template <class Camera>
@@ -110,6 +112,22 @@ Result<std::vector<PeopleScan>> people_scans(const fs::path& recording, const ap
   });
   if (!done) return done.error();
   return scans;
+}
+
+Result<SE3> place_of_odom(const fs::path& run, const fs::path& recording) {
+  const fs::path file = run / "trajectory.tum";
+  const auto estimate = recording::read_tum(file);
+  if (!estimate) return at(file.string(), estimate.error());
+  const auto truth = Path::read(recording / "ground_truth.tum");
+  if (!truth) return truth.error();
+  const auto matched = report::match_by_time(*estimate, truth->poses(), report::TrajectoryErrorOptions{}.max_gap);
+  if (matched.empty()) return Error{Errc::kMalformed, "both trajectories have no common time", file.string(), {}, {}};
+  return report::align(matched, report::Alignment::kFirst);
+}
+
+Eigen::Vector2d middle_in_world(const SE3& T_world_odom, const Eigen::Vector2d& position_odom, double ground) {
+  constexpr double kHalfHeight = 0.9;  // m, of a person
+  return (T_world_odom * Eigen::Vector3d(position_odom.x(), position_odom.y(), ground + kHalfHeight)).head<2>();
 }
 
 JoinedPeople join(std::span<const PeopleScan> scans, std::span<const PersonRow> tracks_world, const PeopleZone& zone) {

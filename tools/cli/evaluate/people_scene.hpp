@@ -49,13 +49,22 @@ struct PeopleScan {
   std::vector<Person> people;
 };
 
-inline constexpr double kReturnsWithin_m = 0.5;      ///< from above; a person is 0.5 m wide
+inline constexpr Duration kSameScan = std::chrono::milliseconds(45);  ///< less than half a turn of the LiDAR
+inline constexpr double kReturnsWithin_m = 0.5;                       ///< from above; a person is 0.5 m wide
 inline constexpr std::uint32_t kVisibleReturns = 5;  ///< the LiDAR's returns that make a person visible
 
 /// Errors: those of for_each_true_scan().
 [[nodiscard]] Result<std::vector<PeopleScan>> people_scans(const std::filesystem::path& recording,
                                                            const app::RobotProfile& profile,
                                                            std::span<const PersonRow> truth);
+
+/// Where the run's odom is in the world: the first common pose of both trajectories says so. `run` has trajectory.tum,
+/// `recording` ground_truth.tum. Errors: those of the files; kMalformed where they have no common time.
+[[nodiscard]] Result<SE3> place_of_odom(const std::filesystem::path& run, const std::filesystem::path& recording);
+
+/// Where the middle of somebody is in the world, from above. `ground`: z below, odom. odom may be tilted.
+[[nodiscard]] Eigen::Vector2d middle_in_world(const SE3& T_world_odom, const Eigen::Vector2d& position_odom,
+                                              double ground);
 
 /// Who counts: the people and tracks of a place that the robot can know.
 struct PeopleZone {

@@ -20,6 +20,7 @@
 #include "onboard/report/figures/trajectory_error.hpp"
 #include "onboard/report/json/report_json.hpp"
 #include "onboard/report/labels/label_measures.hpp"
+#include "tools/cli/evaluate/detectors_command.hpp"
 #include "tools/cli/evaluate/mover_error.hpp"
 #include "tools/cli/evaluate/path.hpp"
 #include "tools/cli/evaluate/people_command.hpp"
@@ -287,6 +288,7 @@ void add_evaluate_command(app::Commands& commands) {
   add_trajectory(commands, evaluate, std::make_shared<Options>());
   add_map(commands, evaluate, std::make_shared<Options>());
   add_evaluate_people_command(commands, evaluate);
+  add_evaluate_detectors_command(commands, evaluate);
   add_projection_command(commands, evaluate);
 }
 

@@ -133,9 +133,30 @@ TEST_F(PeopleRun, SaysWhereEverybodyWas) {
   std::ifstream file(*folder_ / "log" / "people.csv");
   std::string header, row;
   std::getline(file, header);
-  EXPECT_EQ(header, "t,id,x,y,vx,vy,sigma_m,sightings");
+  EXPECT_EQ(header, "t,id,x,y,vx,vy,sigma_m,sightings,z");
   std::getline(file, row);
   EXPECT_THAT(row, ::testing::HasSubstr(",1,")) << "the first person";
+}
+
+TEST_F(PeopleRun, KeepsWhatTheDetectorSaidWhereTheProfileAsks) {
+  std::string profile = kPeopleProfile;
+  profile.replace(profile.find("movers: false"), 13, "movers: false, log_answers: true");
+  RunOptions o = watched("answers");
+  o.config = write("answers.yaml", profile);
+  ASSERT_TRUE(run(o));
+  std::ifstream file(*folder_ / "answers" / "answers.csv");
+  std::string header, row;
+  std::getline(file, header);
+  EXPECT_EQ(header, "t,camera,x,y,z,verdict,score,distance_m");
+  int boxed = 0;
+  while (std::getline(file, row)) {
+    EXPECT_THAT(row, ::testing::HasSubstr(",visible,"));
+    boxed += row.find(",person,0.9000,") != std::string::npos ? 1 : 0;
+  }
+  EXPECT_GE(boxed, 10) << "one in each picture";
+  o.config = *folder_ / "profile.yaml";
+  ASSERT_TRUE(run(o));
+  EXPECT_FALSE(test::fs::exists(*folder_ / "answers" / "answers.csv")) << "of an earlier run";
 }
 
 TEST_F(PeopleRun, IsTheSameForAnyNumberOfThreads) {

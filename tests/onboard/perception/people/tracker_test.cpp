@@ -19,7 +19,7 @@ class TrackerTest : public ::testing::Test {
     clusters_.clear();
     for (const Vector2d& place : places)
       clusters_.push_back({.centre = place.cast<float>(),
-                           .ground = 0,
+                           .ground = ground_,
                            .top = 1.7F,
                            .extent = 0.5F,
                            .points = 40,
@@ -34,7 +34,7 @@ class TrackerTest : public ::testing::Test {
   /// Of the clusters; boxes have a large score.
   void hear(const std::vector<Verdict>& verdicts) {
     std::vector<Answer> answers;
-    for (const Verdict verdict : verdicts) answers.push_back({verdict, 0.8F, 3});
+    for (const Verdict verdict : verdicts) answers.push_back({verdict, 0.67F, 3});
     tracker_.hear(now_, answers, config_.visible);
   }
 
@@ -42,7 +42,8 @@ class TrackerTest : public ::testing::Test {
   Tracker tracker_{config_};
   Time now_{std::chrono::seconds(5)};
   std::vector<Cluster> clusters_;
-  std::optional<Vector2d> beside_;
+  std::optional<Tracker::Beside> beside_;
+  float ground_ = 0;
   bool through_ = false, empty_ = false;
   float entered_ = 0, known_ = 0;
   bool upright_ = false;
@@ -178,7 +179,7 @@ TEST_F(TrackerTest, WhereRaysGoThroughNobodyIsAndWhoAppearsNearbyIsTheSame) {
 
 TEST_F(TrackerTest, BoxesWithoutAClusterMakeAPersonToo) {
   const Lifted there{.position = {4, 1}, .ground = 0, .score = 0.8F};
-  beside_ = Vector2d(4, 1);
+  beside_ = {{4, 1}, ground_};
   for (int i = 0; i < 2; ++i) {
     scan({});
     tracker_.hear_apart(now_, now_, std::vector{there}, config_.visible);
@@ -224,10 +225,7 @@ TEST_F(TrackerTest, WhoWalksPastAPoleLeavesItThere) {
   for (int i = 0; i < 30; ++i) {
     const double x = 0.12 * i;
     // Beside the pole both are one body, which is no cluster.
-    if (std::abs(x - 1.8) < 0.4)
-      scan({});
-    else
-      scan({{1.8, 0.3}, {x, 0}});
+    scan(std::abs(x - 1.8) < 0.4 ? std::vector<Vector2d>() : std::vector<Vector2d>{{1.8, 0.3}, {x, 0}});
   }
   ASSERT_EQ(tracker_.people().size(), 1U);
   EXPECT_NEAR(tracker_.people()[0].position.x(), 0.12 * 29, 0.3);
@@ -250,11 +248,20 @@ TEST_F(TrackerTest, BesideAWallAPersonIsFollowedForAWhile) {
     scan({{3, 0}});
     hear({Verdict::kPerson});
   }
-  beside_ = Vector2d(3, 0);
+  beside_ = {{3, 0}, ground_};
   for (int i = 0; i < 25; ++i) scan({});
   EXPECT_EQ(tracker_.people().size(), 1U);
   for (int i = 0; i < 25; ++i) scan({});
   EXPECT_TRUE(tracker_.people().empty()) << "what never stands alone again may be furniture";
+}
+
+TEST_F(TrackerTest, WhoWalksUphillStandsOnTheGroundThere) {
+  for (int i = 0; i < 10; ++i, ground_ += 0.02F) {
+    scan({{3 + 0.1 * i, 0}});
+    hear({Verdict::kPerson});
+  }
+  EXPECT_FLOAT_EQ(tracker_.people().front().ground, 0.18F);
+  EXPECT_FLOAT_EQ(tracker_.take_new().at(0)->steps().front().ground, 0);
 }
 
 TEST_F(TrackerTest, NewPeopleAreToldOnceWithTheirWay) {

@@ -18,6 +18,11 @@ TEST(PeopleFile, ReadsRunsAndSimulations) {
   EXPECT_EQ((*run)[0].id, 3);
   EXPECT_EQ((*run)[0].position, Eigen::Vector2d(1.25, -2));
   EXPECT_EQ((*run)[2].stamp.time_since_epoch().count(), 1'600'000'001);
+  const auto with_height =
+      parse_people("t,id,x,y,vx,vy,sigma_m,sightings,z\n1.5,3,1.25,-2,0,0,0.1,7,0.5\n", "people.csv");
+  ASSERT_TRUE(with_height) << to_string(with_height.error());
+  EXPECT_EQ((*with_height)[0].ground, 0.5);
+  EXPECT_EQ((*run)[0].ground, 0);
   const auto nobody = parse_people("t,id,x,y,vx,vy\n", "people.csv");
   ASSERT_TRUE(nobody);
   EXPECT_TRUE(nobody->empty());
@@ -34,6 +39,8 @@ TEST(PeopleFile, FaultsNameTheLine) {
   EXPECT_THAT(fault("1,-1,2,3\n"), HasSubstr("not an id"));
   EXPECT_THAT(fault("1,0,inf,3\n"), HasSubstr("not a usable position"));
   EXPECT_THAT(fault("1,0,2,1e300\n"), HasSubstr("not a usable position"));
+  EXPECT_THAT(to_string(parse_people("t,id,x,y,vx,vy,sigma_m,sightings,z\n1,0,2,3\n", "people.csv").error()),
+              HasSubstr("height of the ground"));
   EXPECT_THAT(fault("2,0,2,3\n1,0,2,3\n"), HasSubstr("the times decrease"));
   EXPECT_THAT(fault("2,0,2,3\n2,0,2,3\n"), HasSubstr("twice"));
   EXPECT_THAT(to_string(parse_people("", "people.csv").error()), HasSubstr("not a table of people"));

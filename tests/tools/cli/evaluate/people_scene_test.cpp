@@ -30,6 +30,16 @@ TEST(ViewAngle, IsSeenFromTheCamera) {
   EXPECT_FALSE(back.sees(towards(0)));
 }
 
+TEST(MiddleInWorld, IsTheSameHoweverOdomLies) {
+  const Eigen::Vector3d feet(6, -2, 1.5);
+  for (const double tilt : {0.0, 0.2}) {
+    const SE3 T_world_odom = SE3::from_xyz_rpy((Vector6() << 3, 1, 0.5, tilt, -tilt, 2).finished());
+    const Eigen::Vector3d middle = T_world_odom.inverse() * (feet + Eigen::Vector3d(0, 0, 0.9));
+    const double ground = middle.z() - 0.9;  // at a tilt of 0.2, 4 cm more are between the two along z of odom
+    EXPECT_LT((middle_in_world(T_world_odom, middle.head<2>(), ground) - feet.head<2>()).norm(), 0.02) << tilt;
+  }
+}
+
 PeopleScan scan_at(int tenths, std::vector<PeopleScan::Person> people) {
   return {Time{std::chrono::milliseconds(100 * tenths)}, turned(0), std::move(people)};
 }

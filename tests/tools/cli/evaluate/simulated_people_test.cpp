@@ -82,6 +82,31 @@ class SimulatedPeople : public ::testing::Test {
       }
     ASSERT_TRUE(write_file_atomic(folder_ / "run/people.csv", text));
   }
+  /// A thermal detector that sees everybody whom the LiDAR sees, and takes each fifth of 30 other things for somebody.
+  void write_answers() const {
+    const auto truth = read_people(recording() / "people.csv");
+    const auto scans = people_scans(recording(), profile(), *truth);
+    ASSERT_TRUE(scans) << to_string(scans.error());
+    std::string text = "t,camera,x,y,z,verdict,score,distance_m\n";
+    const auto add = [&](const PeopleScan& scan, const Eigen::Vector2d& world, const char* verdict, double score) {
+      const Eigen::Vector3d p = kOdom.inverse() * Eigen::Vector3d(world.x(), world.y(), 0.9);
+      char row[160];
+      std::snprintf(row, sizeof row, "%.6f,thermal,%.3f,%.3f,%.2f,%s,%.2f,4\n",
+                    to_seconds(scan.stamp.time_since_epoch()), p.x(), p.y(), p.z() - 0.9, verdict, score);
+      text += row;
+    };
+    int others = 0;
+    for (const PeopleScan& scan : *scans) {
+      for (std::size_t i = 0; i < scan.people.size(); ++i) {
+        if (scan.people[i].returns < kVisibleReturns) continue;
+        add(scan, scan.people[i].position_world, "person", 0.6 + 0.05 * static_cast<double>(i));
+        add(scan, scan.people[i].position_world + Eigen::Vector2d(0.7, 0), "silence", 0);
+      }
+      for (int k = 0; k < 5 && others < 30; ++k, ++others)
+        add(scan, {100.0 + k, 100}, others % 5 == 0 ? "person" : "silence", others % 5 == 0 ? 0.5 : 0);
+    }
+    ASSERT_TRUE(write_file_atomic(folder_ / "run/answers.csv", text));
+  }
   /// The map of that run, with people or without.
   void write_map(bool with_people) const {
     Workers workers(1);
@@ -116,6 +141,25 @@ TEST_F(SimulatedPeople, AreAllFoundByARunThatKnowsThem) {
   EXPECT_EQ(json["rows_without_scan"], 0);
 }
 
+TEST_F(SimulatedPeople, DetailsSayWhoWasMissedWhereAndWhen) {
+  write_people(1.5);
+  const fs::path file = folder_ / "details.csv";
+  const auto json = people({"--view", "around", "--json", "--details", file.string()}).json();
+  const auto bytes = read_file(file, 1 << 20);
+  ASSERT_TRUE(bytes) << to_string(bytes.error());
+  const std::string text(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  EXPECT_THAT(text, ::testing::StartsWith("t,what,person,track,x,y\n"));
+  const auto rows_with = [&](const std::string& what) {
+    int rows = 0;
+    for (auto at = text.find(what); at != std::string::npos; at = text.find(what, at + 1)) ++rows;
+    return rows;
+  };
+  EXPECT_EQ(rows_with(",missed,"), json["people"].get<int>() - json["found"].get<int>());
+  EXPECT_EQ(rows_with(",false,-1,"), json["false_tracks"]);
+  EXPECT_EQ(rows_with(",switched,"), json["id_switches"]);
+  EXPECT_THAT(people({"--view", "around", "--details", "/nowhere/details.csv"}).err, HasSubstr("/nowhere"));
+}
+
 TEST_F(SimulatedPeople, AreMissedByTracksBesideThem) {
   write_people(0.5);
   EXPECT_NEAR(people({"--view", "around", "--json"}).json()["position_rmse_m"], 0.5, 0.01);
@@ -146,6 +190,33 @@ TEST_F(SimulatedPeople, ARecordingThatDoesNotSayWhoIsAPersonIsRefused) {
   EXPECT_THAT(evaluate(command).err, HasSubstr("lidar_labels.bin"));
   fs::remove(folder_ / "copy/lidar_labels.bin");
   EXPECT_THAT(evaluate(command).err, HasSubstr("--people"));
+}
+
+TEST_F(SimulatedPeople, DetectorsAreCountedAgainstTheTruth) {
+  write_answers();
+  const std::vector<std::string> command{"detectors", (folder_ / "run").string(), "--ground-truth",
+                                         recording().string()};
+  auto as_json = command;
+  as_json.push_back("--json");
+  const Outcome o = evaluate(as_json);
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  const auto json = o.json();
+  EXPECT_GE(json["thermal"]["people"], 20);
+  EXPECT_GE(json["thermal"]["people_boxed"], 20);
+  EXPECT_EQ(json["thermal"]["others"], 30);
+  EXPECT_EQ(json["thermal"]["others_boxed"], 6) << "each fifth";
+  EXPECT_GT(json["thermal"]["score_slope"], 0);
+  EXPECT_TRUE(json["visible"].is_null());
+  EXPECT_GT(json["unclear"], 0);
+  EXPECT_THAT(evaluate(command).out, HasSubstr("thermal: {recall: 0."));
+}
+
+TEST_F(SimulatedPeople, FaultsOfDetectorsSayWhatToDo) {
+  const std::string folder = (folder_ / "run").string();
+  EXPECT_THAT(evaluate({"detectors", folder, "--ground-truth", recording().string()}).err, HasSubstr("log_answers"));
+  EXPECT_THAT(evaluate({"detectors", folder, folder, "--ground-truth", recording().string()}).err,
+              HasSubstr("2 runs, 1 recordings"));
+  EXPECT_EQ(evaluate({"detectors", folder}).exit_code, app::kWrongArguments);
 }
 
 TEST_F(SimulatedPeople, AMapWithoutThemIsPerfectAndOneWithThemIsNot) {
