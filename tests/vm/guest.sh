@@ -56,7 +56,7 @@ YAML
   "$VM_PROGRAMS/cairn" doctor --config /tmp/robot.yaml --seconds 1 | tee "$log"
   timeout -k 5 "$VM_LIMIT" "$VM_PROGRAMS/cairn" record --config /tmp/robot.yaml --out /tmp/recorded >/tmp/recorder.log 2>&1 &
   recorder=$!
-  until compgen -G '/tmp/recorded*/thermal/*' >/dev/null; do  # files are made seconds before the first packet is read
+  until compgen -G '/tmp/recorded*/thermal/data/*' >/dev/null; do  # a camera may need a second start
     kill -0 "$recorder" 2>/dev/null || break
     sleep 0.1
   done
