@@ -20,7 +20,7 @@ constexpr int kAround = 2;             // cells whose lowest points may be the g
 constexpr float kUnsureSlope = 0.05F;  // of the plane, from one cell to the next
 constexpr int kSlopeAround = 4;        // cells that tell of the slope
 // Lowest points of cells without visible ground lie above the plane. They hardly count (expectiles: Newey and Powell,
-// 1987). Slopes are level within 0.1 where little is seen.
+// 1987). Where little is seen, the plane stays level.
 constexpr int kRounds = 4;
 constexpr float kAbove = 0.02F, kNear = 0.05F;  // weight, and m above the plane from which it is taken
 constexpr float kLevel = 4.0F;                  // m², of a prior at slope 0, beside a weight of 1 for each cell

@@ -149,6 +149,7 @@ void People::remember(const PeopleScan& scan, std::span<const Cluster> bodies) {
 }
 
 bool People::hear(Eye eye, const Detections& boxes, Time scan, const SE3& T_odom_base) {
+  answered_.clear();
   auto& lifter = lifters_[static_cast<std::size_t>(eye)];
   const auto remembered = std::ranges::find(scans_, scan, &Remembered::stamp);
   if (!lifter || remembered == scans_.end()) return false;
@@ -173,7 +174,6 @@ bool People::hear(Eye eye, const Detections& boxes, Time scan, const SE3& T_odom
 }
 
 void People::note_answers(Eye eye, const Remembered& scan) {
-  answered_.clear();
   for (std::size_t i = 0; i < answers_.size(); ++i)
     if (answers_[i].verdict != Verdict::kNothing)
       answered_.push_back({scan.stamp, eye, scan.bodies[i].centre, scan.bodies[i].ground, answers_[i]});

@@ -58,7 +58,7 @@ class People {
   /// What a detector saw in a picture, taken with base_link at `T_odom_base`. `scan`: the stamp of the scan nearest to
   /// the exposure. False: that scan is not remembered, or there is no such eye.
   bool hear(Eye eye, const Detections& boxes, Time scan, const SE3& T_odom_base);
-  /// With `log_answers`: what the last hear() was told of each body in view. Valid until the next hear().
+  /// With `log_answers`: what the last hear() was told of each body in view; nothing if it was false.
   [[nodiscard]] std::span<const Answered> answered() const { return answered_; }
   /// Whether the camera's boxes are beside the people: then its silence about somebody counts for nothing.
   [[nodiscard]] const EyeOffset& offset(Eye eye) const { return offsets_[static_cast<std::size_t>(eye)]; }

@@ -39,7 +39,7 @@ class PeopleTest : public ::testing::Test {
 
   float settled_x_ = 11.8F;  // m; what is farther ahead has long stood there
   Space elsewhere_ = Space::kFree;
-  PeopleConfig config_;
+  PeopleConfig config_{.log_answers = true, .visible = {}};
   People people_{config_};
   Time now_{std::chrono::seconds(5)};
   std::vector<Eigen::Vector3f> points_;
@@ -108,10 +108,12 @@ TEST_F(PeopleTest, ACameraTellsWhoStands) {
   for (int i = 0; i < 3; ++i) {
     observe({{{6, 0}}});
     EXPECT_TRUE(people_.hear(Eye::kThermal, boxes, now_, {}));
+    EXPECT_FALSE(people_.answered().empty());
   }
   EXPECT_EQ(observe({{{6, 0}}}), points_on({{6, 0}}));
   EXPECT_FALSE(people_.hear(Eye::kVisible, boxes, now_, {})) << "there is no such camera";
   EXPECT_FALSE(people_.hear(Eye::kThermal, boxes, now_ + kScan, {})) << "there is no such scan";
+  EXPECT_TRUE(people_.answered().empty()) << "those of the picture before are not told again";
 }
 
 TEST_F(PeopleTest, BesideAWallSomebodyIsStillMasked) {

@@ -31,7 +31,7 @@ class TrackerTest : public ::testing::Test {
         now_, clusters_, [this](const Vector2d&, std::span<const Vector2d>) { return beside_; },
         [this](const Track&) { return through_; }, [this](const Track&) { return empty_; });
   }
-  /// Of the clusters; boxes have a large score.
+  /// Of the clusters; boxes have a good score.
   void hear(const std::vector<Verdict>& verdicts) {
     std::vector<Answer> answers;
     for (const Verdict verdict : verdicts) answers.push_back({verdict, 0.67F, 3});
