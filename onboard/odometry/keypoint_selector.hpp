@@ -15,7 +15,7 @@ namespace cairn::odometry {
 
 /// The points of a scan that are worth using. Valid until the next scan is selected from.
 struct Selection {
-  std::span<const std::uint32_t> for_map;  ///< ascending indices: one point per cube of `insert_spacing_m`
+  std::span<const std::uint32_t> for_map;  ///< indices: one point per cube of `insert_spacing_m`
   std::span<const Keypoint> keypoints;     ///< for registration: a thinner choice of the same points
   double duration_s = 0;                   ///< of the scan: no keypoint is older
 };

@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "drivers/drive/wheel_decoder.hpp"
@@ -84,6 +85,7 @@ inline RecordedDrive load(const std::filesystem::path& folder, const Thinning& t
   const Truth truth(folder / "ground_truth.tum");
   Packet packet;
   int n = 0;
+  bool begun = false;
   while (true) {
     const auto poll = reader->next(packet, Duration::zero());
     if (!poll || *poll == Poll::kEnd) break;
@@ -93,7 +95,9 @@ inline RecordedDrive load(const std::filesystem::path& folder, const Thinning& t
     }
     if (packet.source != SourceId{0}) continue;
     const auto scan = lidar->decode(packet);
-    if (!scan || *scan == nullptr || n++ % thinning.every != 0 || in_a_gap(n, thinning.gap_s)) continue;
+    if (!scan || *scan == nullptr) continue;
+    if (!std::exchange(begun, true) && (*scan)->incomplete) continue;  // a robot leaves it out, too
+    if (n++ % thinning.every != 0 || in_a_gap(n, thinning.gap_s)) continue;
     out.scans.push_back(**scan);
     out.truth.push_back(truth((*scan)->valid.end));
     out.wheels.push_back(thinning.wheels ? rolled : std::nullopt);

@@ -6,6 +6,16 @@
 #include "onboard/odometry/local_map/voxel_key.hpp"
 
 namespace cairn::odometry {
+namespace {
+
+/// The same for the same index, and as if at random (the finaliser of MurmurHash3).
+std::uint32_t draw(std::uint32_t index) {
+  index = (index ^ index >> 16U) * 0x85EBCA6BU;
+  index = (index ^ index >> 13U) * 0xC2B2AE35U;
+  return index ^ index >> 16U;
+}
+
+}  // namespace
 
 void Subsample::reserve(std::size_t n) {
   if (slots_.size() < 2 * n) {
@@ -30,8 +40,12 @@ std::span<const std::uint32_t> Subsample::operator()(std::span<const Eigen::Vect
     const std::uint64_t key = voxel_key(floor_to_int(p.x()), floor_to_int(p.y()), floor_to_int(p.z()));
     std::size_t at = voxel_hash(key) & mask;
     while (slots_[at].call == call_ && slots_[at].key != key) at = (at + 1) & mask;
-    if (slots_[at].call == call_) continue;
-    slots_[at] = {key, call_};
+    if (slots_[at].call == call_) {
+      std::uint32_t& kept = kept_[slots_[at].position];
+      if (draw(i) < draw(kept)) kept = i;
+      continue;
+    }
+    slots_[at] = {key, call_, static_cast<std::uint32_t>(kept_.size())};
     kept_.push_back(i);
   }
   return kept_;

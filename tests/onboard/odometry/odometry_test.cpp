@@ -121,6 +121,18 @@ TEST(Odometry, StandingStillItStays) {
   EXPECT_LT(rotation_angle(last.T_odom_base.mean), 0.003);
 }
 
+/// A wall that is near has many points, whose noise is larger than their distance from each other.
+TEST(Odometry, StandingStillInASmallRoomItDoesNotTurn) {
+  for (const double heading : {0.0, 0.4, 0.8, 1.2}) {
+    support::World room;
+    room.box({0, 0, 0}, {6, 4.5, 3});
+    Ride ride(room, [&](double) { return SE3::from_xyz_rpy((Vector6() << 2.5, 2, 0, 0, 0, heading).finished()); });
+    double sum = 0;
+    for (int i = 0; i < 20; ++i) sum += ride.error(ride.step())[5];
+    EXPECT_LT(std::abs(sum / 20), 0.001) << heading;
+  }
+}
+
 TEST(Odometry, WhatTheMapWasMadeWithIsNotForgottenByStandingStill) {
   Ride ride(support::lobby().world, [](double) { return drive(0); });
   ride.step();

@@ -35,13 +35,19 @@ Result<OdometryUpdate> step(Ride& ride, int scan, double share) {
 TEST_P(Pieces, TellNoMotionThatWholeRevolutionsDoNotTell) {
   static const std::vector<OdometryUpdate> usual = in_whole_revolutions();
   Ride ride(support::lobby().world, curve);
+  int left_out = 0;
   for (int i = 0; i < kScans; ++i) {
     const auto update = step(ride, i, GetParam());
-    ASSERT_TRUE(update) << i;
+    if (!update) {
+      EXPECT_EQ(update.error().code, Errc::kTruncated) << i;
+      ++left_out;
+      continue;
+    }
     const OdometryUpdate& expected = usual[static_cast<std::size_t>(i)];
     EXPECT_LT((expected.T_odom_base.mean.inverse() * update->T_odom_base.mean).translation().norm(), 0.02) << i;
     EXPECT_LT((expected.twist - update->twist).norm(), 0.1) << i;
   }
+  EXPECT_TRUE(left_out == 0 || GetParam() > 0.99) << "only a few dozen points may not show that they fit";
 }
 
 /// The second scan of a map says how the first one is skewed.
