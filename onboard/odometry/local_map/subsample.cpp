@@ -8,7 +8,8 @@
 namespace cairn::odometry {
 namespace {
 
-/// The same for the same index, and as if at random (the finaliser of MurmurHash3).
+/// The same for the same index, and as if at random (the finaliser of MurmurHash3). voxel_hash() of neighbours is too
+/// regular: of six points in a row one would be drawn in 24 % of the cubes, another in 9 %.
 std::uint32_t draw(std::uint32_t index) {
   index = (index ^ index >> 16U) * 0x85EBCA6BU;
   index = (index ^ index >> 13U) * 0xC2B2AE35U;

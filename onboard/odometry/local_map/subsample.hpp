@@ -14,7 +14,7 @@ namespace cairn::odometry {
 ///
 /// The first in scan order would lie beside its surface. Noise along the ray makes a point enter a cube early: beyond
 /// the surface where the sweep recedes along a wall, in front of it where the sweep approaches. That looks like a turn
-/// of the sensor: a robot that stood in a room of 6 × 4 m turned by 0.6° within a second.
+/// of the sensor: a robot that stood in a simulated room of 6 × 4.5 m turned by 0.6° within a second.
 class Subsample {
  public:
   /// Indices from `candidates` that were kept, in the order in which their cubes were met; valid until the next call.
