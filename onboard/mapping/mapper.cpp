@@ -79,7 +79,9 @@ Result<InsertReport> Mapper::insert(std::span<const Eigen::Vector3f> points_map,
   tree_->setProbHit(trust.prob_hit);
   tree_->setProbMiss(trust.prob_miss);
   rays_.set_max_range(trust.max_range_m);
+  spares_ = false;
   auto inserted = insert(points_map, origin_map);
+  spares_ = true;
   rays_.set_max_range(config_.max_range_m);
   tree_->set_sensor_model(usual);
   return inserted;
@@ -128,12 +130,13 @@ Standing Mapper::standing(const Eigen::Vector3f& p) const {
 /// number of threads.
 bool Mapper::march() {
   Footprint& whole = footprints_.front();
+  const SemanticOcTree* surfaces = config_.spare_surfaces && spares_ ? tree_.get() : nullptr;
   const std::size_t parts = footprints_.size();
   for (std::size_t i = 1; i < parts; ++i) footprints_[i].reset(whole.grid());
   const MarchRays march_rays = best_march(whole);
   workers_.for_each(parts, [&](std::size_t i) {
     const std::size_t rays = rays_.ray_count();
-    rays_.march(rays * i / parts, rays * (i + 1) / parts, march_rays, footprints_[i]);
+    rays_.march(rays * i / parts, rays * (i + 1) / parts, march_rays, footprints_[i], surfaces);
   });
   for (std::size_t i = 1; i < parts; ++i) whole.merge(footprints_[i]);
   return !whole.overflown();

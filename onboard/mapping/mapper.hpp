@@ -40,9 +40,10 @@ enum class Standing : std::uint8_t {
   kSettled,   ///< seen occupied so often that one contradiction would not free it
 };
 
-/// Keeps the map of one robot. Inserting a scan leaves exactly the tree, inner nodes and log-odds bits included, that
-/// octomap::OcTree::insertPointCloud(points, origin, max_range, lazy_eval = false, discretize = true) would leave for
-/// the points that were accepted. The result does not depend on the number of threads.
+/// Keeps the map of one robot. With MappingConfig::spare_surfaces off, inserting a scan leaves exactly the tree, inner
+/// nodes and log-odds bits included, that octomap::OcTree::insertPointCloud(points, origin, max_range, lazy_eval =
+/// false, discretize = true) would leave for the points that were accepted. With it on, beams that run along a surface
+/// free less; see SurfaceBeams. The result does not depend on the number of threads.
 class Mapper {
  public:
   /// `workers` must outlive the mapper.
@@ -57,7 +58,8 @@ class Mapper {
   /// the map, scan or map beyond its memory) the map is as before.
   Result<InsertReport> insert(std::span<const Eigen::Vector3f> points_map, const Eigen::Vector3f& origin_map);
 
-  /// The same for a sensor whose points mean less or more, or that sees less far.
+  /// The same for a sensor whose points mean less or more, or that sees less far. It spares no surfaces: what is wide
+  /// along the beam is noise there.
   Result<InsertReport> insert(std::span<const Eigen::Vector3f> points_map, const Eigen::Vector3f& origin_map,
                               const SensorTrust& trust);
 
@@ -104,6 +106,7 @@ class Mapper {
   LabelUpdater labels_;
   Retraction retraction_;
   std::vector<TileKey> changed_, changed_now_, merged_;
+  bool spares_ = true;  // what MappingConfig::spare_surfaces spares; false for noisy points
 };
 
 }  // namespace cairn::mapping

@@ -15,6 +15,7 @@ struct MappingConfig {
   double clamping_min = 0.1192;  ///< occupancy is never below; log-odds −2, five misses
   double clamping_max = 0.971;   ///< occupancy is never above; log-odds +3.5, five hits
   double label_trust = 0.2;      ///< how much a picture counts: those that follow show the same errors again
+  bool spare_surfaces = true;    ///< a flat beam does not free the floor or wall that it ends on; see SurfaceBeams
   bool clear_movers = false;     ///< what came into free space and went is cleared at once; see EnteredVoxels
   int reserve_mb = 0;            ///< MB of nodes, taken and touched at the start. 0: memory is taken when it is needed.
   int max_mb = 4096;             ///< MB of nodes. A larger map takes no further scan. Chosen by hand.
@@ -39,6 +40,8 @@ inline void declare(config::Section& s, MappingConfig& c) {
   s.number("clamping_max", c.clamping_max, {0.5, 0.999}, "", "occupancy probability is never above");
   s.number("label_trust", c.label_trust, {0.01, 1}, "",
            "share of its evidence with which a picture counts: pictures that follow each other err together");
+  s.flag("spare_surfaces", c.spare_surfaces,
+         "a flat beam does not free the surface that it ends on; false: the map is OctoMap's to the bit");
   s.flag("clear_movers", c.clear_movers, "what came into free space and went is cleared sooner than by misses alone");
   s.integer("reserve_mb", c.reserve_mb, {0, 65536}, "MB", "memory for nodes that is taken and touched at the start");
   s.integer("max_mb", c.max_mb, {16, 65536}, "MB", "no further scan is inserted when the nodes take more memory");

@@ -50,7 +50,8 @@ octomap::Pointcloud to_octomap(const MapScan& scan) {
 
 struct Case {
   double resolution, max_range;
-  int compare_every;  // scans; 0: never, and no peer
+  int compare_every;            // scans; 0: never, and no peer
+  bool spare_surfaces = false;  // then the map is not OctoMap's
 };
 
 struct Comparison {
@@ -66,6 +67,7 @@ void run_once(benchmark::State& state, const std::vector<MapScan>& scans, const 
   MappingConfig config;
   config.resolution_m = c.resolution;
   config.max_range_m = c.max_range;
+  config.spare_surfaces = c.spare_surfaces;
   config.reserve_mb = 96;
   double resident = resident_mb();
   Mapper mapper(config, workers);
@@ -136,6 +138,7 @@ int main(int argc, char** argv) {
   mapping::add("insert/kitti_hdl64/0.2m/30m", mapping::kitti_scans, 16, {0.2, 30, 1});
   mapping::add("insert_long/yard_vlp16/0.1m/30m/300", mapping::yard, 300, {0.1, 30, 10});
   mapping::add("insert_alone/yard_vlp16/0.1m/30m", mapping::yard, 100, {0.1, 30, 0});
+  mapping::add("insert_spared/yard_vlp16/0.1m/30m", mapping::yard, 100, {0.1, 30, 0, true});
   benchmark::Initialize(&argc, argv);
   benchmark::RunSpecifiedBenchmarks();
   return 0;

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <optional>
 #include <string>
 
 namespace cairn::mapping {
@@ -17,6 +18,8 @@ constexpr int kKeys = 65536;         // per axis: OctoMap's keys have 16 bits
 constexpr int kCentreKey = 32768;    // of coordinate 0
 constexpr std::size_t kBatch = 512;  // rays that are prepared before they march: they fit into the first-level cache
 constexpr std::uint64_t kStepsOfSlack = 3;  // a ray may overshoot its end voxel by one along each axis
+
+int sign_of(float x) { return x > 0.0F ? 1 : x < 0.0F ? -1 : 0; }
 
 }  // namespace
 
@@ -50,14 +53,22 @@ Result<ScanRays::Counts> ScanRays::prepare(std::span<const Eigen::Vector3f> poin
   return counts;
 }
 
-void ScanRays::march(std::size_t first, std::size_t last, MarchRays march_rays, Footprint& footprint) const {
+void ScanRays::march(std::size_t first, std::size_t last, MarchRays march_rays, Footprint& footprint,
+                     const SemanticOcTree* surfaces) const {
   if (first >= last) return;
   const std::uint64_t origin = footprint.grid().index(origin_key_);
   footprint.flat() ? footprint.mark_free<true>(origin) : footprint.mark_free<false>(origin);
+  std::optional<SurfaceBeams> beams;
+  if (surfaces != nullptr) beams.emplace(*surfaces);
   std::array<Ray, kBatch> rays;
+  std::array<BeamEnd, kBatch> ends;
   for (; first < last; first += kBatch) {
     const std::size_t n = std::min(kBatch, last - first);
     for (std::size_t i = 0; i < n; ++i) rays[i] = ray_to(targets_[first + i], footprint.grid());
+    if (beams) {
+      for (std::size_t i = 0; i < n; ++i) ends[i] = end_of(targets_[first + i]);
+      beams->shorten(std::span(rays).first(n), std::span(ends).first(n));
+    }
     march_rays(std::span(rays).first(n), origin, footprint);
   }
 }
@@ -120,7 +131,7 @@ Ray ScanRays::ray_to(const Target& target, const BrickGrid& grid) const {
   ray.length = length;
   ray.end = grid.index(target.key);
   for (unsigned a = 0; a < 3; ++a) {
-    const int sign = direction(a) > 0.0F ? 1 : direction(a) < 0.0F ? -1 : 0;
+    const int sign = sign_of(direction(a));
     ray.step[a] = grid.axis_step(a, sign);
     ray.t_max[a] = ray.t_delta[a] = std::numeric_limits<double>::max();
     if (sign == 0) continue;
@@ -130,6 +141,11 @@ Ray ScanRays::ray_to(const Target& target, const BrickGrid& grid) const {
     ray.t_delta[a] = resolution_ / std::fabs(static_cast<double>(direction(a)));
   }
   return ray;
+}
+
+BeamEnd ScanRays::end_of(const Target& target) const {
+  const octomap::point3d way = target.end - origin_;
+  return {target.key, {sign_of(way.x()), sign_of(way.y()), sign_of(way.z())}};
 }
 
 }  // namespace cairn::mapping

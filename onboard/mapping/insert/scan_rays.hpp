@@ -12,6 +12,7 @@
 #include "hal/result.hpp"
 #include "onboard/mapping/insert/footprint.hpp"
 #include "onboard/mapping/insert/ray_march.hpp"
+#include "onboard/mapping/insert/surface_beams.hpp"
 #include "onboard/mapping/tree/semantic_octree.hpp"
 
 namespace cairn::mapping {
@@ -42,8 +43,10 @@ class ScanRays {
   [[nodiscard]] std::size_t ray_count() const { return targets_.size(); }
 
   /// Marks the free voxels of rays first to last − 1. Several threads may call it, each with a
-  /// footprint of its own over the same grid.
-  void march(std::size_t first, std::size_t last, MarchRays march_rays, Footprint& footprint) const;
+  /// footprint of its own over the same grid. `surfaces`: the map, whose surfaces are spared by beams
+  /// that run along them, see SurfaceBeams; null: OctoMap's voxels.
+  void march(std::size_t first, std::size_t last, MarchRays march_rays, Footprint& footprint,
+             const SemanticOcTree* surfaces) const;
 
   /// Voxels along all rays of one scan: bounds its time. 130 000 beams of 30 m at 0.1 m make 39
   /// million.
@@ -63,6 +66,7 @@ class ScanRays {
   [[nodiscard]] std::uint64_t steps_of_rays() const;
   [[nodiscard]] BrickGrid grid() const;
   [[nodiscard]] Ray ray_to(const Target& target, const BrickGrid& grid) const;
+  [[nodiscard]] BeamEnd end_of(const Target& target) const;
 
   double resolution_, resolution_factor_, max_range_;
   octomap::point3d origin_;

@@ -29,11 +29,9 @@ void insert_into(octomap::OcTree& stock, const MapScan& scan, double max_range) 
                          true);
 }
 
-MappingConfig config_of(double resolution, double max_range) {
-  MappingConfig config;
-  config.resolution_m = resolution;
-  config.max_range_m = max_range;
-  return config;
+/// OctoMap's, or with spared surfaces.
+MappingConfig config_of(double resolution, double max_range, bool spare_surfaces = false) {
+  return {.resolution_m = resolution, .max_range_m = max_range, .spare_surfaces = spare_surfaces};
 }
 
 struct Setting {
@@ -120,7 +118,7 @@ TEST(Mapper, IsTheSameForAnyNumberOfThreads) {
   std::vector<TileKey> tiles;
   for (const unsigned threads : {1U, 2U, 3U, 5U}) {
     Workers workers(threads);
-    Mapper mapper(config_of(0.2, 30), workers);
+    Mapper mapper(config_of(0.2, 30, true), workers);
     for (int i = 0; i < 4; ++i) ASSERT_TRUE(mapper.insert(yard.scan(i).points, yard.scan(i).origin));
     if (threads == 1) {
       first = data_of(mapper.tree());

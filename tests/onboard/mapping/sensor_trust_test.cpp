@@ -13,7 +13,7 @@ namespace {
 /// OctoMap with another sensor model and range for every second scan.
 TEST(MapperSensors, AnotherSensorHasItsOwnModelAndRange) {
   Workers workers(1);
-  Mapper mapper({.resolution_m = 0.2}, workers);
+  Mapper mapper({.resolution_m = 0.2, .spare_surfaces = false}, workers);
   const SensorTrust depth{.prob_hit = 0.6, .prob_miss = 0.45, .max_range_m = 4};
   octomap::OcTree stock(0.2);
   const ScanYard yard(support::rounds(300, 60));
@@ -29,6 +29,18 @@ TEST(MapperSensors, AnotherSensorHasItsOwnModelAndRange) {
                            false, true);
     ASSERT_EQ(differing_nodes(mapper.tree(), stock), 0U) << "scan " << i;
   }
+}
+
+/// Noise along the beam makes a wall thick. Sparing it would keep it so.
+TEST(MapperSensors, AnotherSensorSparesNoSurfaces) {
+  Workers workers(1);
+  Mapper sparing({.resolution_m = 0.2, .spare_surfaces = true}, workers);
+  Mapper octomaps({.resolution_m = 0.2, .spare_surfaces = false}, workers);
+  const ScanYard yard(support::rounds(300, 60));
+  for (int i = 0; i < 6; ++i)
+    for (Mapper* mapper : {&sparing, &octomaps})
+      ASSERT_TRUE(mapper->insert(yard.scan(3 * i).points, yard.scan(3 * i).origin, SensorTrust{}));
+  EXPECT_EQ(data_of(sparing.tree()), data_of(octomaps.tree()));
 }
 
 }  // namespace

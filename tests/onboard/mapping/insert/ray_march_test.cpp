@@ -71,7 +71,7 @@ TEST_P(RayMarch, VisitsOctoMapsVoxels) {
     }
     ScanRays rays(r, -1);
     ASSERT_TRUE(rays.prepare(points, origin, footprint));
-    rays.march(0, rays.ray_count(), GetParam().march, footprint);
+    rays.march(0, rays.ray_count(), GetParam().march, footprint, nullptr);
     EXPECT_EQ(free_in(footprint), free_by_octomap(points, origin, r)) << "round " << round;
   }
 }

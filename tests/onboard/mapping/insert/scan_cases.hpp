@@ -22,6 +22,7 @@ class ScanCase {
  public:
   explicit ScanCase(unsigned seed, int scans = 6) : random_(seed), scans_(scans) {
     const double resolutions[] = {0.05, 0.07, 0.1, 0.2, 0.25, 0.5, 1.0};
+    config_.spare_surfaces = false;
     config_.resolution_m = resolutions[random_() % 7];
     if (random_() % 2 == 0) {
       config_.prob_hit = between(0.55, 0.95);
