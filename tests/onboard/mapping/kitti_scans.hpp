@@ -25,7 +25,7 @@ inline bool read_kitti_matrix(std::istream& in, Eigen::Isometry3d& T) {
 
 /// At most `count` scans of KITTI odometry 00 (HDL-64E, motion-compensated) in the map frame, which is the first scan's
 /// frame, of which every `stride`-th point; empty when the recording is not there.
-inline std::vector<MapScan> kitti_scans(int count, int stride = 1) {
+inline std::vector<MapScan> kitti_scans(int count, int stride) {
   const std::filesystem::path folder = kitti_recording();
   std::ifstream poses(folder / "poses_cam0.txt"), calibration(folder / "calib.txt");
   std::string word;
@@ -47,5 +47,7 @@ inline std::vector<MapScan> kitti_scans(int count, int stride = 1) {
   }
   return scans;
 }
+/// With every point.
+inline std::vector<MapScan> kitti_scans(int count) { return kitti_scans(count, 1); }
 
 }  // namespace cairn::mapping
