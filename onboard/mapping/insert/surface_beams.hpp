@@ -26,7 +26,8 @@ struct BeamEnd {
 /// Here the beam is followed back from its end, through what is occupied. Gaps of up to kLongestGap voxels are passed
 /// over. If kFewest voxels or more are occupied, nothing from the first of them to the end is freed. One occupied voxel
 /// is no surface that is run along: what is left of noise in front of a wall is freed as ever. So is what has gone from
-/// a place that is more than the gap away from where the beam ends.
+/// a place that is more than the gap away from where the beam ends. What moves away along the beam leaves a trail of at
+/// most kLongest voxels before it, until it has gone.
 class SurfaceBeams {
  public:
   static constexpr int kFewest = 2;      ///< occupied voxels in a row; see docs/maps.md for how both were chosen
