@@ -8,7 +8,7 @@ namespace cairn::mapping {
 
 namespace {
 
-// Rays. Memory takes as long as some rays do: measured with tools/bench.sh insert.
+// Rays. Memory takes as long as some rays do. Chosen by hand.
 constexpr std::size_t kParentsLead = 16, kVoxelsLead = 8;
 
 /// About the first voxel that free_length() looks at: the one before the end, diagonally.

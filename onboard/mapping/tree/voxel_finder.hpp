@@ -30,7 +30,7 @@ class VoxelFinder {
 
  private:
   static constexpr unsigned kDepth = SemanticOcTree::kDepth, kBrickDepth = 12;
-  static constexpr std::size_t kPlaces = 1024;  // 16 KiB; a scan of a VLP-16 ends in some 500 bricks
+  static constexpr std::size_t kPlaces = 1024;  // 16 KiB; chosen by hand
 
   struct Place {
     std::uint64_t brick = ~std::uint64_t{0};
@@ -43,7 +43,8 @@ class VoxelFinder {
     if (place.brick != brick) place = {brick, below(root_, key, 0, kBrickDepth)};
     return place.node;
   }
-  static std::uint64_t part(int key) { return static_cast<unsigned>(key) >> (kDepth - kBrickDepth); }
+  /// Of 12 bits, as below() reads them: what is fetched beyond the edge of the map must not pass for another brick.
+  static std::uint64_t part(int key) { return static_cast<unsigned>(key) >> (kDepth - kBrickDepth) & 0xFFFU; }
 
   /// The node at depth `to`, or the leaf above it; null where nothing is known.
   static const SemanticNode* below(const SemanticNode* node, const Key& key, unsigned depth, unsigned to) {

@@ -46,6 +46,15 @@ TEST(VoxelFinder, OfManyBricksEachIsFoundAgain) {
     }
 }
 
+TEST(VoxelFinder, WhatIsFetchedBeyondTheEdgeConfusesNothing) {
+  SemanticOcTree tree(0.1);
+  tree.updateNode(octomap::OcTreeKey(0, 16, 0), true);
+  VoxelFinder finder(tree);
+  finder.fetch_voxels({65536, 0, 0});
+  EXPECT_TRUE(finder.occupied({0, 16, 0}));
+  EXPECT_FALSE(finder.occupied({0, 0, 0}));
+}
+
 TEST(VoxelFinder, AnEmptyMapHasNothing) {
   const SemanticOcTree tree(0.1);
   VoxelFinder finder(tree);
