@@ -8,7 +8,7 @@ set -euo pipefail
 
 declare -rA packages=(
   # the onboard program, the command line and the simulator
-  [build]="g++ cmake ninja-build pkg-config ccache libeigen3-dev liboctomap-dev libpcap-dev libyaml-cpp-dev
+  [build]="g++ cmake ninja-build pkg-config ccache mold libeigen3-dev liboctomap-dev libpcap-dev libyaml-cpp-dev
            libfmt-dev libcli11-dev nlohmann-json3-dev libexpected-dev libzstd-dev libxxhash-dev libpng-dev libssl-dev
            libgpiod-dev libembree-dev cyclonedds-dev cyclonedds-tools libopencv-core-dev libopencv-imgproc-dev libopencv-imgcodecs-dev
            libopencv-dnn-dev libopencv-calib3d-dev libopencv-video-dev"

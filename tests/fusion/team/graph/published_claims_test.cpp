@@ -10,12 +10,10 @@
 namespace cairn::team {
 namespace {
 
-constexpr peers::Epoch kEpoch = KnownTeam::kEpoch;
-
 peers::Edge edge_to(peers::RobotId other, double x) {
   return {.own_submap = 1,
           .other = other,
-          .other_epoch = kEpoch,
+          .other_epoch = KnownTeam::kEpoch,
           .other_submap = 2,
           .T_own_other = KnownTeam::pose(KnownTeam::at(x, 0), 0.1, 0.01),
           .probability = 0.9F};
@@ -51,7 +49,7 @@ TEST_F(PublishedClaims, AreThoseOfAllRobots) {
 TEST_F(PublishedClaims, WhatDoesNotHoldIsLeftOut) {
   peers::Edge withdrawn = edge_to(2, 1), earlier = edge_to(2, 1), sure = edge_to(2, 1);
   withdrawn.probability = 0;
-  earlier.other_epoch = kEpoch - 1;
+  earlier.other_epoch = KnownTeam::kEpoch - 1;
   sure.T_own_other = KnownTeam::pose(SE3(), 1e-7, 1e-7);
   std::uint16_t index = 0;
   for (const peers::Edge& edge : {withdrawn, earlier, sure, edge_to(1, 1), edge_to(9, 1)}) publish(1, index++, edge);

@@ -8,7 +8,7 @@
 namespace cairn::odometry {
 namespace {
 
-DriveState at(double x, double yaw, double variance) {
+DriveState wheels_at(double x, double yaw, double variance) {
   DriveState state;
   state.T_odom_base.mean = SE3::from_xyz_rpy((Vector6() << x, 0, 0, 0, 0, yaw).finished());
   state.T_odom_base.covariance = variance * Matrix6::Identity();
@@ -19,7 +19,7 @@ DriveState at(double x, double yaw, double variance) {
 
 TEST(WheelBridge, SaysNothingWithoutWheelsNowOrThen) {
   WheelBridge bridge;
-  const DriveState state = at(1, 0, 0.01);
+  const DriveState state = wheels_at(1, 0, 0.01);
   EXPECT_FALSE(bridge.since_followed());
   bridge.note(&state);
   EXPECT_FALSE(bridge.since_followed()) << "no wheels at a followed scan";
@@ -31,7 +31,7 @@ TEST(WheelBridge, SaysNothingWithoutWheelsNowOrThen) {
 
 TEST(WheelBridge, GivesTheMotionSinceTheLastFollowedScan) {
   WheelBridge bridge;
-  const DriveState then = at(3, 0.2, 0.01), now = at(5, 0.9, 0.02);
+  const DriveState then = wheels_at(3, 0.2, 0.01), now = wheels_at(5, 0.9, 0.02);
   bridge.note(&then);
   bridge.followed();
   bridge.note(&now);
@@ -45,7 +45,7 @@ TEST(WheelBridge, GivesTheMotionSinceTheLastFollowedScan) {
 /// The error of the way before the last followed scan is in both states. It is no error of the motion between.
 TEST(WheelBridge, OldErrorsOfTheWheelsDoNotCount) {
   WheelBridge bridge;
-  DriveState then = at(0, 0, 0);
+  DriveState then = wheels_at(0, 0, 0);
   then.T_odom_base.covariance = 4.0 * Matrix6::Identity();
   DriveState now = then;
   bridge.note(&then);

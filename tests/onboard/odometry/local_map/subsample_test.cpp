@@ -15,7 +15,7 @@
 namespace cairn::odometry {
 namespace {
 
-std::vector<std::uint32_t> all_of(const std::vector<Eigen::Vector3f>& points) {
+std::vector<std::uint32_t> every_index(const std::vector<Eigen::Vector3f>& points) {
   std::vector<std::uint32_t> all(points.size());
   std::iota(all.begin(), all.end(), 0U);
   return all;
@@ -42,7 +42,7 @@ TEST(Subsample, KeepsOnePointOfEveryCubeAsASetWould) {
   for (const float edge : {0.1F, 0.5F, 3.0F}) {
     std::vector<Eigen::Vector3f> points(5000);
     for (auto& p : points) p = {normal(random), normal(random), 0.1F * normal(random)};
-    const auto all = all_of(points);
+    const auto all = every_index(points);
     const auto kept = subsample(points, all, edge);
     const auto expected = cubes_as_met(points, all, edge);
     EXPECT_EQ(kept.size(), expected.size()) << edge;
@@ -57,7 +57,7 @@ TEST(Subsample, EveryPointOfACubeHasTheSameChance) {
     points.insert(points.end(), kPoints, {static_cast<float>(cube) + 0.5F, 0.5F, 0.5F});
   Subsample subsample;
   std::array<int, kPoints> chosen{};
-  for (const std::uint32_t i : subsample(points, all_of(points), 1.0F)) ++chosen[i % kPoints];
+  for (const std::uint32_t i : subsample(points, every_index(points), 1.0F)) ++chosen[i % kPoints];
   for (const int times : chosen) EXPECT_NEAR(times, 1000, 4 * std::sqrt(1000 * 5.0 / 6));
 }
 
@@ -82,7 +82,7 @@ TEST(Subsample, WhatIsKeptLiesOnTheWallWhicheverWayTheSweepGoes) {
   std::array<int, 2> kept{};
   for (int sweep = 0; sweep < 300; ++sweep) {
     const auto points = sweep_over_wall(random);
-    for (const std::uint32_t i : subsample(points, all_of(points), 0.3F)) {
+    for (const std::uint32_t i : subsample(points, every_index(points), 0.3F)) {
       const std::size_t half = points[i].y() > 0 ? 1 : 0;
       beyond_m[half] += points[i].x() - 2;
       ++kept[half];

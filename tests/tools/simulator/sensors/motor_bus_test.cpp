@@ -13,11 +13,11 @@
 namespace cairn::simulator {
 namespace {
 
-Trajectory driven(const char* scene, std::uint64_t seed, int seconds) {
+Trajectory driven(const char* scene, std::uint64_t seed, int for_s) {
   const auto world = make_world(scene);
   const FloorPlan plan(*world);
-  const auto paths = RoutePlanner(*world, plan, seed).plan(1, 1.5 * seconds + 2);
-  return drive(*world, plan, (*paths)[0], kTestStart, std::chrono::seconds(seconds), {}, seed);
+  const auto paths = RoutePlanner(*world, plan, seed).plan(1, 1.5 * for_s + 2);
+  return drive(*world, plan, (*paths)[0], kTestStart, std::chrono::seconds(for_s), {}, seed);
 }
 
 /// All frames from the start on.
