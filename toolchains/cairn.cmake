@@ -57,8 +57,9 @@ if(CAIRN_SANITIZE)
   endif()
 endif()
 
-# CAIRN_UNITY compiles up to 16 files of a library, or 40 of a test program, as one, which parses their common headers and
-# instantiates their common templates once: half of a build's time. The files that include them name paths from the project's root, so that ccache knows them in every checkout.
+# CAIRN_UNITY compiles up to 16 files of a library, or 40 of a test program, as one. Their common headers are parsed once, and
+# their common templates are instantiated once. The files that include them name paths from the project's root, so that ccache
+# knows them in every checkout.
 # cairn_compile_alone(FILE…) is for files whose private names (in the unnamed namespace) are those of a neighbour.
 function(cairn_compile_alone)
   set_source_files_properties(${ARGN} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
