@@ -137,7 +137,7 @@ endfunction()
 # build's time. Without any optimisation the linker would take slow copies of what both have inline.
 function(cairn_compile_as_test target)
   target_link_libraries(${target} PRIVATE GTest::gmock GTest::gtest_main)
-  target_compile_options(${target} PRIVATE $<$<CONFIG:RelWithDebInfo>:-O1>
+  target_compile_options(${target} PRIVATE $<$<NOT:$<CONFIG:Debug>>:-O1>
     $<$<BOOL:${CAIRN_FUZZ}>:-fno-sanitize=fuzzer-no-link>)
 endfunction()
 

@@ -4,16 +4,16 @@
 # The ratio is peer_ms / ours_ms of the same run. Benchmarks of inserting also have differing_voxels.
 #   tools/bench.sh [FILTER]      only benchmarks whose name matches this regular expression
 # A benchmark without the counters ours_ms and n gives Google Benchmark's CPU time per iteration. Its label is "peer" or
-# "peer: note". All counters are in build/bench/NAME.json.
+# "peer: note". All counters are in build/dev/NAME.json.
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 filter=${1:-.}
 tools/packages.sh build test bench
-build bench --target benchmarks
+build dev --target benchmarks
 
 results=()
-for program in build/bench/bin/bench_*; do
-  out=build/bench/${program##*/}.json
+for program in build/dev/bin/bench_*; do
+  out=build/dev/${program##*/}.json
   rm -f "$out"
   "$program" --benchmark_filter="$filter" --benchmark_out="$out" --benchmark_out_format=json
   [[ ! -s $out ]] || results+=("$out")

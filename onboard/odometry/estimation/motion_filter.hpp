@@ -22,7 +22,7 @@ struct MotionState {
 /// White acceleration, constant within one step: standard deviations along the body's axes (m/s²,
 /// rad/s²).
 struct MotionNoise {
-  Vector6 acceleration;
+  Vector6 acceleration = Vector6::Zero();
 
   [[nodiscard]] static MotionNoise of(double linear, double angular) {
     return {(Vector6() << Eigen::Vector3d::Constant(linear), Eigen::Vector3d::Constant(angular)).finished()};
