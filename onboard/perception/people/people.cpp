@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "onboard/perception/people/body.hpp"
-#include "onboard/perception/people/seen_through.hpp"
 
 namespace cairn::people {
 namespace {
@@ -45,6 +44,7 @@ void People::clear() {
 
 void People::observe(const PeopleScan& scan, const Known& known) {
   finder_.measure(scan.points_odom, scan.sensor_odom, scan.sensor_height_m);
+  rays_.fill(scan.points_odom, scan.sensor_odom);
   ask_map(scan, known);
   find_bodies(scan, tracker_.predict(scan.stamp));
   tracker_.step(
@@ -57,12 +57,9 @@ void People::observe(const PeopleScan& scan, const Known& known) {
         if (track.newcomer() && track.upright() && began != scans_.end() &&
             !slides(track, scan.sensor_odom.head<2>().cast<double>() - began->sensor))
           return true;
-        return is_free(first.position, first.ground, known) &&
-               seen_through(first.position, first.ground, scan.points_odom, scan.sensor_odom);
+        return is_free(first.position, first.ground, known) && rays_.seen_through(first.position, first.ground);
       },
-      [&](const Track& track) {
-        return seen_through(track.person().position, track.person().ground, scan.points_odom, scan.sensor_odom);
-      });
+      [&](const Track& track) { return rays_.seen_through(track.person().position, track.person().ground); });
   remember(scan, tracker_.bodies());
   doubt_furniture(scan);
   fill_mask(scan);
@@ -102,6 +99,7 @@ void People::find_bodies(const PeopleScan& scan, std::span<const Eigen::Vector2d
     if (count == 0) clusters_.push_back(cluster);
     if (count == 1 && cluster.extent < kWhole) *std::ranges::find_if(parts, same) = cluster;
   }
+  for (Cluster& cluster : clusters_) cluster.passed = rays_.passed(cluster.centre.cast<double>(), cluster.ground);
 }
 
 /// Somebody beside a wall or in a group has no cluster. The points that are new there are the body's.
@@ -121,7 +119,8 @@ std::optional<Tracker::Beside> People::look_for(const Eigen::Vector2d& position,
   }
   if (count < kFewestBeside) return std::nullopt;
   const Eigen::Vector2d middle = sum / count;
-  return Tracker::Beside{middle, finder_.ground_at(middle.cast<float>())};
+  const float ground = finder_.ground_at(middle.cast<float>());
+  return Tracker::Beside{.position = middle, .ground = ground, .passed = rays_.passed(middle, ground)};
 }
 
 /// What keeps its place beside the LiDAR while the robot drives is the robot, or rides on it.

@@ -16,6 +16,7 @@
 #include "onboard/perception/people/cluster_finder.hpp"
 #include "onboard/perception/people/eye_offset.hpp"
 #include "onboard/perception/people/people_config.hpp"
+#include "onboard/perception/people/scan_rays.hpp"
 #include "onboard/perception/people/tracker.hpp"
 
 namespace cairn::people {
@@ -97,6 +98,7 @@ class People {
 
   PeopleConfig config_;
   ClusterFinder finder_;
+  ScanRays rays_;
   Tracker tracker_;
   std::array<std::optional<BoxLifter>, 2> lifters_;
   std::array<EyeOffset, 2> offsets_;

@@ -14,7 +14,7 @@ struct PeopleConfig {
   bool movers = true;           ///< what walks is followed also where no camera sees it
   double farthest_m = 20;       ///< from the LiDAR
   double confirm = 4;           ///< evidence in nats from which somebody is a person; about 50 to 1
-  double patience_s = 1;        ///< a track without a measurement for so long ends
+  double patience_s = 0.6;      ///< a track without a measurement for so long ends
   double mask_radius_m = 0.45;  ///< points so near to a person's middle stay out of the map
   bool log_answers = false;     ///< what the detectors say of each body goes to answers.csv
   DetectorTrust visible;

@@ -104,10 +104,10 @@ void Track::doubt(Time stamp, const Cluster& body) {
   if (stamp - last_sighted_ < kFresh || steps_.size() < 2) return;
   const double dt_s = std::min(to_seconds(stamp - steps_[steps_.size() - 2].stamp), kLongestScan);
   const bool stands = person_.velocity.norm() < kStanding;
-  if (body.known > kMapped)
+  if (body.known > kMapped || body.porous())
     weigh(-kAtOnce * dt_s);
   else if (stands)
-    weigh(-(newcomer() ? kSlowly : kSoon) * dt_s);
+    weigh(-(newcomer() && body.alone() ? kSlowly : kSoon) * dt_s);
 }
 
 void Track::walks() {

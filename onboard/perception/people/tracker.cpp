@@ -17,10 +17,13 @@ constexpr double kBody = 0.35;           // m; nearer together two people cannot
 constexpr double kReach = 0.6;           // m; from the middle of two to each of them
 
 // Evidence, nats.
-constexpr double kEnterEvidence = 3;    // furniture does not come
-constexpr double kUprightEvidence = 2;  // it is as high and as wide as a person, where nothing was known
-constexpr double kKnownDoubt = 0.3;     // in each scan, of what stood there before
-constexpr double kDoubt = 0;            // below, a person is none any more
+// Furniture does not come. Of what came upright in six drives, 82 bodies were people and 13 were not, 12 of them
+// bushes.
+constexpr double kEnterEvidence = 4;
+constexpr double kEnterForPictures = 3;  // the same, where nobody is a person without a picture
+constexpr double kUprightEvidence = 2;   // it is as high and as wide as a person, where nothing was known
+constexpr double kKnownDoubt = 0.3;      // in each scan, of what stood there before
+constexpr double kDoubt = 0;             // below, a person is none any more
 
 // Shares of a cluster's points, and its extent, m.
 constexpr float kEntered = 0.6F;         // of who comes into free places
@@ -65,28 +68,29 @@ void Tracker::step(Time stamp, std::span<const Cluster> clusters, const LookFor&
 void Tracker::weigh_ways(Time stamp, std::span<const Cluster> clusters, const SeenThrough& seen_through) {
   for (Track& track : tracks_) {
     const auto body = static_cast<std::size_t>(track.steps().back().body);
-    if (track.person().seen && body < clusters.size()) {
-      const Cluster& seen = clusters[body];
+    if (!track.person().seen || body >= bodies_.size()) continue;
+    const Cluster& seen = bodies_[body];
+    if (body < clusters.size()) {
       weigh_places(track, seen);
       if (walks(track, seen, seen_through)) track.walks();
-      if (track.confirmed) track.doubt(stamp, seen);
     }
+    if (track.confirmed) track.doubt(stamp, seen);
     judge(track);
   }
 }
 
 /// What the map knew of the places where a track is now.
 void Tracker::weigh_places(Track& track, const Cluster& seen) {
-  if (track.confirmed) return;  // what is taken back counts as free
+  if (track.confirmed || seen.porous()) return;  // confirmed: what is taken back counts as free
   const bool comes =
       (seen.entered >= kEntered && seen.extent >= kWide) || (seen.entered >= kEnteredUpright && seen.upright);
-  if (comes && track.enters()) track.weigh(kEnterEvidence);
+  if (comes && track.enters()) track.weigh(config_.movers ? kEnterEvidence : kEnterForPictures);
   if (seen.upright && seen.known < kUnknown && track.stands_upright()) track.weigh(kUprightEvidence);
   if (seen.known >= kLongKnown && !track.newcomer()) track.weigh(-kKnownDoubt);
 }
 
 bool Tracker::walks(const Track& track, const Cluster& seen, const SeenThrough& seen_through) const {
-  if (!config_.movers || track.known_walker() || seen.known > kMostKnown) return false;
+  if (!config_.movers || track.known_walker() || seen.known > kMostKnown || seen.porous()) return false;
   const bool far_enough = track.newcomer() && track.upright() ? track.walked(kFewSteps, kFewStepsTime)
                           : track.newcomer()                  ? track.walked(kShortWalk, kShortWalkTime)
                                                               : track.walked();
@@ -159,8 +163,7 @@ void Tracker::look_beside(const LookFor& look_for) {
     if (!found) continue;
     track.update(found->position, kBesideSigma, static_cast<std::int32_t>(bodies_.size()));
     track.stand_on(found->ground);
-    bodies_.push_back(
-        {.centre = person.position.cast<float>(), .ground = person.ground, .top = 0, .extent = 0, .points = 0});
+    bodies_.push_back({.centre = person.position.cast<float>(), .ground = person.ground, .passed = found->passed});
   }
 }
 

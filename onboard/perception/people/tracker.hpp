@@ -28,6 +28,7 @@ class Tracker {
   struct Beside {
     Eigen::Vector2d position{0, 0};  ///< odom, m
     float ground = 0;                ///< z of the ground there
+    float passed = 0;                ///< see Cluster
   };
   using LookFor =
       std::function<std::optional<Beside>(const Eigen::Vector2d& position, std::span<const Eigen::Vector2d> others)>;
@@ -67,7 +68,7 @@ class Tracker {
   void find_again(std::span<const Cluster> clusters);
   void look_beside(const LookFor& look_for);
   void weigh_ways(Time stamp, std::span<const Cluster> clusters, const SeenThrough& seen_through);
-  static void weigh_places(Track& track, const Cluster& seen);
+  void weigh_places(Track& track, const Cluster& seen);
   [[nodiscard]] bool walks(const Track& track, const Cluster& seen, const SeenThrough& seen_through) const;
   void end_tracks(Time stamp);
   void begin_tracks(Time stamp, std::span<const Cluster> clusters);

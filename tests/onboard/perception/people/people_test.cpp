@@ -75,10 +75,23 @@ TEST_F(PeopleTest, WhatStandsIsNobody) {
 }
 
 TEST_F(PeopleTest, WhoComesIsKeptOutOfTheMapAtOnce) {
+  const Cylinder child{{6, 0}, 0.22, 1.1};
   observe({});
-  for (int i = 0; i < 4; ++i) observe({{{6, 0}}});
-  EXPECT_EQ(observe({{{6, 0}}}), points_on({{6, 0}}));
+  for (int i = 0; i < 4; ++i) observe({child});
+  EXPECT_EQ(observe({child}), points_on(child));
   EXPECT_TRUE(people_.people().empty()) << "who it is, nobody knows yet";
+  people_.clear();
+  observe({});
+  for (int i = 0; i < 2; ++i) observe({{{6, 0}}});
+  EXPECT_EQ(people_.people().size(), 1U) << "it is as large as somebody who stands";
+}
+
+/// A bush of twigs, where the map has nothing.
+TEST_F(PeopleTest, WhatRaysPassThroughIsNobodyAndIsMapped) {
+  std::vector<Cylinder> twigs;
+  for (int i = 0; i < 16; ++i) twigs.push_back({{6 + 0.05 * (i * 7 % 16) - 0.4, 0.05 * i - 0.4}, 0.015, 1.5});
+  for (int i = 0; i < 20; ++i) EXPECT_EQ(observe(twigs), 0U) << i;
+  EXPECT_TRUE(people_.people().empty());
 }
 
 /// As a mast that the LiDAR sees.
@@ -88,12 +101,16 @@ TEST_F(PeopleTest, WhatRidesOnTheRobotIsNobody) {
   EXPECT_TRUE(people_.people().empty());
 }
 
-/// The robot drives at 2 m/s. Something 0.3 m farther on after some scans may have come into view there.
+/// The robot drives at 2 m/s. Something stood there, and is 0.3 m farther on after some scans: a part of it that has
+/// just come into view may be.
 TEST_F(PeopleTest, WhoComesAlongWithTheRobotIsJudgedWithMoreCare) {
   for (const double step : {0.1, -0.1}) {
     people_.clear();
     settled_x_ = 1000;
-    for (int i = 0; i < 5; ++i) observe({{{4 + (step - 0.2) * i, 2}}}, {0.2F * static_cast<float>(i), 0, 0});
+    for (int i = 0; i < 5; ++i) {
+      elsewhere_ = i < 1 ? Space::kNew : Space::kFree;
+      observe({{{4 + (step - 0.2) * i, 2}}}, {0.2F * static_cast<float>(i), 0, 0});
+    }
     EXPECT_EQ(people_.people().size(), step > 0 ? 0U : 1U) << step;
   }
 }
