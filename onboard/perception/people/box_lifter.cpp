@@ -37,6 +37,7 @@ BoxLifter::Seen BoxLifter::look_at(const Cluster& cluster, const SE3& T_optical_
   const Eigen::Vector3d head = T_optical_odom * (feet + Eigen::Vector3d(0, 0, kHeight));
   const Eigen::Vector3d middle = 0.5 * (foot + head);
   Seen seen;
+  seen.porous = cluster.porous();
   if (middle.z() < kNearest) return seen;
   seen.in_front = true;
   seen.depth = middle.z();
@@ -75,7 +76,7 @@ std::optional<BoxLifter::Box> BoxLifter::box_of(const Detection& found, const De
 /// the box, in half widths, and of how far its head is from the box's top, in heights.
 double BoxLifter::mismatch(const Box& box, const Seen& seen) const {
   constexpr double kNever = std::numeric_limits<double>::infinity();
-  if (!seen.in_front) return kNever;
+  if (!seen.in_front || seen.porous) return kNever;
   const double half = std::max(0.5 * (box.right - box.left), seen.half_width);
   const double aside = std::abs(seen.x - 0.5 * (box.left + box.right)) / half;
   const double top = box.open_top ? std::max(seen.top, box.top) : seen.top;

@@ -68,6 +68,7 @@ class BoxLifter {
   };
   struct Seen {
     bool in_front = false, in_view = false;
+    bool porous = false;                // no box is of it
     double x = 0, top = 0, bottom = 0;  // at depth 1
     double depth = 0, half_width = 0;
   };

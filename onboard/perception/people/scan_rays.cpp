@@ -37,7 +37,7 @@ void ScanRays::fill(std::span<const Eigen::Vector3f> points, const Eigen::Vector
   rays_.resize(begin_.back());
   for (std::size_t i = points.size(); i-- > 0;)
     if (column_[i] < kColumns) rays_[--begin_[column_[i] + 1U]] = points[i] - sensor;
-  std::ranges::rotate(begin_, begin_.begin() + 1);  // filling has moved each end to its column's begin
+  std::rotate(begin_.begin(), begin_.begin() + 1, begin_.end());  // filling has moved each end to its column's begin
   begin_.back() = static_cast<std::uint32_t>(rays_.size());
 }
 

@@ -58,6 +58,13 @@ TEST_F(BoxLifterTest, EachBoxFindsItsCluster) {
             (std::vector{kPerson, kPerson, kSilence}));
 }
 
+/// Somebody stands behind a lamp post.
+TEST_F(BoxLifterTest, NoBoxIsOfWhatLetsRaysPass) {
+  Cluster post = cluster_at(5.0F, 0.05F);
+  post.passed = 0.75F;
+  EXPECT_EQ(judge({box_at(5.3, 0.1)}, {post, cluster_at(5.3F, 0.1F)}), (std::vector{kSilence, kPerson}));
+}
+
 TEST_F(BoxLifterTest, ScoresComeWithTheVerdicts) {
   const Detections boxes{.source = {},
                          .stamp = {},
