@@ -11,7 +11,7 @@ namespace cairn::people {
 /// How people are found and followed: section `perception.people` of a profile.
 struct PeopleConfig {
   std::string follow = "auto";  ///< auto: where a detector looks at pictures; always: by scans alone, too; never
-  bool movers = true;           ///< what walks is followed also where no camera sees it
+  bool movers = true;           ///< who walks, or came upright, is followed also where no camera sees it
   double farthest_m = 20;       ///< from the LiDAR
   double confirm = 4;           ///< evidence in nats from which somebody is a person; about 50 to 1
   double patience_s = 0.6;      ///< a track without a measurement for so long ends
