@@ -45,7 +45,7 @@ BoxLifter::Seen BoxLifter::look_at(const Cluster& cluster, const SE3& T_optical_
   seen.top = head.y() / middle.z();
   seen.bottom = foot.y() / middle.z();
   seen.half_width = kShoulders / middle.z();
-  seen.in_view = camera_.project({middle.x() - kShoulders, 0, middle.z()}).has_value() &&
+  seen.in_view = !cluster.low && camera_.project({middle.x() - kShoulders, 0, middle.z()}).has_value() &&
                  camera_.project({middle.x() + kShoulders, 0, middle.z()}).has_value();
   return seen;
 }

@@ -25,6 +25,9 @@ constexpr float kOneBody = 0.65F;       // m; two together are wider
 constexpr float kSeedReach = 0.45F;     // m from where somebody is expected
 constexpr int kEdge = 1;                // cells around what has long stood there: its edges
 constexpr std::uint32_t kFewest = 4;    // points
+// Legs behind a desk. One leg is thin, and two are a stride apart.
+constexpr float kHighestKnee = 0.6F, kHalfLeg = 0.06F, kStride = 0.5F;  // m
+constexpr std::uint32_t kFewestOfLegs = 3;                              // points
 // Somebody who stands, m. Of such bodies in two streets and an office that are not in the map, 99 % were people.
 constexpr float kStands = 1.2F, kNarrow = 0.3F, kBroad = 0.85F;
 constexpr std::uint32_t kWellSeen = 20;  // points
@@ -32,6 +35,19 @@ constexpr float kWellWithin = 7;         // m; from there on, a VLP-16's lasers 
 // A piece of a wall: standard deviations along and across a line, m. Of bodies in simulated drives that are 0.1 to 0.14
 // m along, 1 % of people's are less than 0.03 m across, and 77 % of all others. 0.02 is on the safe side.
 constexpr double kLongPiece = 0.1, kThinPiece = 0.02;
+
+Cluster joined(const Cluster& a, const Cluster& b) {
+  const auto of_a = static_cast<float>(a.points), of_b = static_cast<float>(b.points);
+  const auto mean = [&](const auto& x, const auto& y) { return (of_a * x + of_b * y) / (of_a + of_b); };
+  Cluster both = a;
+  both.extent = std::max({a.extent, b.extent, (a.centre - b.centre).norm()});
+  both.centre = mean(a.centre, b.centre);
+  both.entered = mean(a.entered, b.entered);
+  both.known = mean(a.known, b.known);
+  both.top = std::max(a.top, b.top);
+  both.points += b.points;
+  return both;
+}
 
 }  // namespace
 
@@ -175,12 +191,13 @@ bool ClusterFinder::is_upright(const Body& body, float seen_up_to) {
 }
 
 void ClusterFinder::add_if_person_sized(const Body& body) {
-  if (body.plan.count() < kFewest || body.extent() > kWidest || body.bottom > kHighestBottom) return;
+  if (body.extent() > kWidest || body.bottom > kHighestBottom) return;
   if (body.plan.on_a_line(kLongPiece, kThinPiece)) return;
   const Vector2f away = body.middle() - sensor_.head<2>();
   const float ground = ground_at(body.middle());
   const float seen_up_to = sensor_.z() - ground + kSteepest * away.norm() - kCell;
-  if (body.top < std::min(kLowestTop, seen_up_to)) return;
+  if (body.top < std::min(kLowestTop, seen_up_to)) return add_low(body);
+  if (body.plan.count() < kFewest) return;
   clusters_.push_back({.centre = body.middle() + kHalfBody * away.normalized(),
                        .ground = ground,
                        .top = body.top,
@@ -189,6 +206,33 @@ void ClusterFinder::add_if_person_sized(const Body& body) {
                        .entered = body.share(body.entered),
                        .known = body.share(body.known),
                        .upright = away.norm() < kWellWithin && is_upright(body, seen_up_to)});
+}
+
+void ClusterFinder::add_low(const Body& body) {
+  if (body.plan.count() < kFewestOfLegs || body.bottom > kHighestKnee) return;
+  const Vector2f away = body.middle() - sensor_.head<2>();
+  low_.push_back({.centre = body.middle() + kHalfLeg * away.normalized(),
+                  .ground = ground_at(body.middle()),
+                  .top = body.top,
+                  .extent = body.extent(),
+                  .points = body.plan.count(),
+                  .entered = body.share(body.entered),
+                  .known = body.share(body.known),
+                  .low = true});
+}
+
+/// Two legs are one body. Beside a body that is high enough they are its own.
+void ClusterFinder::join_low() {
+  const auto first = static_cast<std::ptrdiff_t>(clusters_.size());
+  for (const Cluster& leg : low_) {
+    const auto beside = [&](const Cluster& other) { return (other.centre - leg.centre).norm() < kStride; };
+    if (std::any_of(clusters_.begin(), clusters_.begin() + first, beside)) continue;
+    const auto other = std::find_if(clusters_.begin() + first, clusters_.end(), beside);
+    if (other == clusters_.end())
+      clusters_.push_back(leg);
+    else
+      *other = joined(*other, leg);
+  }
 }
 
 /// Each point is of the nearest person who is expected there. What is of nobody is put back.
@@ -214,6 +258,7 @@ void ClusterFinder::part(std::span<const Vector3f> points, const ClusterChoice& 
 const std::vector<Cluster>& ClusterFinder::find(std::span<const Vector3f> points, const ClusterChoice& choice) {
   fill_cells(points, choice);
   clusters_.clear();
+  low_.clear();
   const std::size_t first_round = filled_.size();
   for (std::size_t k = 0; k < filled_.size(); ++k) {  // it grows by what is put back
     if (head_[filled_[k]] == 0) continue;
@@ -224,6 +269,7 @@ const std::vector<Cluster>& ClusterFinder::find(std::span<const Vector3f> points
     else
       add_if_person_sized(body);
   }
+  if (choice.loose) join_low();
   return clusters_;
 }
 

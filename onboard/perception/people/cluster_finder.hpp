@@ -13,7 +13,7 @@
 
 namespace cairn::people {
 
-/// Points that stand together on the ground and are as large as a person.
+/// Points that stand together on the ground and are as large as a person, or as a person's legs.
 struct Cluster {
   Eigen::Vector2f centre = Eigen::Vector2f::Zero();  ///< odom, m: of the body, behind the side that was seen
   float ground = 0;                                  ///< z of the ground there, odom
@@ -23,6 +23,7 @@ struct Cluster {
   float entered = 0;     ///< share of the points in places that were free before
   float known = 0;       ///< share of the points in places where something was before
   bool upright = false;  ///< as high and as wide as somebody who stands, and well seen
+  bool low = false;      ///< too low for a person: legs, if something hides the rest
   float passed = 0;      ///< share of the rays that go on behind it, see ScanRays; ClusterFinder leaves it at 0
 
   /// Too much goes through it for a person. Of bodies within 7 m that came into free places, 1 to 5 % of people's were
@@ -47,7 +48,7 @@ class ClusterFinder {
 
   /// How high the points of a scan are above the ground: first of all. Points in odom, metres, z up.
   void measure(std::span<const Eigen::Vector3f> points_odom, const Eigen::Vector3f& sensor_odom, float sensor_height_m);
-  /// The clusters of the scan that was measured. Valid until the next call.
+  /// The clusters of the scan that was measured; low ones only with a loose choice. Valid until the next call.
   const std::vector<Cluster>& find(std::span<const Eigen::Vector3f> points_odom, const ClusterChoice& choice = {});
   /// z of the ground at a place of odom, in the last scan.
   [[nodiscard]] float ground_at(const Eigen::Vector2f& place_odom) {
@@ -77,6 +78,8 @@ class ClusterFinder {
                              const ClusterChoice& choice) const;
   static bool is_upright(const Body& body, float seen_up_to);
   void add_if_person_sized(const Body& body);
+  void add_low(const Body& body);
+  void join_low();
   void part(std::span<const Eigen::Vector3f> points_odom, const ClusterChoice& choice, const Body& whole);
 
   float farthest_;  // m
@@ -94,6 +97,7 @@ class ClusterFinder {
   std::vector<std::uint32_t> members_;               // points of the body that is flooded
   std::vector<std::vector<std::uint32_t>> of_seed_;  // reused
   std::vector<Cluster> clusters_;
+  std::vector<Cluster> low_;  // of a loose choice
 };
 
 }  // namespace cairn::people

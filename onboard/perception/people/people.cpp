@@ -88,9 +88,13 @@ void People::ask_map(const PeopleScan& scan, const Known& known) {
       spaces_[i] = finder_.on_wall(scan.points_odom[i], i) ? Space::kSettled : known(scan.points_odom[i]);
 }
 
-/// Without what has long stood there, people beside walls stand alone. With it, those are found who have long stood.
+/// Without what has long stood there, people beside walls stand alone. With it, those are found who have long stood. Of
+/// who walks behind a desk, the legs may be all that is seen.
 void People::find_bodies(const PeopleScan& scan, std::span<const Eigen::Vector2d> seeds) {
   clusters_ = finder_.find(scan.points_odom, {.spaces = spaces_, .loose = true, .seeds = seeds});
+  std::erase_if(clusters_, [&](const Cluster& cluster) {
+    return cluster.low && !rays_.chest_is_hidden(cluster.centre.cast<double>(), cluster.ground);
+  });
   const std::size_t loose = clusters_.size();
   for (const Cluster& cluster : finder_.find(scan.points_odom, {.spaces = spaces_, .loose = false, .seeds = {}})) {
     const auto same = [&](const Cluster& c) { return (c.centre - cluster.centre).norm() < kSame; };

@@ -11,8 +11,9 @@ constexpr float kBehind = 0.5F;  // m
 // A whole body, and the part of it that legs and arms leave no gaps in.
 constexpr ScanRays::Slice kBodySlice{.half_width = 0.2F, .lowest = 0.2F, .highest = 1.7F};
 constexpr ScanRays::Slice kTrunkSlice{.half_width = 0.15F, .lowest = 0.3F, .highest = 1.4F};
-constexpr int kFewestThrough = 4, kFewestReaching = 10;
-constexpr int kTimes = 3;  // as many as end in the body
+constexpr ScanRays::Slice kChestSlice{.half_width = 0.15F, .lowest = 0.8F, .highest = 1.5F};
+constexpr int kFewestThrough = 4, kFewestBefore = 4, kFewestReaching = 10;
+constexpr int kTimes = 3;  // as many as the others
 
 }  // namespace
 
@@ -51,12 +52,12 @@ ScanRays::Count ScanRays::count(const Eigen::Vector2d& place, float ground, cons
   for (std::size_t c = column_of(to - slice.half_width * left);; c = (c + 1) % kColumns) {
     for (std::uint32_t i = begin_[c]; i < begin_[c + 1]; ++i) {
       const float forward = rays_[i].head<2>().dot(along);
-      if (!(forward >= distance - kBehind)) continue;
+      if (!(forward > 0)) continue;
       const float share = distance / forward;  // of the ray, up to the body's place
       const float height = sensor_.z() + share * rays_[i].z() - ground;
       if (std::abs(share * rays_[i].head<2>().dot(left)) > slice.half_width) continue;
       if (height < slice.lowest || height > slice.highest) continue;
-      ++(forward > distance + kBehind ? count.through : count.within);
+      ++(forward > distance + kBehind ? count.through : forward < distance - kBehind ? count.before : count.within);
     }
     if (c == last) return count;
   }
@@ -65,6 +66,11 @@ ScanRays::Count ScanRays::count(const Eigen::Vector2d& place, float ground, cons
 bool ScanRays::seen_through(const Eigen::Vector2d& place, float ground) const {
   const Count rays = count(place, ground, kBodySlice);
   return rays.through >= kFewestThrough && rays.through >= kTimes * rays.within;
+}
+
+bool ScanRays::chest_is_hidden(const Eigen::Vector2d& place, float ground) const {
+  const Count rays = count(place, ground, kChestSlice);
+  return rays.before >= kFewestBefore && rays.before >= kTimes * (rays.through + rays.within);
 }
 
 float ScanRays::passed(const Eigen::Vector2d& place, float ground) const {

@@ -15,10 +15,10 @@ class ScanRays {
   struct Slice {
     float half_width, lowest, highest;
   };
-  /// Of the rays that reach the place: those that go on behind it, and those that end there. What ends before it,
-  /// because something hides the place, is neither.
+  /// Of the rays towards the place: those that end before it, because something hides it, those that end there, and
+  /// those that go on behind it.
   struct Count {
-    int through = 0, within = 0;
+    int before = 0, within = 0, through = 0;
   };
 
   /// The rays from the sensor to the points. Memory is reused.
@@ -28,6 +28,8 @@ class ScanRays {
 
   /// Whether enough rays go through a body's place, and several times as many as end there.
   [[nodiscard]] bool seen_through(const Eigen::Vector2d& place, float ground) const;
+  /// Whether nearly all rays towards where a body's chest would be end before it.
+  [[nodiscard]] bool chest_is_hidden(const Eigen::Vector2d& place, float ground) const;
   /// Share of the rays between shin and chest that go on behind a body's middle; 0 if they are too few. Foliage, grass
   /// and fences let many pass, people few.
   [[nodiscard]] float passed(const Eigen::Vector2d& place, float ground) const;

@@ -41,6 +41,9 @@ constexpr int kMisses = 3;                                  // scans that look t
 constexpr Duration kWelcome = std::chrono::seconds(4);      // how long a newcomer stays out of the map unconfirmed
 constexpr Duration kUnsure = std::chrono::seconds(3);       // for who stands beside something, and no camera sees
 
+/// Whether it may be somebody who was hidden: it has come. Of legs, little is seen before they are somebody's.
+bool may_be_again(const Cluster& seen) { return seen.low ? seen.known < kMostKnown : seen.entered >= kEntered; }
+
 }  // namespace
 
 std::span<const Eigen::Vector2d> Tracker::predict(Time stamp) {
@@ -128,7 +131,7 @@ void Tracker::find_again(std::span<const Cluster> clusters) {
   for (std::uint32_t t = 0; t < tracks_.size(); ++t) {
     if (!tracks_[t].hidden) continue;
     for (std::uint32_t c = 0; c < clusters.size(); ++c) {
-      if (taken_[c] || clusters[c].entered < kEntered) continue;
+      if (taken_[c] || !may_be_again(clusters[c])) continue;
       const double away = (clusters[c].centre.cast<double>() - tracks_[t].person().position).norm();
       if (away < kFarthestHidden) pairs_.push_back({away, t, c});
     }
@@ -185,7 +188,7 @@ void Tracker::end_tracks(Time stamp) {
 
 void Tracker::begin_tracks(Time stamp, std::span<const Cluster> clusters) {
   for (std::size_t c = 0; c < clusters.size() && tracks_.size() < kMostTracks; ++c) {
-    if (taken_[c]) continue;
+    if (taken_[c] || (clusters[c].low && clusters[c].entered < kEntered)) continue;
     const Eigen::Vector2d at = clusters[c].centre.cast<double>();
     Track& track = tracks_.emplace_back(stamp, at, clusters[c].ground, static_cast<std::int32_t>(c));
     weigh_places(track, clusters[c]);

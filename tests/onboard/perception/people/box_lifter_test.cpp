@@ -65,6 +65,13 @@ TEST_F(BoxLifterTest, NoBoxIsOfWhatLetsRaysPass) {
   EXPECT_EQ(judge({box_at(5.3, 0.1)}, {post, cluster_at(5.3F, 0.1F)}), (std::vector{kSilence, kPerson}));
 }
 
+TEST_F(BoxLifterTest, SilenceAboutLegsMeansNothing) {
+  Cluster legs = cluster_at(5, 1);
+  legs.low = true;
+  EXPECT_EQ(judge({}, {legs, cluster_at(5, -1)}), (std::vector{kNothing, kSilence}));
+  EXPECT_EQ(judge({box_at(5, 1)}, {legs}), std::vector{kPerson}) << "the camera may see over a desk";
+}
+
 TEST_F(BoxLifterTest, ScoresComeWithTheVerdicts) {
   const Detections boxes{.source = {},
                          .stamp = {},

@@ -124,6 +124,27 @@ TEST(ClusterFinder, AWideBodyIsPartedAmongThoseWhoAreExpectedThere) {
   EXPECT_NEAR(std::abs(found[0].centre.y() - found[1].centre.y()), 0.42, 0.15);
 }
 
+TEST(ClusterFinder, TwoLegsAreOneLowBodyUnlessTheyAreSomebodys) {
+  const auto low_of = [](const std::vector<Cylinder>& bodies, bool loose) {
+    const auto points = scan_of(bodies);
+    const std::vector<Space> spaces(points.size(), Space::kFree);
+    ClusterFinder finder(20);
+    finder.measure(points, test::sensor(), static_cast<float>(test::kSensorHeight));
+    auto found = finder.find(points, {.spaces = spaces, .loose = loose, .seeds = {}});
+    std::erase_if(found, [](const Cluster& c) { return !c.low; });
+    return found;
+  };
+  const std::vector<Cylinder> legs{test::leg({4, -0.2}), test::leg({4, 0.2})};
+  const auto found = low_of(legs, true);
+  ASSERT_EQ(found.size(), 1U);
+  EXPECT_LT((found[0].centre - Eigen::Vector2f(4, 0)).norm(), 0.1);
+  EXPECT_NEAR(found[0].extent, 0.4, 0.1);
+  EXPECT_FALSE(found[0].upright);
+  EXPECT_TRUE(low_of(legs, false).empty()) << "all that is low would be somebody's legs";
+  EXPECT_TRUE(low_of({{{4, 0}}, test::leg({4, 0.4})}, true).empty()) << "beside a body they are its own";
+  EXPECT_EQ(low_of({{{4, 0}}, test::leg({4, 1})}, true).size(), 1U);
+}
+
 TEST(ClusterFinder, WithoutWhatHasLongStoodThereSomebodyBesideAWallStandsAlone) {
   const auto points = scan_of({{{12.08, 0}}});
   std::vector<Space> spaces;

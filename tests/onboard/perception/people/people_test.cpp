@@ -57,6 +57,24 @@ TEST_F(PeopleTest, WhoWalksIsMaskedWholeAndNothingElse) {
   EXPECT_EQ(masked, points_on(walker)) << "the pole stays, and so does the ground";
 }
 
+TEST_F(PeopleTest, WhoWalksBehindAScreenIsFollowedByTheirLegs) {
+  Cylinder walker;
+  for (int i = 0; i < 140; ++i) {  // 0.5 m/s; hidden for 8 s
+    walker.place = {6, -3.5 + 0.05 * i};
+    observe({walker, test::screen({3.5, 0}, 1.2)});
+    if (i < 20) continue;
+    ASSERT_EQ(people_.people().size(), 1U) << i;
+    EXPECT_EQ(people_.people()[0].id, 1U) << i;
+    EXPECT_LT((people_.people()[0].position - walker.place).norm(), 0.4) << i;
+  }
+}
+
+TEST_F(PeopleTest, StoolsAreNobodysLegs) {
+  for (int i = 0; i < 40; ++i) observe({test::leg({5, 0.1}), test::leg({5, 0.4}), test::leg({6, 2})});
+  EXPECT_TRUE(people_.people().empty());
+  EXPECT_EQ(std::ranges::count(people_.mask(), 1), 0);
+}
+
 /// Somebody walks along a wall that the map does not know yet, and is gone.
 TEST_F(PeopleTest, AStraightWallIsNobodyWhereSomebodyWas) {
   settled_x_ = 1000;

@@ -32,6 +32,14 @@ TEST(ScanRays, DoNotReachWhatSomethingHides) {
   EXPECT_EQ(rays.passed({6, 0}, 0), 0);
 }
 
+TEST(ScanRays, KnowWhereAChestWouldBeHidden) {
+  const std::vector<Cylinder> legs{test::leg({6, -0.1}), test::leg({6, 0.1})};
+  EXPECT_FALSE(rays_of(legs).chest_is_hidden({6, 0}, 0)) << "a stool";
+  EXPECT_FALSE(rays_of({{{6, 0}}}).chest_is_hidden({6, 0}, 0)) << "it is seen";
+  EXPECT_TRUE(rays_of({legs[0], legs[1], test::screen({4, 0}, 0.6)}).chest_is_hidden({6, 0}, 0));
+  EXPECT_FALSE(ScanRays{}.chest_is_hidden({6, 0}, 0)) << "no scan yet";
+}
+
 TEST(ScanRays, OfNothingTellNothing) {
   ScanRays rays;
   EXPECT_FALSE(rays.seen_through({6, 0}, 0)) << "no scan yet";
@@ -60,9 +68,9 @@ ScanRays::Count count_all(const std::vector<Vector3f>& points, const Vector3f& s
     const Eigen::Vector2f ray = p.head<2>() - sensor.head<2>();
     const float forward = ray.dot(along), share = to.norm() / forward;
     const float height = sensor.z() + share * (p.z() - sensor.z());
-    if (!(forward >= to.norm() - 0.5F) || height < slice.lowest || height > slice.highest) continue;
+    if (!(forward > 0) || height < slice.lowest || height > slice.highest) continue;
     if (std::abs(along.x() * ray.y() - along.y() * ray.x()) * share > slice.half_width) continue;
-    ++(forward > to.norm() + 0.5F ? count.through : count.within);
+    ++(forward > to.norm() + 0.5F ? count.through : forward < to.norm() - 0.5F ? count.before : count.within);
   }
   return count;
 }
@@ -81,6 +89,7 @@ TEST(ScanRays, AreCountedAllAround) {
     if ((place - sensor.head<2>().cast<double>()).norm() < 0.6) continue;
     const auto all = count_all(points, sensor, place, slice), found = rays.count(place, 0, slice);
     EXPECT_GT(all.through + all.within, 0);
+    EXPECT_EQ(found.before, all.before) << place.transpose();
     EXPECT_EQ(found.through, all.through) << place.transpose();
     EXPECT_EQ(found.within, all.within) << place.transpose();
   }

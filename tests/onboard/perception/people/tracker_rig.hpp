@@ -29,6 +29,7 @@ class TrackerTest : public ::testing::Test {
                            .entered = entered_,
                            .known = known_,
                            .upright = upright_,
+                           .low = low_,
                            .passed = passed_});
     tracker_.predict(now_);
     tracker_.step(
@@ -50,7 +51,7 @@ class TrackerTest : public ::testing::Test {
   float ground_ = 0;
   bool through_ = false, empty_ = false;
   float entered_ = 0, known_ = 0;
-  bool upright_ = false;
+  bool upright_ = false, low_ = false;
   float passed_ = 0;
 };
 

@@ -8,7 +8,8 @@
 
 #include "hal/time.hpp"
 
-// A yard that can be computed by hand: flat ground, a wall 12 m ahead, a pole, and people as upright cylinders.
+// A yard that can be computed by hand: flat ground, a wall 12 m ahead, a pole, people as upright cylinders, legs as
+// thin ones.
 namespace cairn::people::test {
 
 using Eigen::Vector2d;
@@ -19,8 +20,13 @@ inline constexpr double kSensorHeight = 0.6, kPersonRadius = 0.22, kPersonHeight
 
 struct Cylinder {
   Vector2d place{0, 0};
-  double radius = kPersonRadius, height = kPersonHeight;
+  double radius = kPersonRadius, height = kPersonHeight, bottom = 0;
 };
+
+inline Cylinder leg(const Vector2d& place) { return {place, 0.07, 0.6}; }
+
+/// Hangs before what is behind it, but for its legs.
+inline Cylinder screen(const Vector2d& place, double radius) { return {place, radius, 2.2, 0.65}; }
 
 /// Distance along a ray of unit length to the cylinder's side; infinite: it passes.
 inline double meet(const Cylinder& body, const Eigen::Vector3d& eye, const Eigen::Vector3d& ray) {
@@ -29,7 +35,7 @@ inline double meet(const Cylinder& body, const Eigen::Vector3d& eye, const Eigen
   const double root = b * b - a * c;
   if (root < 0 || a < 1e-9) return std::numeric_limits<double>::infinity();
   const double t = (-b - std::sqrt(root)) / a, z = eye.z() + t * ray.z();
-  return t > 0 && z > 0 && z < body.height ? t : std::numeric_limits<double>::infinity();
+  return t > 0 && z > body.bottom && z < body.height ? t : std::numeric_limits<double>::infinity();
 }
 
 /// What a LiDAR with 16 rings over the origin sees of it.
