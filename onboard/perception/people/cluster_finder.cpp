@@ -208,6 +208,7 @@ void ClusterFinder::add_if_person_sized(const Body& body) {
                        .upright = away.norm() < kWellWithin && is_upright(body, seen_up_to)});
 }
 
+/// What is too low for a person may be legs. Whether something hides the rest is not known here.
 void ClusterFinder::add_low(const Body& body) {
   if (body.plan.count() < kFewestOfLegs || body.bottom > kHighestKnee) return;
   const Vector2f away = body.middle() - sensor_.head<2>();

@@ -186,6 +186,7 @@ void Tracker::end_tracks(Time stamp) {
   std::erase_if(tracks_, [](const Track& track) { return track.ended; });
 }
 
+/// Legs alone begin a track only where they came: there is much below desks.
 void Tracker::begin_tracks(Time stamp, std::span<const Cluster> clusters) {
   for (std::size_t c = 0; c < clusters.size() && tracks_.size() < kMostTracks; ++c) {
     if (taken_[c] || (clusters[c].low && clusters[c].entered < kEntered)) continue;
