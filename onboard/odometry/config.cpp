@@ -26,6 +26,10 @@ void declare_map(config::Section& s, OdometryConfig& c) {
             "bound on the map's memory: blocks in each of the two finest grids");
   s.integer("max_points_per_block", c.max_points_per_block, {20, 100000}, "",
             "a block that has seen so many points does not change any more");
+  s.number("lasting_s", c.lasting_s, {0.0, 60.0}, "s",
+           "a surface that has been seen for less time is fresh: it confirms the motion it was made with");
+  s.number("fresh_share", c.fresh_share, {0.001, 1.0}, "",
+           "share of its weight that a point on a fresh wall or pole counts");
   s.number("noise_floor_m", c.noise_floor_m, {0.001, 0.2}, "m",
            "smallest standard deviation of a point-to-plane distance that is believed");
   s.number("max_thickness_m", c.max_thickness_m, {0.005, 0.5}, "m", "thicker patches are not planes");

@@ -3,10 +3,12 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "hal/se3.hpp"
+#include "hal/time.hpp"
 #include "hal/workers.hpp"
 #include "onboard/odometry/config.hpp"
 #include "onboard/odometry/estimation/drift_history.hpp"
@@ -28,7 +30,7 @@ class LocalMap {
   /// Adds those points of a placed scan that `chosen` names, forgets what is far behind, begins a
   /// new epoch of the drift when the robot has moved enough. `points_base` in base_link, in metres.
   void insert(std::span<const Eigen::Vector3f> points_base, std::span<const std::uint32_t> chosen,
-              const SE3& T_odom_base, const Matrix6& covariance);
+              const SE3& T_odom_base, const Matrix6& covariance, Time stamp);
   /// Adds all points of a scan that a previous run placed. It does not count towards settled().
   void restore(const PlacedScan& scan, const Matrix6& covariance);
 
@@ -40,7 +42,7 @@ class LocalMap {
   [[nodiscard]] const PatchMap& patches() const { return patches_; }
 
  private:
-  void add(const SE3& T_odom_base, const Matrix6& covariance);
+  void add(const SE3& T_odom_base, const Matrix6& covariance, Time stamp);
   void prune(const SE3& T_odom_base);
 
   SE3 T_base_lidar_;
@@ -50,8 +52,9 @@ class LocalMap {
 
   PatchMap patches_;
   DriftHistory drift_;
-  SE3 T_odom_pruned_;  // where the base was when the map was last pruned
-  int scans_ = 0;      // inserted since begin()
+  SE3 T_odom_pruned_;          // where the base was when the map was last pruned
+  int scans_ = 0;              // inserted since begin()
+  std::optional<Time> begun_;  // stamp of the first scan
   std::vector<Eigen::Vector3d> points_odom_;
 };
 

@@ -66,7 +66,7 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget, c
   const Track track = tracking_.judge(fit, motion, dt_s, map_.patches(), second_look_.sure(fit, dt_s), patience);
   const bool clear = track == Track::kFollowed ? follow(fit, motion, dt_s) : lose(track, dt_s);
   deskewer_.deskew(prepared, filter_.state().twist);
-  if (clear) insert(selected);
+  if (clear) insert(selected.for_map, filter_, prepared.stamp);
   if (track == Track::kReinitialised) keep_first(prepared, selected);
   return report(prepared.stamp, fit, track);
 }
@@ -168,7 +168,7 @@ Fit LidarOdometry::straighten_first(const Selection& selected, Fit fit, double d
     const Vector6 twist = (followed_.state().T_odom_base.inverse() * fit.state.T_odom_base).log() / dt_s;
     map_.begin(followed_.state().T_odom_base, followed_.odom_covariance());
     deskewer_.deskew(first.scan, twist);
-    map_.insert(deskewer_.points_base(), first.for_map, followed_.state().T_odom_base, followed_.odom_covariance());
+    insert(first.for_map, followed_, first.scan.stamp);
     filter_ = followed_;
     filter_.predict(dt_s, prior_.usual(map_.settled()));
     filter_.believe({.T_odom_base = fit.state.T_odom_base, .twist = twist});
@@ -198,7 +198,7 @@ OdometryUpdate LidarOdometry::begin(const PreparedScan& scan, const Selection& s
   reinitialise();
   T_odom_previous_ = {};
   deskewer_.deskew(scan, filter_.state().twist);
-  insert(selected);
+  insert(selected.for_map, filter_, scan.stamp);
   keep_first(scan, selected);
   OdometryUpdate update = report(scan.stamp);
   update.began = update.converged = true;
@@ -245,8 +245,8 @@ void LidarOdometry::reinitialise() {
   wheels_.followed();
 }
 
-void LidarOdometry::insert(const Selection& selected) {
-  map_.insert(deskewer_.points_base(), selected.for_map, filter_.state().T_odom_base, filter_.odom_covariance());
+void LidarOdometry::insert(std::span<const std::uint32_t> chosen, const MotionFilter& at, Time stamp) {
+  map_.insert(deskewer_.points_base(), chosen, at.state().T_odom_base, at.odom_covariance(), stamp);
 }
 
 OdometryUpdate LidarOdometry::report(Time stamp) const {

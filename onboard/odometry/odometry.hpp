@@ -103,7 +103,7 @@ class LidarOdometry final : public MotionSource {
   void reinitialise();
   void keep_first(const PreparedScan& scan, const Selection& selected);
   [[nodiscard]] Fit straighten_first(const Selection& selected, Fit fit, double dt_s, Budget& budget);
-  void insert(const Selection& selected);
+  void insert(std::span<const std::uint32_t> chosen, const MotionFilter& at, Time stamp);
   [[nodiscard]] OdometryUpdate report(Time stamp) const;
   [[nodiscard]] OdometryUpdate report(Time stamp, const Fit& fit, Track track) const;
   [[nodiscard]] bool placed_badly() const;

@@ -47,6 +47,7 @@ Registration::Registration(const OdometryConfig& config, const SE3& T_base_lidar
       widest_gate_m_(config.widest_gate_m),
       min_facing_points_(config.min_facing_points),
       correlation_factor_(config.correlation_factor),
+      fresh_share_(config.fresh_share),
       linearise_(static_cast<std::size_t>(2 * config.keypoints)) {}
 
 Fit Registration::align(const Selection& scan, const PatchMap& map, const MotionFilter& filter,
@@ -98,7 +99,8 @@ NormalEquations Registration::linearise(const Selection& scan, const PatchMap& m
                            .twist = at.twist,
                            .T_base_lidar = T_base_lidar_,
                            .duration_s = scan.duration_s,
-                           .gate_m = gate_m};
+                           .gate_m = gate_m,
+                           .fresh_share = fresh_share_};
   return linearise_(scan.keypoints, map, here, workers_);
 }
 

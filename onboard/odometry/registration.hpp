@@ -81,6 +81,7 @@ class Registration {
   double narrowest_gate_m_, widest_gate_m_;
   double min_facing_points_;
   double correlation_factor_;
+  double fresh_share_;
   Linearise linearise_;
 };
 

@@ -30,6 +30,9 @@ bool is_level(const PatchMatch& m) {
   return m.kind == PatchMatch::Kind::kOn && m.rows == 1 && std::abs(m.row[0].direction.z()) > kLevelCosine;
 }
 
+/// Fresh floors and ceilings count fully: with less, nothing held the height of a sensor that nods in a walker's hands.
+bool is_fresh(const PatchMatch& m) { return !m.lasting && !is_level(m); }
+
 /// Geman–McClure: full weight on the patch, a quarter at 3 σ (or at a third of the gate, while that
 /// is wider).
 float robust_weight(const PatchMatch& m, float gate) {
@@ -106,7 +109,7 @@ NormalEquations Linearise::operator()(std::span<const Keypoint> keypoints, const
   const Eigen::Vector3d t = at.T_odom_base.translation();
   const Eigen::Matrix3f R_base_odom = R.transpose().cast<float>();
   const Eigen::Vector3d lidar = R * at.T_base_lidar.translation();
-  const auto gate = static_cast<float>(at.gate_m);
+  const auto gate = static_cast<float>(at.gate_m), fresh_share = static_cast<float>(at.fresh_share);
   partial_.resize((keypoints.size() + kChunk - 1) / kChunk);
   uses_.assign(keypoints.size(), {});
   rows_.assign(2 * keypoints.size(), {});
@@ -119,7 +122,7 @@ NormalEquations Linearise::operator()(std::span<const Keypoint> keypoints, const
       const PatchMatch match = map.match(ray + t, (lidar - ray).cast<float>(), gate);
       sum.count(match);
       if (match.kind != PatchMatch::Kind::kOn) continue;
-      const float robust = robust_weight(match, gate);
+      const float robust = (is_fresh(match) ? fresh_share : 1.0F) * robust_weight(match, gate);
       uses_[i] = {robust / match.row[0].variance, match.epoch};
       for (int k = 0; k < match.rows; ++k) {
         const PatchMatch::Row& row = match.row[static_cast<std::size_t>(k)];

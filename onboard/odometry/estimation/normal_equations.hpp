@@ -52,8 +52,9 @@ struct Linearisation {
   SE3 T_odom_base;
   Vector6 twist;  ///< of base_link, in base_link
   SE3 T_base_lidar;
-  double duration_s;  ///< oldest age among the keypoints
-  double gate_m;      ///< association distance; the robust kernel is scaled with it
+  double duration_s;       ///< oldest age among the keypoints
+  double gate_m;           ///< association distance; the robust kernel is scaled with it
+  double fresh_share = 1;  ///< of its weight, what a point on a fresh patch counts
 };
 
 /// How much a keypoint counted, and with which part of the map. Weight 0: not used.

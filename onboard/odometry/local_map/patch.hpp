@@ -37,8 +37,9 @@ struct Patch {
     float variance = 0;                                   ///< of the points along it [m²]
   };
   Kind kind = Kind::kNone;
-  Axis normal;  ///< of the plane, towards the side it was seen from; of a pole, the slimmer direction
-  Axis second;  ///< of a pole
+  bool lasting = false;  ///< seen for as long as PatchGrid::Limits says; if not, it is fresh
+  Axis normal;           ///< of the plane, towards the side it was seen from; of a pole, the slimmer direction
+  Axis second;           ///< of a pole
   Eigen::Vector3f centroid = Eigen::Vector3f::Zero();  ///< relative to the block's centre [m]
   float inverse_spread = 0;  ///< plane: 1 / the smaller in-plane variance of the points [1/m²]
   float count = 0;           ///< points in the fit

@@ -21,6 +21,7 @@ PatchGrid::PatchGrid(float edge, bool staggered, const Limits& limits)
   side_.reserve(limits.blocks);
   moments_.reserve(limits.blocks);
   patches_.reserve(limits.blocks);
+  first_s_.reserve(limits.blocks);
   fitted_.reserve(limits.blocks);
   grown_.reserve(limits.blocks);
 }
@@ -37,7 +38,7 @@ std::size_t PatchGrid::slot_of(const BlockIndex& at, Side side) const {
   return slot;
 }
 
-std::uint32_t PatchGrid::find_or_make(const BlockIndex& at, Side side) {
+std::uint32_t PatchGrid::find_or_make(const BlockIndex& at, Side side, float time_s) {
   Slot& slot = slots_[slot_of(at, side)];
   if (slot.block != kNone || index_.size() == limits_.blocks) return slot.block;
   slot = {key_of(at, side), static_cast<std::uint32_t>(index_.size())};
@@ -45,17 +46,20 @@ std::uint32_t PatchGrid::find_or_make(const BlockIndex& at, Side side) {
   side_.push_back(side);
   moments_.emplace_back();
   patches_.emplace_back();
+  first_s_.push_back(time_s);
   fitted_.push_back(0);
   return slot.block;
 }
 
-void PatchGrid::add(const BlockIndex& at, const Eigen::Vector3d& p, const Eigen::Vector3f& to_sensor, float epoch) {
-  std::uint32_t block = find_or_make(at, kFront);
-  if (block != kNone && seen_from_behind(patches_[block], to_sensor)) block = find_or_make(at, kBack);
+void PatchGrid::add(const BlockIndex& at, const Eigen::Vector3d& p, const Eigen::Vector3f& to_sensor,
+                    const Seen& when) {
+  std::uint32_t block = find_or_make(at, kFront, when.time_s);
+  if (block != kNone && seen_from_behind(patches_[block], to_sensor)) block = find_or_make(at, kBack, when.time_s);
   if (block == kNone) return;
+  patches_[block].lasting = when.time_s >= first_s_[block] + limits_.lasting_s;
   Moments& m = moments_[block];
   if (m.count >= limits_.points) return;
-  m.add((p - centre(at)).cast<float>(), epoch);
+  m.add((p - centre(at)).cast<float>(), when.epoch);
   if (fitted_[block] >= 0 && m.count >= kRefitGrowth * fitted_[block]) {
     fitted_[block] = -m.count;
     grown_.push_back(block);
@@ -65,7 +69,9 @@ void PatchGrid::add(const BlockIndex& at, const Eigen::Vector3d& p, const Eigen:
 void PatchGrid::refit(const PatchCriteria& criteria, const Sensor& sensor) {
   for (const std::uint32_t block : grown_) {
     const Viewpoint from{(sensor.position - centre(index_[block])).cast<float>(), sensor.up};
+    const bool lasting = patches_[block].lasting;
     patches_[block] = fit_patch(moments_[block], static_cast<float>(edge_), criteria, from);
+    patches_[block].lasting = lasting;
     fitted_[block] = moments_[block].count;
   }
   grown_.clear();
@@ -79,6 +85,7 @@ void PatchGrid::keep_within(const Eigen::Vector3d& centre_kept, double radius) {
     side_[kept] = side_[i];
     moments_[kept] = moments_[i];
     patches_[kept] = patches_[i];
+    first_s_[kept] = first_s_[i];
     fitted_[kept] = fitted_[i];
     ++kept;
   }
@@ -87,6 +94,7 @@ void PatchGrid::keep_within(const Eigen::Vector3d& centre_kept, double radius) {
   side_.resize(kept);
   moments_.resize(kept);
   patches_.resize(kept);
+  first_s_.resize(kept);
   fitted_.resize(kept);
   rehash();
 }
@@ -102,6 +110,7 @@ void PatchGrid::clear() {
   side_.clear();
   moments_.clear();
   patches_.clear();
+  first_s_.clear();
   fitted_.clear();
   grown_.clear();
   rehash();

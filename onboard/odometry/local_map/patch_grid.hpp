@@ -28,18 +28,25 @@ class PatchGrid {
  public:
   /// Bounds on memory.
   struct Limits {
-    std::size_t blocks;  ///< further blocks are refused
-    float points;        ///< per block; further points are ignored, which keeps old patches where they are
+    std::size_t blocks;   ///< further blocks are refused
+    float points;         ///< per block; further points are ignored, which keeps old patches where they are
+    float lasting_s = 0;  ///< a block's patches are lasting from so long after its first point
   };
-  /// Where the sensor is while points are added, in odom.
+  /// Where the sensor is while points are added, in odom, and when that is.
   struct Sensor {
     Eigen::Vector3d position;
     Eigen::Vector3f up;
+    float time_s = 0;  ///< since the map began
   };
   PatchGrid(float edge, bool staggered, const Limits& limits);
 
+  /// A point that was seen then, in seconds since the map began.
+  struct Seen {
+    float epoch = 0;
+    float time_s = 0;
+  };
   /// `to_sensor` points from p to the sensor.
-  void add(const BlockIndex& at, const Eigen::Vector3d& p, const Eigen::Vector3f& to_sensor, float epoch);
+  void add(const BlockIndex& at, const Eigen::Vector3d& p, const Eigen::Vector3f& to_sensor, const Seen& when);
   /// Fits the blocks that have grown by a quarter since their last fit. To be called after adding.
   void refit(const PatchCriteria& criteria, const Sensor& sensor);
   /// Forgets the blocks whose centre is farther than `radius` from `centre`.
@@ -91,7 +98,7 @@ class PatchGrid {
   }
   static std::uint64_t key_of(const BlockIndex& at, Side side);
   [[nodiscard]] std::size_t slot_of(const BlockIndex& at, Side side) const;
-  std::uint32_t find_or_make(const BlockIndex& at, Side side);
+  std::uint32_t find_or_make(const BlockIndex& at, Side side, float time_s);
   void rehash();
 
   double edge_;
@@ -102,6 +109,7 @@ class PatchGrid {
   std::vector<Side> side_;
   std::vector<Moments> moments_;
   std::vector<Patch> patches_;
+  std::vector<float> first_s_;        // when the block's first point was seen
   std::vector<float> fitted_;         // count at the last fit; negative while the block waits for the next
   std::vector<std::uint32_t> grown_;  // blocks to be fitted
 };

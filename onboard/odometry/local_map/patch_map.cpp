@@ -19,6 +19,8 @@ constexpr float kGoodSigmas = 2.0F;
 // the radius.
 constexpr std::size_t kFullTenths = 9;
 constexpr double kRadiusStep = 0.9;
+// Times lasting_s. In a younger map hardly anything can have been seen so long.
+constexpr float kYoungMap = 2.0F;
 
 /// Coordinates in halves of the finest block; every grid's index follows from them by shifts.
 BlockIndex halves(const Eigen::Vector3d& p, double per_metre) {
@@ -41,6 +43,7 @@ PatchMatch match_patch(const Patch& patch, const Eigen::Vector3f& d, float gate)
   m.row[0] = row(patch.normal);
   m.rows = 1;
   m.epoch = patch.epoch;
+  m.lasting = patch.lasting;
   float distance = std::abs(m.row[0].distance);
   if (patch.kind == Patch::Kind::kPole) {
     m.row[1] = row(patch.second);
@@ -59,23 +62,25 @@ bool better(const PatchMatch& a, const PatchMatch& b) {
 
 }  // namespace
 
-PatchMap::PatchMap(const Config& config) : halves_per_metre_(2.0 / config.finest_block_m), criteria_(config.criteria) {
+PatchMap::PatchMap(const Config& config)
+    : halves_per_metre_(2.0 / config.finest_block_m), lasting_s_(config.lasting_s), criteria_(config.criteria) {
   for (int level = 0; level < kLevels; ++level)
     for (const bool staggered : {false, true})
       grids_.emplace_back(static_cast<float>(config.finest_block_m * (1 << level)), staggered,
                           PatchGrid::Limits{static_cast<std::size_t>(config.max_blocks) >> (level > 0 ? 1 : 0),
-                                            static_cast<float>(config.max_points_per_block)});
+                                            static_cast<float>(config.max_points_per_block), config.lasting_s});
 }
 
 void PatchMap::insert(std::span<const Eigen::Vector3d> points, const PatchGrid::Sensor& sensor, float epoch,
                       Workers& workers) {
+  now_s_ = sensor.time_s;
   workers.for_each(grids_.size(), [&](std::size_t g) {
     const int level = static_cast<int>(g / 2), staggered = static_cast<int>(g % 2);
     const float reach = level == kLevels - 1 ? kUnlimited : kRange_edges * static_cast<float>(grids_[g].edge());
     for (const Eigen::Vector3d& p : points) {
       const Eigen::Vector3f to_sensor = (sensor.position - p).cast<float>();
       if (to_sensor.squaredNorm() < reach * reach)
-        grids_[g].add(block_of(halves(p, halves_per_metre_), level, staggered), p, to_sensor, epoch);
+        grids_[g].add(block_of(halves(p, halves_per_metre_), level, staggered), p, to_sensor, {epoch, sensor.time_s});
     }
     grids_[g].refit(criteria_, sensor);
   });
@@ -84,6 +89,7 @@ void PatchMap::insert(std::span<const Eigen::Vector3d> points, const PatchGrid::
 PatchMatch PatchMap::match(const Eigen::Vector3d& p, const Eigen::Vector3f& to_sensor, float gate) const {
   const BlockIndex h = halves(p, halves_per_metre_);
   const float good = kGoodSigmas * kGoodSigmas * criteria_.noise_floor_m * criteria_.noise_floor_m;
+  const bool young = now_s_ < kYoungMap * lasting_s_;
   PatchMatch best;
   for (int level = kLevels - 1; level >= 0; --level) {
     for (const int staggered : {0, 1}) {
@@ -91,7 +97,8 @@ PatchMatch PatchMap::match(const Eigen::Vector3d& p, const Eigen::Vector3f& to_s
       const BlockIndex at = block_of(h, level, staggered);
       const Patch* patch = grid.find(at, to_sensor);
       if (patch == nullptr) continue;
-      const PatchMatch m = match_patch(*patch, (p - grid.centre(at)).cast<float>() - patch->centroid, gate);
+      PatchMatch m = match_patch(*patch, (p - grid.centre(at)).cast<float>() - patch->centroid, gate);
+      m.lasting = m.lasting || young;
       if (better(m, best)) best = m;
     }
     if (best.kind == PatchMatch::Kind::kOn && best.rows == 1 && best.row[0].variance < good) break;
@@ -109,6 +116,7 @@ void PatchMap::keep_within(const Eigen::Vector3d& centre, double radius) {
 
 void PatchMap::clear() {
   for (PatchGrid& grid : grids_) grid.clear();
+  now_s_ = 0;
 }
 
 std::size_t PatchMap::patches() const {

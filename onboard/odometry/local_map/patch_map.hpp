@@ -24,7 +24,8 @@ struct PatchMatch {
   Kind kind = Kind::kNone;  ///< no patch here; patches, but all beyond the gate; on a patch
   int rows = 0;             ///< directions that the patch fixes: 1 for a plane, 2 for a pole
   std::array<Row, 2> row{};
-  float epoch = 0;  ///< mean epoch of the patch
+  float epoch = 0;      ///< mean epoch of the patch
+  bool lasting = true;  ///< the patch has been seen for Config::lasting_s, or the map is hardly older
 };
 
 /// The recent past as patches at several resolutions: pairs of staggered grids with blocks of e, 2e, 4e. A point is
@@ -38,6 +39,7 @@ class PatchMap {
     int max_blocks;  ///< in each finest grid; half as many in each coarser one
     int max_points_per_block;
     PatchCriteria criteria;
+    float lasting_s = 0;  ///< see PatchMatch::lasting
   };
   explicit PatchMap(const Config& config);
 
@@ -57,8 +59,10 @@ class PatchMap {
  private:
   static constexpr int kLevels = 3;
   double halves_per_metre_;
+  float lasting_s_;
   PatchCriteria criteria_;
   std::vector<PatchGrid> grids_;  // 2·level + (1 if staggered), level 0 the finest
+  float now_s_ = 0;               // of the last insert()
 };
 
 }  // namespace cairn::odometry

@@ -202,5 +202,33 @@ TEST_F(NormalEquationsTest, APointWeighsFullyOnItsPlaneAQuarterAtThreeSigmaAndNo
   EXPECT_EQ(weigh(0.06 / sigma).matched, 1);
 }
 
+TEST_F(NormalEquationsTest, OnFreshWallsAndPolesPointsCountTheirShareOnFreshFloorsFully) {
+  PatchMap::Config config{0.5, 1 << 14, 400, {}};
+  config.lasting_s = 1;
+  PatchMap fresh(config);
+  Workers workers(1);
+  PatchGrid::Sensor sensor = Room::sensor();
+  sensor.time_s = 5;
+  fresh.insert(Room(1).points(30000, 0.01), sensor, 3, workers);
+  const auto points = keypoints(walking(), 1500);
+  Linearisation at = linearisation(walking());
+  const NormalEquations whole = linearise_(points, fresh, at, workers);
+  const std::vector<ResidualRow> before(linearise_.rows().begin(), linearise_.rows().end());
+  at.fresh_share = 0.25;
+  const NormalEquations part = linearise_(points, fresh, at, workers);
+  int level = 0, others = 0;
+  for (std::size_t i = 0; i < before.size(); ++i) {
+    if (before[i].robust == 0) continue;
+    const Eigen::Vector3f normal_odom = at.T_odom_base.rotation().cast<float>() * before[i].normal;
+    const bool floor = std::abs(normal_odom.z()) > kLevelCosine;
+    (floor ? level : others) += 1;
+    EXPECT_EQ(linearise_.rows()[i].robust, (floor ? 1.0F : 0.25F) * before[i].robust);
+  }
+  EXPECT_GT(level, 300);
+  EXPECT_GT(others, 600);
+  EXPECT_LT(part.weight, 0.9 * whole.weight);
+  EXPECT_EQ(part.inliers, whole.inliers) << "it fits all the same";
+}
+
 }  // namespace
 }  // namespace cairn::odometry

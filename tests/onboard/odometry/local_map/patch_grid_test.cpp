@@ -23,7 +23,7 @@ TEST(PatchGrid, CountsPointsPerBlockAsAMapDoesThroughAddingAndForgetting) {
   const auto add = [&](int points) {
     for (int i = 0; i < points; ++i) {
       const BlockIndex b{at(random), at(random), at(random)};
-      grid.add(b, grid.centre(b), {0, 0, 1}, 0);
+      grid.add(b, grid.centre(b), {0, 0, 1}, {});
       ++oracle[key(b)];
     }
   };
@@ -49,7 +49,7 @@ TEST(PatchGrid, CountsPointsPerBlockAsAMapDoesThroughAddingAndForgetting) {
 TEST(PatchGrid, RefusesBlocksAndPointsBeyondItsLimits) {
   PatchGrid grid(1, false, {10, 5});
   for (int i = 0; i < 100; ++i)
-    for (int k = 0; k < 20; ++k) grid.add({i, 0, 0}, {i + 0.5, 0.5, 0.5}, {0, 0, 1}, 0);
+    for (int k = 0; k < 20; ++k) grid.add({i, 0, 0}, {i + 0.5, 0.5, 0.5}, {0, 0, 1}, {});
   EXPECT_EQ(grid.size(), 10U);
   EXPECT_LE(grid.moments({0, 0, 0})->count, 5);
 }

@@ -251,5 +251,36 @@ TEST(PatchMap, APatchRemembersWhenItWasMade) {
   EXPECT_NEAR(map.match(wall, towards(wall, Room::sensor()), kGate).epoch, 12, 1);
 }
 
+TEST(PatchMap, APatchIsLastingOnceItHasBeenSeenForSoLong) {
+  PatchMap::Config wanted = config();
+  wanted.lasting_s = 1;
+  PatchMap map(wanted);
+  Workers workers(1);
+  const Eigen::Vector3d old_wall(Room::kLow.x(), 0.1, 0.4), new_wall(Room::kLow.x() + Room::kSize.x(), 0.1, 0.4);
+  const Points all = Room(1).points(30000, 0.01);
+  Points behind = all;  // without the wall in front
+  std::erase_if(behind, [&](const Eigen::Vector3d& p) { return p.x() > new_wall.x() - 0.5; });
+  const auto seen_at = [&](const Points& points, float time_s) {
+    PatchGrid::Sensor sensor = Room::sensor();
+    sensor.time_s = time_s;
+    map.insert(points, sensor, 0, workers);
+  };
+  const auto lasting = [&](const Eigen::Vector3d& wall) {
+    const PatchMatch match = map.match(wall, towards(wall, Room::sensor()), kGate);
+    EXPECT_EQ(match.kind, PatchMatch::Kind::kOn);
+    return match.lasting;
+  };
+  seen_at(behind, 0);
+  EXPECT_TRUE(lasting(old_wall)) << "a young map has nothing better";
+  seen_at(behind, 0.9F);
+  seen_at(all, 2.5F);
+  EXPECT_TRUE(lasting(old_wall));
+  EXPECT_FALSE(lasting(new_wall));
+  seen_at(all, 3.4F);
+  EXPECT_FALSE(lasting(new_wall));
+  seen_at(all, 3.5F);
+  EXPECT_TRUE(lasting(new_wall)) << "also if the block has taken all the points that it takes";
+}
+
 }  // namespace
 }  // namespace cairn::odometry
