@@ -33,6 +33,11 @@ double Fit::telling_share() const {
   return static_cast<double>(equations.telling_inliers) / equations.telling;
 }
 
+double Fit::level_share() const {
+  if (equations.matched == 0) return 0.0;
+  return static_cast<double>(equations.inliers - equations.telling_inliers) / equations.matched;
+}
+
 double Fit::rms_m() const {
   return equations.robust > 0 ? std::sqrt(equations.squared_distance / equations.robust) : 0.0;
 }

@@ -30,6 +30,8 @@ struct Fit {
   [[nodiscard]] int telling_inliers() const;
   /// The same as a share of the keypoints near patches; 0 where there are none.
   [[nodiscard]] double telling_share() const;
+  /// Share of the keypoints near patches that lie on floors and ceilings; 0 where there are none.
+  [[nodiscard]] double level_share() const;
   /// Root mean square distance to the patches in metres, robustly weighted.
   [[nodiscard]] double rms_m() const;
   /// Squared distance to the patches over its predicted variance, robustly weighted; 1 where

@@ -16,6 +16,14 @@ constexpr double kRise = 0.1, kFall = 0.02;
 // through simulated buildings were lost three times as often.
 constexpr double kTrialGate_m = 2.0, kLastGate_m = 1.0;
 
+// Share of the keypoints near patches. Where fewer lie on floors and ceilings, these say nothing.
+constexpr double kLeastLevel = 0.05;
+// Of the usual share of these. Walks through simulated offices went astray where a nod of 5° within a scan left a
+// seventh to two thirds of them.
+constexpr double kTilted = 0.75;
+// Times as many of these must fit, or the floor is not found again. Wrong places had 1.02, a right one 1.6.
+constexpr double kFound = 1.25;
+
 // Of the upright keypoints: if fewer fit after the trials, the places in between are tried, to each
 // side of a place: half a step of the search in position, one narrow step in heading. For the two best places, and
 // with few of the points at first: all of it took half of the time of a scan in a forest.
@@ -38,9 +46,23 @@ SecondLook::SecondLook(const OdometryConfig& config, const SE3& T_base_lidar)
       T_base_lidar_(T_base_lidar),
       search_(T_base_lidar) {}
 
-bool SecondLook::needed(const Fit& first, double dt_s) const { return dt_s > config_.long_step_s || doubtful(first); }
+bool SecondLook::needed(const Fit& first, double dt_s) const {
+  return dt_s > config_.long_step_s || doubtful(first) || tilted(first);
+}
 
 bool SecondLook::doubtful(const Fit& fit) const { return fit.telling_share() < config_.doubtful_share * usual_share_; }
+
+/// Floors and ceilings fit wherever the robot is, but not at a wrong tilt or height.
+bool SecondLook::tilted(const Fit& fit) const {
+  return usual_level_ > kLeastLevel && fit.level_share() < kTilted * usual_level_;
+}
+
+bool SecondLook::better(const Fit& again, const Fit& first) const {
+  if (again.iterations == 0) return false;
+  if (again.telling_inliers() > config_.better * first.telling_inliers()) return true;
+  const bool floor_found = tilted(first) && again.level_share() > kFound * first.level_share();
+  return floor_found && again.equations.inliers > config_.better * first.equations.inliers;
+}
 
 bool SecondLook::sure(const Fit& fit, double dt_s) const {
   return dt_s <= config_.unsure_after_s || fit.telling_share() >= config_.sure_share * usual_share_;
@@ -49,6 +71,7 @@ bool SecondLook::sure(const Fit& fit, double dt_s) const {
 void SecondLook::learn(const Fit& fit) {
   const double change = fit.telling_share() - usual_share_;
   usual_share_ += (change > 0 ? kRise : kFall) * change;
+  usual_level_ += kRise * (fit.level_share() - usual_level_);
 }
 
 std::optional<Fit> SecondLook::find(const Selection& scan, const PatchMap& map, MotionFilter& wide, const Fit& first,
@@ -76,8 +99,7 @@ std::optional<Fit> SecondLook::find(const Selection& scan, const PatchMap& map, 
   }
   wide.believe(start);
   Fit again = registration.align(scan, map, wide, start, budget, {kLastGate_m});
-  const bool better = again.iterations > 0 && again.telling_inliers() > config_.better * first.telling_inliers();
-  if (better && possible(again.state)) return again;
+  if (better(again, first) && possible(again.state)) return again;
   std::ignore = registration.telling_inliers(scan, map, first.state, narrowest_gate_m_);  // its uses are asked for next
   return std::nullopt;
 }

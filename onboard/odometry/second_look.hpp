@@ -20,7 +20,8 @@ namespace cairn::odometry {
 /// that begins at a wrong prediction ends in a wrong place where some surfaces fit by chance. The
 /// share of keypoints that fit falls then, long before it is so small that the scan counts as lost.
 ///
-/// Only keypoints that tell are counted, see NormalEquations::telling.
+/// Only keypoints that tell are counted, see NormalEquations::telling. One thing floors and ceilings do
+/// tell: if fewer of them fit than usual, the tilt or the height is wrong.
 class SecondLook {
  public:
   SecondLook(const OdometryConfig& config, const SE3& T_base_lidar);
@@ -30,12 +31,13 @@ class SecondLook {
   /// A fit so long after the last one that was followed may be of a place that looks alike: it is believed only if it
   /// is nearly as good as usual.
   [[nodiscard]] bool sure(const Fit& fit, double dt_s) const;
-  /// `first` fits worse than the last scans did, or `dt_s` is so long that the prediction says
-  /// little.
+  /// `first` fits worse than the last scans did, floors and ceilings included, or `dt_s` is so long
+  /// that the prediction says little.
   [[nodiscard]] bool needed(const Fit& first, double dt_s) const;
   /// Whether the base can be there, as far as others know.
   using Possible = std::function<bool(const MotionState&)>;
-  /// A fit that is clearly better than `first`, and possible, if there is one. `wide` holds a prediction that
+  /// A fit that is clearly better than `first`, and possible, if there is one. Floors and ceilings count only if
+  /// `first` fits them worse than usual, and the new fit clearly better. `wide` holds a prediction that
   /// expects anything; it is moved to where the better fit began. Leaves the uses of that fit, or of
   /// `first`, in `registration`.
   [[nodiscard]] std::optional<Fit> find(const Selection& scan, const PatchMap& map, MotionFilter& wide,
@@ -48,13 +50,18 @@ class SecondLook {
     return fit.telling_share() < config_.blurred_share * usual_share_;
   }
   /// A new map begins.
-  void reset() { usual_share_ = 1; }
+  void reset() {
+    usual_share_ = 1;
+    usual_level_ = 0;
+  }
 
   static constexpr int kStepsOfATrial = 8;  ///< of its registration
   /// Of all trials of a find() together, at most.
   static constexpr int kTrialSteps = 2 * static_cast<int>(CoarseSearch::kPlaces) * kStepsOfATrial;
 
  private:
+  [[nodiscard]] bool tilted(const Fit& fit) const;
+  [[nodiscard]] bool better(const Fit& again, const Fit& first) const;
   void choose(const Selection& scan, const SE3& T_odom_base);
 
   [[nodiscard]] MotionState refined(const MotionState& place, const PatchMap& map, double dt_s,
@@ -65,7 +72,7 @@ class SecondLook {
   SE3 T_base_lidar_;
   UprightPoints upright_;
   CoarseSearch search_;
-  double usual_share_ = 1;
+  double usual_share_ = 1, usual_level_ = 0;
   double duration_s_ = 0;                        // of the scan
   std::vector<Keypoint> telling_, third_, few_;  // of its keypoints
   struct Counted {

@@ -39,6 +39,23 @@ TEST(SecondLook, OnAnOpenFieldTheFloorIsAllThatCanFit) {
   EXPECT_FALSE(look.blurred(floor)) << "or the map would never grow";
 }
 
+Fit fit_with_level(int level) {
+  Fit out = fit_of(1600, 1500);
+  out.equations.matched = 2000;
+  out.equations.inliers = 1500 + level;
+  return out;
+}
+
+TEST(SecondLook, IsNeededIfTheFloorIsNotWhereItShouldBe) {
+  SecondLook look({}, {});
+  for (int i = 0; i < 100; ++i) look.learn(fit_with_level(300));
+  EXPECT_FALSE(look.needed(fit_with_level(240), kStep_s));
+  EXPECT_TRUE(look.needed(fit_with_level(200), kStep_s)) << "the tilt or the height is wrong";
+  look.reset();
+  for (int i = 0; i < 100; ++i) look.learn(fit_with_level(80));
+  EXPECT_FALSE(look.needed(fit_with_level(10), kStep_s)) << "where there is hardly any, it says nothing";
+}
+
 TEST(SecondLook, AWrongFitDoesNotBecomeUsualAtOnce) {
   SecondLook look({}, {});
   for (int i = 0; i < 10; ++i) look.learn(fit_of(1000, 500));
@@ -110,6 +127,16 @@ TEST_F(SecondLookInARoom, LeavesAGoodFitAlone) {
   const Fit good = first(scan);
   EXPECT_FALSE(look_.needed(good, kStep_s));
   EXPECT_FALSE(second(scan, good));
+}
+
+TEST_F(SecondLookInARoom, FindsTheFloorAgainThoughTheWallsFitAsWell) {
+  const Selection scan = scan_from(SE3::exp(0.01 * Vector6::Ones()));
+  const Fit good = first(scan);
+  for (int i = 0; i < 100; ++i) look_.learn(good);
+  Fit tilted = good;
+  tilted.equations.inliers = good.equations.telling_inliers;
+  EXPECT_TRUE(look_.needed(tilted, kStep_s));
+  EXPECT_TRUE(second(scan, tilted));
 }
 
 TEST_F(SecondLookInARoom, DoesNotFindWhatIsNotPossible) {
