@@ -109,7 +109,7 @@ struct OdometryConfig {
   int max_points_per_block = 400;  ///< a block that has seen so many does not change any more
 
   /// s. A surface that has been seen for less time is fresh. It was made with the twist that is now estimated, so it
-  /// confirms that twist, be it wrong. And it may be somebody who walks by. 0.5 s does nearly as well.
+  /// confirms that twist, be it wrong. 0.5 s does nearly as well.
   double lasting_s = 1.0;
   /// Share of its weight that a point on a fresh wall or pole counts. In a simulated office with a queue of people
   /// behind the robot, the lateral speed was wrong by 1.3 m/s with 1, and the pose jumped by 0.3 m. 0.03 does as well
