@@ -5,6 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "onboard/odometry/estimation/fixed_point.hpp"
+
 namespace cairn::odometry {
 namespace {
 
@@ -16,7 +18,7 @@ constexpr double kYoungMapCaution = 5;
 
 // Chosen by hand: starts in turns of 120°/s end with the right twist (test BeginsInAFastTurn).
 constexpr int kStraightenings = 3;
-constexpr double kStraightGate_m = 0.5;
+constexpr double kStraight_m = 0.5;
 
 }  // namespace
 
@@ -39,7 +41,9 @@ LidarOdometry::LidarOdometry(const OdometryConfig& config, const SE3& T_base_lid
       relocaliser_(config) {}
 
 Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget, const DriveState* wheels) {
-  if (const auto good = check(scan); !good) return good.error();
+  if (tracking_.began() && tracking_.seconds_since_last(scan.valid.end) <= 0)
+    return Error{Errc::kMalformed, "scan is not later than the one before"};
+  if (const auto good = ScanPreparation::check(scan); !good) return good.error();
   wheels_.note(wheels);
   const PreparedScan& prepared = preparation_.prepare(scan);
   const Selection selected = selector_.select(prepared);
@@ -86,7 +90,7 @@ bool LidarOdometry::follow(const Fit& fit, const SE3& motion, double dt_s) {
 /// The prediction stands. True if the scan shall begin a new map.
 bool LidarOdometry::lose(Track track, double dt_s) {
   filter_ = bridged(dt_s) ? wheels_.move(followed_, dt_s) : prior_.moved_anyhow(followed_, dt_s, tracking_.lost());
-  apart_ = track == Track::kReinitialised && placed_badly();
+  apart_ = track == Track::kReinitialised && !filter_.placed_within(kConnected_m, kConnected_rad);
   if (track == Track::kReinitialised) reinitialise();
   return track == Track::kReinitialised;
 }
@@ -116,7 +120,6 @@ Fit LidarOdometry::align(const Selection& selected, double dt_s, Budget& budget)
   return look_farther(selected, first, dt_s, by_wheels ? &*by_wheels : nullptr, budget).value_or(first);
 }
 
-/// To the scan that comes now: by wheels where they tell more than the twist, otherwise steadily.
 void LidarOdometry::predict(double dt_s, const OpenMotion* open) {
   filter_ = bridged(dt_s) ? wheels_.move(followed_, dt_s) : followed_;
   if (!bridged(dt_s)) filter_.predict(dt_s, prior_.usual(map_.settled()), open);
@@ -147,49 +150,46 @@ std::optional<Fit> LidarOdometry::look_farther(const Selection& selected, const 
   return found;
 }
 
-/// A second wall beside the first would be worse than a map in two parts.
-bool LidarOdometry::placed_badly() const {
-  const Matrix12& P = filter_.uncertainty().local;
-  return std::sqrt(std::max(P(0, 0), P(1, 1))) > kConnected_m || std::sqrt(P(5, 5)) > kConnected_rad;
-}
-
 /// Whether wheels tell the motion better than the twist of the last scan that was followed.
 bool LidarOdometry::bridged(double dt_s) const {
   const bool needed = dt_s > config_.second_look.long_step_s || tracking_.lost();
   return needed && !wheel_aid_.wrong_scale() && wheels_.since_followed().has_value();
 }
 
-/// The first scan of a map was taken in an unknown motion, so its points are skewed. The second one is skewed alike and
-/// fits, with a twist of zero. But the way between the two shows the motion: the map is made again, deskewed with it.
-Fit LidarOdometry::straighten_first(const Selection& selected, Fit fit, double dt_s, Budget& budget) {
+/// The first scan was taken in an unknown motion, so it is skewed. The second is skewed alike and fits, with a twist of
+/// zero. But the way between them shows the motion: the map is made again, deskewed with it. The way found then is
+/// wrong to the other side, up to twice as much. FixedPoint chooses what is tried next.
+Fit LidarOdometry::straighten_first(const Selection& selected, const Fit& fit, double dt_s, Budget& budget) {
   const FirstScan first = *std::exchange(first_, std::nullopt);
   if (!tracking_.fits(fit) || fit.degeneracy.count > 0) return fit;  // it does not show the motion
+  const auto moved = [&](const Fit& f) -> Vector6 { return filter_.motion_to(f.state.T_odom_base).log() / dt_s; };
+  Straightened best{.twist = Vector6::Zero(), .fit = fit, .filter = filter_};
+  FixedPoint search;
+  Vector6 twist = search.next(best.twist, moved(fit));
   for (int round = 0; round < kStraightenings; ++round) {
-    const Vector6 twist = (followed_.state().T_odom_base.inverse() * fit.state.T_odom_base).log() / dt_s;
-    map_.begin(followed_.state().T_odom_base, followed_.odom_covariance());
-    deskewer_.deskew(first.scan, twist);
-    insert(first.for_map, followed_, first.scan.stamp);
+    begin_again(first, twist);
     filter_ = followed_;
     filter_.predict(dt_s, prior_.usual(map_.settled()));
-    filter_.believe({.T_odom_base = fit.state.T_odom_base, .twist = twist});
-    const Fit again =
-        registration_.align(selected, map_.patches(), filter_, filter_.state(), budget, {kStraightGate_m});
+    filter_.believe({.T_odom_base = followed_.state().T_odom_base * SE3::exp(twist * dt_s), .twist = twist});
+    const Fit again = registration_.align(selected, map_.patches(), filter_, filter_.state(), budget, {kStraight_m});
     if (again.iterations == 0) break;  // no time left
-    fit = again;
+    if (again.equations.inliers >= best.fit.equations.inliers) best = {twist, again, filter_};
+    twist = search.next(twist, moved(again));
   }
-  return fit;
+  begin_again(first, best.twist);
+  filter_ = best.filter;
+  return best.fit;
+}
+
+void LidarOdometry::begin_again(const FirstScan& first, const Vector6& twist) {
+  map_.begin(followed_.state().T_odom_base, followed_.odom_covariance());
+  deskewer_.deskew(first.scan, twist);
+  insert(first.for_map, followed_, first.scan.stamp);
 }
 
 void LidarOdometry::keep_first(const PreparedScan& scan, const Selection& selected) {
   first_.reset();
   if (scan.duration_s > 0) first_ = {.scan = scan, .for_map = {selected.for_map.begin(), selected.for_map.end()}};
-}
-
-Result<void> LidarOdometry::check(const Scan& scan) const {
-  if (const auto good = ScanPreparation::check(scan); !good) return good.error();
-  if (tracking_.began() && tracking_.seconds_since_last(scan.valid.end) <= 0)
-    return Error{Errc::kMalformed, "scan is not later than the one before"};
-  return {};
 }
 
 OdometryUpdate LidarOdometry::begin(const PreparedScan& scan, const Selection& selected) {
@@ -293,8 +293,8 @@ double LidarOdometry::known_share(const PlacedScan& scan) {
   const Selection selected = selector_.select(preparation_.prepare(scan, T_base_lidar_));
   if (selected.keypoints.empty()) return 0;
   const MotionState at_rest{.T_odom_base = scan.T_odom_base, .twist = Vector6::Zero()};
-  const double known = registration_.inliers(selected, map_.patches(), at_rest, config_.narrowest_gate_m);
-  return known / static_cast<double>(selected.keypoints.size());
+  return registration_.inliers(selected, map_.patches(), at_rest, config_.narrowest_gate_m) /
+         static_cast<double>(selected.keypoints.size());
 }
 
 }  // namespace cairn::odometry

@@ -88,25 +88,38 @@ class LidarOdometry final : public MotionSource {
   static constexpr std::size_t kMaxPoints = ScanPreparation::kMaxPoints;
 
  private:
-  [[nodiscard]] Result<void> check(const Scan& scan) const;
+  /// The scan that began the map, until the next one shows how the base moved.
+  struct FirstScan {
+    PreparedScan scan;
+    std::vector<std::uint32_t> for_map;
+  };
+  /// The twist that the map's first scan was deskewed with, and how the second one fits then.
+  struct Straightened {
+    Vector6 twist;
+    Fit fit;
+    MotionFilter filter;
+  };
+
   OdometryUpdate begin(const PreparedScan& scan, const Selection& selected);
   [[nodiscard]] MotionState start_hypothesis(const Selection& selected, double dt_s);
   [[nodiscard]] Fit align(const Selection& selected, double dt_s, Budget& budget);
   [[nodiscard]] std::optional<Fit> look_farther(const Selection& selected, const Fit& first, double dt_s,
                                                 const OpenMotion* open, Budget& budget);
   [[nodiscard]] bool bridged(double dt_s) const;
+  /// To the scan that comes now: by wheels where they tell more than the twist, otherwise steadily.
   void predict(double dt_s, const OpenMotion* open);
   [[nodiscard]] bool follow(const Fit& fit, const SE3& motion, double dt_s);
   [[nodiscard]] bool lose(Track track, double dt_s);
   void correct(const Fit& fit, double dt_s);
   void learn(const Fit& fit, double dt_s);
   void reinitialise();
+  /// Makes the map again of its first scan alone, deskewed with `twist`.
+  void begin_again(const FirstScan& first, const Vector6& twist);
   void keep_first(const PreparedScan& scan, const Selection& selected);
-  [[nodiscard]] Fit straighten_first(const Selection& selected, Fit fit, double dt_s, Budget& budget);
+  [[nodiscard]] Fit straighten_first(const Selection& selected, const Fit& fit, double dt_s, Budget& budget);
   void insert(std::span<const std::uint32_t> chosen, const MotionFilter& at, Time stamp);
   [[nodiscard]] OdometryUpdate report(Time stamp) const;
   [[nodiscard]] OdometryUpdate report(Time stamp, const Fit& fit, Track track) const;
-  [[nodiscard]] bool placed_badly() const;
   [[nodiscard]] double known_share(const PlacedScan& scan);
 
   OdometryConfig config_;
@@ -127,11 +140,6 @@ class LidarOdometry final : public MotionSource {
   WheelBridge wheels_;
   WheelAid wheel_aid_;
   Relocaliser relocaliser_;
-  /// The scan that began the map, until the next one shows how the base moved.
-  struct FirstScan {
-    PreparedScan scan;
-    std::vector<std::uint32_t> for_map;
-  };
   std::optional<FirstScan> first_;
   bool by_wheels_ = false;  // see MotionUpdate
   bool apart_ = false;      // the last scan began a map that must not be added to the one before

@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <algorithm>
+#include <cmath>
 
 namespace cairn::odometry {
 namespace {
@@ -175,6 +176,11 @@ void MotionFilter::update(const MotionState& x, const Measurement& m, const Matr
 
 UncertainPose MotionFilter::pose() const {
   return {.mean = state_.T_odom_base, .covariance = uncertainty_.total.topLeftCorner<6, 6>()};
+}
+
+bool MotionFilter::placed_within(double position_m, double heading_rad) const {
+  const Matrix12& P = uncertainty_.local;
+  return std::sqrt(std::max(P(0, 0), P(1, 1))) <= position_m && std::sqrt(P(5, 5)) <= heading_rad;
 }
 
 Matrix6 MotionFilter::odom_covariance() const {

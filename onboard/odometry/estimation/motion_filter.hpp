@@ -99,6 +99,8 @@ class MotionFilter {
   [[nodiscard]] UncertainPose pose() const;
   /// The same covariance, of a left perturbation of T_odom_base.
   [[nodiscard]] Matrix6 odom_covariance() const;
+  /// Whether position and heading against the map have no larger standard deviations than these: m, rad.
+  [[nodiscard]] bool placed_within(double position_m, double heading_rad) const;
   /// Motion to T_odom_base from where the base was before the last predict().
   [[nodiscard]] SE3 motion_to(const SE3& T_odom_base) const { return before_.T_odom_base.inverse() * T_odom_base; }
   /// Covariance of exp(δ) in T_previous_now·exp(δ) for the last predict() and update().

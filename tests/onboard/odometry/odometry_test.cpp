@@ -79,6 +79,15 @@ TEST(Odometry, BeginsInAFastTurn) {
   EXPECT_NEAR(last.twist[5], 2.0, 0.05) << "scans that are skewed alike fit with a twist of zero, too";
 }
 
+TEST(Odometry, BeginsAmongTreesWhileItNods) {
+  const auto nodding = [](double t) {
+    return SE3::from_xyz_rpy((Vector6() << 8 + 1.5 * t, 6 + 0.1 * t, 0, 0.03, 0.6 * t, 0).finished());
+  };
+  Ride ride(support::forest().world, nodding);
+  for (int i = 0; i < 4; ++i)
+    EXPECT_LT(ride.error(ride.step()).head<3>().norm(), 0.035) << i << ": repeating alone leaves 0.056 m";
+}
+
 TEST(Odometry, KeyFramesTwiceASecondAreFollowed) {
   support::Scene scene = support::office();
   scene.ride.max_turn = 1.2;
