@@ -2,10 +2,10 @@
 #include "fusion/peers/own_submaps.hpp"
 
 #include <Eigen/Core>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 
 #include "fusion/peers/items/claim.hpp"
+#include "hal/symmetric_eigen.hpp"
 
 namespace cairn::peers {
 namespace {
@@ -24,10 +24,10 @@ Matrix6 growth(const UncertainPose& before, const UncertainPose& after) {
 }
 
 /// Of the covariance, where the floor is the unit.
-Eigen::SelfAdjointEigenSolver<Matrix6> in_units_of(const Matrix6& floor, const Matrix6& covariance) {
+SymmetricEigen in_units_of(const Matrix6& floor, const Matrix6& covariance) {
   const Vector6 unit = floor.diagonal().cwiseSqrt().cwiseInverse();
   const Matrix6 scaled = unit.asDiagonal() * covariance * unit.asDiagonal();
-  return Eigen::SelfAdjointEigenSolver<Matrix6>(0.5 * (scaled + scaled.transpose()));
+  return symmetric_eigen(0.5 * (scaled + scaled.transpose()));
 }
 
 }  // namespace
@@ -35,10 +35,10 @@ Eigen::SelfAdjointEigenSolver<Matrix6> in_units_of(const Matrix6& floor, const M
 Matrix6 at_least(const Matrix6& covariance, const Matrix6& floor) {
   if (!covariance.allFinite()) return floor;
   const auto in_units = in_units_of(floor, covariance);
-  if (in_units.info() != Eigen::Success || in_units.eigenvalues().maxCoeff() <= 1) return floor;
-  const Vector6 values = in_units.eigenvalues().cwiseMax(1).cwiseMin(kMostTimes);
+  if (!in_units.converged || in_units.values.maxCoeff() <= 1) return floor;
+  const Vector6 values = in_units.values.cwiseMax(1).cwiseMin(kMostTimes);
   const Vector6 unit = floor.diagonal().cwiseSqrt();
-  const Matrix6& axes = in_units.eigenvectors();
+  const Matrix6& axes = in_units.vectors;
   return unit.asDiagonal() * (axes * values.asDiagonal() * axes.transpose()) * unit.asDiagonal();
 }
 

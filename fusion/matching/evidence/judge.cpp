@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fusion/matching/evidence/judge.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "fusion/matching/evidence/match_covariance.hpp"
 #include "fusion/matching/features/sample.hpp"
 #include "fusion/matching/features/structure.hpp"
+#include "hal/symmetric_eigen.hpp"
 
 namespace cairn::matching {
 namespace {
@@ -59,7 +59,7 @@ std::optional<Error> fault_of(const std::optional<UncertainPose>& initial) {
   if (!initial) return std::nullopt;
   if (!initial->mean.matrix().allFinite() || !initial->covariance.allFinite())
     return Error{.code = Errc::kInvalidConfig, .cause = "the initial pose is not finite", .where = "initial pose"};
-  if (Eigen::SelfAdjointEigenSolver<Matrix6>(initial->covariance).eigenvalues()[0] <= 0)
+  if (symmetric_eigen(initial->covariance).values[0] <= 0)
     return Error{.code = Errc::kInvalidConfig,
                  .cause = "the initial covariance is not positive definite",
                  .where = "initial pose"};

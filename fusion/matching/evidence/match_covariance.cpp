@@ -2,13 +2,13 @@
 #include "fusion/matching/evidence/match_covariance.hpp"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
 
 #include "fusion/matching/search/refine.hpp"
+#include "hal/symmetric_eigen.hpp"
 
 namespace cairn::matching {
 namespace {
@@ -83,9 +83,8 @@ struct Normals {
     const double metres = std::sqrt(std::max(1.0, reach / std::max(1, count)));
     Vector6 scale = Vector6::Ones();
     scale.tail<3>().setConstant(1 / metres);
-    const Eigen::SelfAdjointEigenSolver<Matrix6> solver(scale.asDiagonal() * H * scale.asDiagonal());
-    const Matrix6 V = solver.eigenvectors();
-    const Matrix6 clipped = V * solver.eigenvalues().cwiseMax(0).asDiagonal() * V.transpose();
+    const auto [values, V, converged] = symmetric_eigen(scale.asDiagonal() * H * scale.asDiagonal());
+    const Matrix6 clipped = V * values.cwiseMax(0).asDiagonal() * V.transpose();
     return scale.cwiseInverse().asDiagonal() * clipped * scale.cwiseInverse().asDiagonal();
   }
 };

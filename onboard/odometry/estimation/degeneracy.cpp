@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/odometry/estimation/degeneracy.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+
+#include "hal/symmetric_eigen.hpp"
 
 namespace cairn::odometry {
 namespace {
@@ -37,8 +38,7 @@ Degeneracy find_degeneracy(const NormalEquations& n, std::span<const ResidualRow
   Vector6 scale = Vector6::Ones();
   scale.tail<3>().setConstant(1.0 / out.length_m);
   const Matrix6 information = scale.asDiagonal() * n.aa * scale.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<Matrix6> eigen(information);
-  const Matrix6& V = eigen.eigenvectors();
+  const Matrix6 V = symmetric_eigen(information).vectors;
   Vector6 lost = Vector6::Zero();
   for (int k = 0; k < 6; ++k) {
     if (enough_facing(rows, scale.asDiagonal() * V.col(k), min_facing_points)) continue;

@@ -3,15 +3,16 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <numbers>
+
+#include "hal/symmetric_eigen.hpp"
 
 namespace cairn::cli {
 namespace {
 
 constexpr double kFullTurn_rad = 2 * std::numbers::pi;
-constexpr double kFarthest_m = 1e5;
+constexpr double kFarthestPose_m = 1e5;
 constexpr double kRounded = 1e-6;  // of the largest number: what printing may have changed
 constexpr const char* kNames[] = {"x", "y", "z", "roll", "pitch", "yaw"};
 
@@ -27,7 +28,7 @@ Result<SE3> pose_from_option(const std::string& option, const std::vector<double
     const double value = xyz_rpy[i];
     if (!std::isfinite(value))
       return refused(option, "a pose has finite numbers", fmt::format("{} is {}", kNames[i], value));
-    if (i < 3 && std::abs(value) > kFarthest_m)
+    if (i < 3 && std::abs(value) > kFarthestPose_m)
       return refused(option, "maps lie within 100 km of each other", fmt::format("{} is {:.6g} m", kNames[i], value));
     if (i >= 3 && std::abs(value) > kFullTurn_rad)
       return refused(option, "angles are in radians, up to a full turn",
@@ -46,7 +47,7 @@ Result<Matrix6> covariance_from_option(const std::string& option, const std::vec
   if ((given - given.transpose()).cwiseAbs().maxCoeff() > kRounded * scale)
     return refused(option, "a covariance is symmetric", "give all numbers, in the order in which they were printed");
   const Matrix6 covariance = 0.5 * (given + given.transpose());
-  if (Eigen::SelfAdjointEigenSolver<Matrix6>(covariance).eigenvalues()[0] < -kRounded * scale)
+  if (symmetric_eigen(covariance).values[0] < -kRounded * scale)
     return refused(option, "a covariance has no negative eigenvalue", "give the numbers as they were printed");
   return covariance;
 }

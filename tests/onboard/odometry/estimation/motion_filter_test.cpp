@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <random>
 
@@ -37,10 +36,21 @@ class Random {
   std::normal_distribution<double> gauss_{0, 1};
 };
 
+/// Of any size, and Cholesky's decomposition alone: with fixed sizes and other solvers this file took 20 s to compile.
+using Matrix = Eigen::MatrixXd;
+using Cholesky = Eigen::LLT<Matrix>;
+
+/// The covariance of A x where P is that of x.
+Matrix carried(const Matrix& A, const Matrix& P) { return A * P * A.transpose(); }
+
+bool eigenvalues_exceed(double bound, const Matrix& P) {
+  return Cholesky(P - bound * Matrix::Identity(P.rows(), P.rows())).info() == Eigen::Success;
+}
+
 /// Points as the filter gets them, and the same as plain rows of r = r₀ + A e.
 struct Observations {
   NormalEquations equations;
-  Eigen::Matrix<double, Eigen::Dynamic, 12> A;
+  Matrix A;
   Eigen::VectorXd r, weight;
 
   Observations(Random& random, Eigen::Index n) : A(n, 12), r(n), weight(n) {
@@ -57,10 +67,10 @@ struct Observations {
       equations.tar += tau * w * r[i] * a;
     }
   }
-  [[nodiscard]] Eigen::MatrixXd gain(const Matrix12& P, double overconfidence) const {
-    Eigen::MatrixXd S = A * P * A.transpose();
+  [[nodiscard]] Matrix gain(const Matrix& P, double overconfidence) const {
+    Matrix S = carried(A, P);
     S.diagonal() += overconfidence * weight.cwiseInverse();
-    return P * A.transpose() * S.inverse();
+    return Cholesky(S).solve(A * P).transpose();
   }
 };
 
@@ -81,17 +91,12 @@ Matrix12 numerical_transition(const MotionState& x, double dt) {
   return F;
 }
 
-template <class M>
-void expect_covariance(const M& P) {
-  EXPECT_EQ(P, M(P.transpose()));
-  const double smallest = Eigen::SelfAdjointEigenSolver<M>(P).eigenvalues().minCoeff();
-  EXPECT_GT(smallest, -1e-12 * P.norm());
+void expect_covariance(const Matrix& P) {
+  EXPECT_EQ(P, Matrix(P.transpose()));
+  EXPECT_TRUE(eigenvalues_exceed(-1e-12 * P.norm(), P));
 }
 
-template <class A, class B>
-double relative_difference(const A& a, const B& b) {
-  return (a - b).norm() / b.norm();
-}
+double relative_difference(const Matrix& a, const Matrix& b) { return (a - b).norm() / b.norm(); }
 
 MotionFilter random_filter(Random& random) {
   MotionFilter filter;
@@ -107,9 +112,9 @@ TEST(MotionFilter, PredictionCarriesStateAndCovarianceAsNumericalDerivativesDo) 
     const MotionFilter::Uncertainty before = filter.uncertainty();
     filter.predict(kDt, kSilence);
     EXPECT_LT(difference(filter.state(), moved(x, kDt)).norm(), 1e-12);
-    const Matrix12 F = numerical_transition(x, kDt);
-    EXPECT_LT(relative_difference(filter.uncertainty().local, F * before.local * F.transpose()), 1e-6);
-    EXPECT_LT(relative_difference(filter.uncertainty().total, F * before.total * F.transpose()), 1e-6);
+    const Matrix F = numerical_transition(x, kDt);
+    EXPECT_LT(relative_difference(filter.uncertainty().local, carried(F, before.local)), 1e-6);
+    EXPECT_LT(relative_difference(filter.uncertainty().total, carried(F, before.total)), 1e-6);
   }
 }
 
@@ -124,8 +129,8 @@ TEST(MotionFilter, AccelerationAddsAtLeastWhatAConstantOneWouldAndIsInvertible) 
   a << 3, 3, 3, 2, 2, 2;
   Eigen::Matrix<double, 12, 6> effect;  // of a constant acceleration
   effect << 0.5 * kDt * kDt * Matrix6(a.asDiagonal()), kDt * Matrix6(a.asDiagonal());
-  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix12>(Q - effect * effect.transpose()).eigenvalues().minCoeff(), -1e-9);
-  EXPECT_GT(Eigen::SelfAdjointEigenSolver<Matrix12>(Q).eigenvalues().minCoeff(), 1e-7);
+  EXPECT_TRUE(eigenvalues_exceed(-1e-9, Matrix(Q) - carried(effect, Matrix6::Identity())));
+  EXPECT_TRUE(eigenvalues_exceed(1e-7, Q));
   EXPECT_LT(relative_difference(Q.diagonal().tail<6>(), effect.bottomRows<6>().diagonal().cwiseAbs2()), 1e-9);
 }
 
@@ -175,28 +180,29 @@ TEST(MotionFilter, ErrorsOfPredictionPointsAndMapAddUpAsTheGainsSay) {
   for (int i = 0; i < 10; ++i) {
     MotionFilter filter = random_filter(random);
     const SE3 T_before = filter.state().T_odom_base;
-    const Matrix12 F = numerical_transition(filter.state(), kDt), before = filter.uncertainty().local;
+    const Matrix F = numerical_transition(filter.state(), kDt), before = filter.uncertainty().local;
     filter.predict(kDt, kNoise);
     const MotionFilter::Uncertainty predicted = filter.uncertainty();
-    const Matrix12 Q = predicted.local - F * before * F.transpose();
+    const Matrix Q = predicted.local - carried(F, before);
     const Observations seen(random, 40);
     const double over = 3;
     const Matrix6 map = random.covariance<6>(1e-4);
     filter.update(filter.state(), {seen.equations, {}, over}, map);
 
-    const Eigen::MatrixXd K = seen.gain(predicted.local, over);
-    const Matrix12 keep = Matrix12::Identity() - K * seen.A;
-    const Matrix12 noise = K * (over * seen.weight.cwiseInverse()).asDiagonal() * K.transpose();
+    const Matrix K = seen.gain(predicted.local, over);
+    const Matrix keep = Matrix::Identity(12, 12) - K * seen.A;
+    const Matrix noise = carried(K, over * Matrix(seen.weight.cwiseInverse().asDiagonal()));
     // A map that is displaced by ξ on the left moves every residual as a base displaced by −ξ would.
-    const Eigen::MatrixXd follow = K * seen.A.leftCols<6>() * filter.state().T_odom_base.inverse().adjoint();
-    const Matrix12 total = keep * predicted.total * keep.transpose() + noise + follow * map * follow.transpose();
+    const Matrix T = filter.state().T_odom_base.inverse().adjoint();
+    const Matrix follow = K * Matrix(seen.A.leftCols<6>()) * T;
+    const Matrix total = carried(keep, predicted.total) + noise + carried(follow, map);
     EXPECT_LT(relative_difference(filter.uncertainty().total, total), 1e-5);
 
-    Matrix12 carried = Matrix12::Zero();
-    carried.topLeftCorner<6, 6>() = (T_before.inverse() * filter.state().T_odom_base).inverse().adjoint();
-    const Matrix12 G = keep * F - carried;
-    const Matrix12 motion = G * before * G.transpose() + keep * Q * keep.transpose() + noise;
-    EXPECT_LT(relative_difference(filter.step_covariance(), (motion.topLeftCorner<6, 6>())), 1e-5);
+    Matrix moved_on = Matrix::Zero(12, 12);
+    moved_on.topLeftCorner<6, 6>() = (T_before.inverse() * filter.state().T_odom_base).inverse().adjoint();
+    const Matrix G = keep * F - moved_on;
+    const Matrix motion = carried(G, before) + carried(keep, Q) + noise;
+    EXPECT_LT(relative_difference(filter.step_covariance(), motion.topLeftCorner<6, 6>()), 1e-5);
   }
 }
 
@@ -246,7 +252,7 @@ TEST(MotionFilter, ItsCovarianceIsThatOfItsErrors) {
     const Matrix12 P = random.covariance<12>(1e-3);
     MotionState truth = random.state();
     MotionFilter filter;
-    filter.reset(truth + Vector12(P.llt().matrixL() * random.vector<12>()), {P, P});
+    filter.reset(truth + Vector12(Matrix(Cholesky(P).matrixL()) * random.vector<12>()), {P, P});
     for (int i = 0; i < 25; ++i) {
       truth = driven(truth, random);
       filter.predict(kDt, kNoise);
@@ -257,7 +263,7 @@ TEST(MotionFilter, ItsCovarianceIsThatOfItsErrors) {
       const Measurement m{equations, {}, 1};
       filter.update(filter.state() + filter.step(filter.state(), m), m, Matrix6::Zero());
       const Vector12 e = difference(truth, filter.state());
-      nees += e.dot(filter.uncertainty().total.ldlt().solve(e));
+      nees += e.dot(Vector12(Cholesky(filter.uncertainty().total).solve(Matrix(e))));
       ++n;
     }
   }
