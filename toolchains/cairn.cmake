@@ -57,7 +57,7 @@ if(CAIRN_SANITIZE)
   endif()
 endif()
 
-# CAIRN_UNITY compiles up to 16 files of a library, or 40 of a test program, as one. Their common headers are parsed once, and
+# CAIRN_UNITY compiles up to 16 files of a library (or as many as it says), or 40 of a test program, as one. Their common headers are parsed once, and
 # their common templates are instantiated once. The files that include them name paths from the project's root, so that ccache
 # knows them in every checkout.
 # cairn_compile_alone(FILE…) is for files whose private names (in the unnamed namespace) are those of a neighbour.
@@ -150,15 +150,19 @@ function(cairn_compile_allocators_alone)
   endforeach()
 endfunction()
 
-# cairn_library(NAME SOURCES … [PUBLIC lib …] [PRIVATE lib …]): the static library cairn_NAME of one room.
+# cairn_library(NAME [UNITE n] SOURCES … [PUBLIC lib …] [PRIVATE lib …]): the static library cairn_NAME of one room. With
+# CAIRN_UNITY up to n of its files are compiled as one.
 function(cairn_library name)
-  cmake_parse_arguments(A "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(A "" "UNITE" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
+  if(NOT A_UNITE)
+    set(A_UNITE 16)
+  endif()
   add_library(cairn_${name} STATIC ${A_SOURCES})
   # Programs of others get the headers and the language, and neither our warnings nor our hardening.
   target_link_libraries(cairn_${name} PUBLIC $<BUILD_INTERFACE:cairn_flags> ${A_PUBLIC} PRIVATE ${A_PRIVATE})
   target_compile_features(cairn_${name} PUBLIC cxx_std_20)
   target_include_directories(cairn_${name} SYSTEM INTERFACE $<INSTALL_INTERFACE:include> $<INSTALL_INTERFACE:include/cairn>)
-  cairn_unite(cairn_${name} 16)
+  cairn_unite(cairn_${name} ${A_UNITE})
   cairn_precompile(cairn_${name} library)
 endfunction()
 

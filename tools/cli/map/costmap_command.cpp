@@ -46,8 +46,8 @@ class Surroundings {
   }
   /// A core that maps says where it is ten times a second.
   [[nodiscard]] Result<bool> idle() const {
-    constexpr Duration kPatience = std::chrono::seconds(10);
-    if (LiveClock().now() - since_ < kPatience) return true;
+    constexpr Duration kSilent = std::chrono::seconds(10);
+    if (LiveClock().now() - since_ < kSilent) return true;
     return Error{Errc::kNotFound,
                  pose_ ? "the core sends no map" : "the core does not know where it is",
                  {},

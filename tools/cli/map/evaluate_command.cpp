@@ -33,7 +33,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct EvaluateOptions {
   fs::path estimate, truth;
   std::string align;
   double max_gap_s = to_seconds(report::TrajectoryErrorOptions{}.max_gap);
@@ -57,7 +57,7 @@ Result<std::vector<recording::StampedPose>> read_poses(const fs::path& path, con
   return poses;
 }
 
-int evaluate_trajectory(const Options& options) {
+int evaluate_trajectory(const EvaluateOptions& options) {
   const auto estimate = read_poses(options.estimate, "trajectory.tum");
   if (!estimate) return app::fail(estimate.error());
   const auto truth = read_poses(options.truth, "ground_truth.tum");
@@ -89,7 +89,7 @@ int evaluate_trajectory(const Options& options) {
 }
 
 /// Where the map's frame lies in the true map's: as given, or by the first common pose of two trajectories.
-Result<SE3> T_truth_map(const Options& options) {
+Result<SE3> T_truth_map(const EvaluateOptions& options) {
   if (!options.pose.empty()) return pose_from_option("--pose", options.pose);
   if (options.trajectory.empty()) return SE3();
   const auto estimate = read_poses(options.trajectory, "trajectory.tum");
@@ -113,7 +113,7 @@ report::Json to_json(const MoverError& e) {
 }
 
 /// What to try where hardly a voxel is right; empty: nothing.
-std::string hint(const Options& options, const report::MapError& error) {
+std::string hint(const EvaluateOptions& options, const report::MapError& error) {
   constexpr double kHardly = 0.5;
   if (error.precision().value_or(1) >= kHardly) return {};
   if (!options.pose.empty() || !options.trajectory.empty())
@@ -137,12 +137,12 @@ std::string in_words(const report::LabelError& e) {
 }
 
 /// The path that the map was made with, in the map's frame: the run's where it is given, else the true one.
-Result<Path> path_of_map(const Options& options, const Path& truth, const SE3& T_world_map) {
+Result<Path> path_of_map(const EvaluateOptions& options, const Path& truth, const SE3& T_world_map) {
   if (options.trajectory.empty()) return truth.moved(T_world_map.inverse());
   return Path::read(file_in(options.trajectory, "trajectory.tum"));
 }
 
-Result<MoverError> compare_movers(const Options& options, const app::RobotProfile& profile, const Path& truth,
+Result<MoverError> compare_movers(const EvaluateOptions& options, const app::RobotProfile& profile, const Path& truth,
                                   const Path& path, const mapping::SemanticOcTree& map, MoverTruth& movers) {
   constexpr Duration kSameScan = std::chrono::milliseconds(20);
   auto done = for_each_true_scan(options.recording, profile, truth, [&](const TrueScan& scan) { movers.count(scan); });
@@ -157,7 +157,7 @@ Result<MoverError> compare_movers(const Options& options, const app::RobotProfil
 }
 
 /// How the map treats people who walk about; none where no recording says who they are.
-Result<std::optional<MoverError>> mover_error(const Options& options, const mapping::SemanticOcTree& map,
+Result<std::optional<MoverError>> mover_error(const EvaluateOptions& options, const mapping::SemanticOcTree& map,
                                               const mapping::SemanticOcTree& truth, const SE3& T_world_map) {
   if (options.recording.empty()) return std::optional<MoverError>();
   const auto chosen = app::choose_profile({}, options.recording);
@@ -185,7 +185,7 @@ void print(const MoverError& e) {
                              e.mover_voxels);
 }
 
-int say(const Options& options, const report::MapError& e, const report::LabelError& labels,
+int say(const EvaluateOptions& options, const report::MapError& e, const report::LabelError& labels,
         const std::optional<MoverError>& movers) {
   const std::string tip = hint(options, e);
   if (options.json) {
@@ -207,7 +207,7 @@ int say(const Options& options, const report::MapError& e, const report::LabelEr
   return app::kDone;
 }
 
-int evaluate_map(const Options& options) {
+int evaluate_map(const EvaluateOptions& options) {
   const fs::path file = file_in(options.estimate, "map.cairn"), true_file = file_in(options.truth, "world.ot");
   const auto map = mapping::load_map(file), truth = mapping::load_map(true_file);
   if (!map) return app::fail(at(file.string(), map.error()));
@@ -227,12 +227,13 @@ int evaluate_map(const Options& options) {
   return say(options, *error, *labels, *movers);
 }
 
-void add(app::Commands& commands, CLI::App* sub, const std::shared_ptr<Options>& options, int (*job)(const Options&)) {
+void add(app::Commands& commands, CLI::App* sub, const std::shared_ptr<EvaluateOptions>& options,
+         int (*job)(const EvaluateOptions&)) {
   sub->add_flag("--json", options->json, "one JSON object on stdout");
   sub->callback([&commands, options, job] { commands.job = [options, job] { return job(*options); }; });
 }
 
-void add_trajectory(app::Commands& commands, CLI::App& evaluate, const std::shared_ptr<Options>& options) {
+void add_trajectory(app::Commands& commands, CLI::App& evaluate, const std::shared_ptr<EvaluateOptions>& options) {
   CLI::App* sub = evaluate.add_subcommand("trajectory", "compares a trajectory with the true one");
   options->align = "se3";
   sub->add_option("estimate", options->estimate, "TUM file, or the folder of a run")->required();
@@ -248,7 +249,7 @@ void add_trajectory(app::Commands& commands, CLI::App& evaluate, const std::shar
   add(commands, sub, options, evaluate_trajectory);
 }
 
-void add_map(app::Commands& commands, CLI::App& evaluate, const std::shared_ptr<Options>& options) {
+void add_map(app::Commands& commands, CLI::App& evaluate, const std::shared_ptr<EvaluateOptions>& options) {
   CLI::App* sub = evaluate.add_subcommand("map", "compares the occupied voxels of a map with the true ones");
   options->align = "first";
   sub->footer(
@@ -285,8 +286,8 @@ void add_map(app::Commands& commands, CLI::App& evaluate, const std::shared_ptr<
 void add_evaluate_command(app::Commands& commands) {
   CLI::App& evaluate = *commands.app.add_subcommand("evaluate", "errors against ground truth, and of a calibration");
   evaluate.require_subcommand(1);
-  add_trajectory(commands, evaluate, std::make_shared<Options>());
-  add_map(commands, evaluate, std::make_shared<Options>());
+  add_trajectory(commands, evaluate, std::make_shared<EvaluateOptions>());
+  add_map(commands, evaluate, std::make_shared<EvaluateOptions>());
   add_evaluate_people_command(commands, evaluate);
   add_evaluate_detectors_command(commands, evaluate);
   add_projection_command(commands, evaluate);

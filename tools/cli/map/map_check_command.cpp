@@ -26,7 +26,7 @@ namespace fs = std::filesystem;
 using matching::MapFeatures;
 using matching::SubmapPair;
 
-struct Options {
+struct MapCheckOptions {
   std::vector<fs::path> files;
   bool json = false;
 };
@@ -68,7 +68,7 @@ Result<std::vector<SubmapPair>> check(const std::vector<fs::path>& files, const 
   return matching::check_submaps(submaps, budget);
 }
 
-report::Json to_json(const SubmapPair& pair, const Options& options) {
+report::Json to_json(const SubmapPair& pair, const MapCheckOptions& options) {
   const Vector6 slip = pair.slip.mean.xyz_rpy();
   return {{"first", options.files.at(pair.first).string()},
           {"second", options.files.at(pair.second).string()},
@@ -81,7 +81,7 @@ report::Json to_json(const SubmapPair& pair, const Options& options) {
           {"conflict", pair.conflict}};
 }
 
-int told_as_json(const Options& options, const std::vector<SubmapPair>& pairs, std::ptrdiff_t contradictions) {
+int told_as_json(const MapCheckOptions& options, const std::vector<SubmapPair>& pairs, std::ptrdiff_t contradictions) {
   report::Json json{{"submaps", options.files.size()},
                     {"compared", pairs.size()},
                     {"contradictions", contradictions},
@@ -91,7 +91,7 @@ int told_as_json(const Options& options, const std::vector<SubmapPair>& pairs, s
   return app::print(json);
 }
 
-int run(const Options& options) {
+int run(const MapCheckOptions& options) {
   const auto maps = load(options.files);
   if (!maps) return app::fail(maps.error());
   const auto checked = app::while_working("comparing submaps", [&] { return check(options.files, *maps); });
@@ -117,7 +117,7 @@ int run(const Options& options) {
 void add_map_check_command(app::Commands& commands, CLI::App& map) {
   CLI::App* sub =
       map.add_subcommand("check", "says which submaps of one robot contradict each other; all in one frame");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MapCheckOptions>();
   sub->add_option("files", options->files,
                   "two or more maps (.cairn, .ot or .bt), in the order in which they were made")
       ->required()

@@ -34,7 +34,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct MapOptions {
   fs::path file, other, out, trajectory, ground_truth;
   std::string view = "top";
   std::optional<double> height_min_m, height_max_m;
@@ -55,7 +55,8 @@ bool has_checksums(const fs::path& path) {
   return mapping::is_cairn(std::as_bytes(std::span(head)));
 }
 
-report::Json info_json(const Options& options, const mapping::SemanticOcTree& map, const report::MapSummary& summary) {
+report::Json info_json(const MapOptions& options, const mapping::SemanticOcTree& map,
+                       const report::MapSummary& summary) {
   std::error_code ignored;
   report::Json json = {{"file", options.file.string()},
                        {"file_bytes", fs::file_size(options.file, ignored)},
@@ -91,7 +92,7 @@ std::string info_text(const report::Json& json, const report::MapSummary& summar
   return text;
 }
 
-int info(const Options& options) {
+int info(const MapOptions& options) {
   const auto map = mapping::load_map(options.file);
   if (!map) return app::fail(at(options.file.string(), map.error()));
   const report::MapSummary summary = report::summarise(**map);
@@ -101,7 +102,7 @@ int info(const Options& options) {
   return app::kDone;
 }
 
-int compare_maps(const Options& options) {
+int compare_maps(const MapOptions& options) {
   const auto a = mapping::load_map(options.file), b = mapping::load_map(options.other);
   if (!a) return app::fail(at(options.file.string(), a.error()));
   if (!b) return app::fail(at(options.other.string(), b.error()));
@@ -140,7 +141,7 @@ report::MapPath projected(report::MapView view, const std::vector<recording::Sta
 }
 
 /// The trajectory and, under it, the ground truth in the trajectory's frame. Empty names are left out.
-Result<std::vector<report::MapPath>> read_paths(const Options& options, report::MapView view) {
+Result<std::vector<report::MapPath>> read_paths(const MapOptions& options, report::MapView view) {
   std::vector<report::MapPath> paths;
   std::vector<recording::StampedPose> trajectory, truth;
   if (!options.trajectory.empty()) {
@@ -160,7 +161,7 @@ Result<std::vector<report::MapPath>> read_paths(const Options& options, report::
   return paths;
 }
 
-int render(const Options& options) {
+int render(const MapOptions& options) {
   const auto view = report::map_view_from(options.view);
   if (!view) return wrong("--view " + options.view + ": choose top, side or front");
   if (options.out.extension() != ".png")
@@ -195,7 +196,7 @@ int render(const Options& options) {
   return app::kDone;
 }
 
-int export_map(const Options& options) {
+int export_map(const MapOptions& options) {
   if (const auto named = check_map_name(options.out); !named) return app::fail(named.error());
   if (const auto kept = keep_input(options.file, options.out); !kept) return app::fail(kept.error());
   const auto map = mapping::load_map(options.file);
@@ -209,7 +210,7 @@ int export_map(const Options& options) {
 }
 
 CLI::App* add(app::Commands& commands, CLI::App& map, const std::string& name, const std::string& description,
-              const std::shared_ptr<Options>& options, int (*job)(const Options&)) {
+              const std::shared_ptr<MapOptions>& options, int (*job)(const MapOptions&)) {
   CLI::App* sub = map.add_subcommand(name, description);
   sub->add_option("file", options->file, ".cairn, .ot or .bt")->required();
   sub->add_flag("--json", options->json, "one JSON object on stdout");
@@ -223,7 +224,7 @@ void add_map_command(app::Commands& commands) {
   CLI::App& map = *commands.app.add_subcommand(
       "map", "describes, compares, checks, draws and converts maps, and pulls that of a running core");
   map.require_subcommand(1);
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MapOptions>();
   add(commands, map, "info", "counts, size, volume, entropy and sensor model", options, info);
   CLI::App* two = add(commands, map, "compare", "compares two maps of the same frame and resolution, voxel by voxel",
                       options, compare_maps);

@@ -29,7 +29,7 @@ using matching::MatchResult;
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-struct Options {
+struct MatchMapsOptions {
   fs::path a, b;
   std::string method{matching::all_method_names().front()};
   std::vector<double> initial;  // x y z roll pitch yaw
@@ -38,7 +38,7 @@ struct Options {
   bool json = false;
 };
 
-Result<std::optional<UncertainPose>> guess(const Options& options) {
+Result<std::optional<UncertainPose>> guess(const MatchMapsOptions& options) {
   if (options.initial.empty()) return std::optional<UncertainPose>();
   const auto initial = pose_from_option("--initial", options.initial);
   if (!initial) return initial.error();
@@ -48,7 +48,7 @@ Result<std::optional<UncertainPose>> guess(const Options& options) {
   return std::optional(pose);
 }
 
-Result<MatchResult> match(const Options& options, const std::optional<UncertainPose>& initial,
+Result<MatchResult> match(const MatchMapsOptions& options, const std::optional<UncertainPose>& initial,
                           const mapping::SemanticOcTree& a, const mapping::SemanticOcTree& b) {
   const auto features_a = MapFeatures::build(a);
   if (!features_a) return at(options.a.string(), features_a.error());
@@ -105,7 +105,7 @@ std::string to_text(const MatchResult& r) {
       r.accepted ? "accepted" : "refused ", r.probability_correct, r.reason, r.overlap, r.inlier_ratio, r.threshold);
 }
 
-int run(const Options& options) {
+int run(const MatchMapsOptions& options) {
   const auto initial = guess(options);
   if (!initial) return app::fail(initial.error());
   const auto a = mapping::load_map(options.a), b = mapping::load_map(options.b);
@@ -131,7 +131,7 @@ int run(const Options& options) {
 void add_match_command(app::Commands& commands) {
   CLI::App* sub = commands.app.add_subcommand(
       "match", "finds the relative pose of two maps; exits with 1 where it refuses the pose");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MatchMapsOptions>();
   sub->add_option("a", options->a, "first map (.cairn, .ot or .bt); the pose is in its frame")->required();
   sub->add_option("b", options->b, "second map, whose pose is sought")->required();
   sub->add_option("--method", options->method, "method; global_6dof allows maps whose z does not point up")

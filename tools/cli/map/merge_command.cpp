@@ -33,7 +33,7 @@ namespace fs = std::filesystem;
 
 constexpr double kReach_voxels = 32768;  // OctoMap's keys have 16 bits
 
-struct Options {
+struct MergeMapsOptions {
   fs::path a, b, out;
   std::vector<double> pose;        // x y z roll pitch yaw of b in a
   std::vector<double> covariance;  // row by row; empty: the pose is exact
@@ -56,7 +56,8 @@ merging::Contributions contributions(std::shared_ptr<const mapping::SemanticOcTr
 }
 
 /// Where the fused voxels are. Writes the file, if one is asked for.
-Result<std::optional<mapping::PositionFigures>> positions(const Options& options, const mapping::SemanticOcTree& fused,
+Result<std::optional<mapping::PositionFigures>> positions(const MergeMapsOptions& options,
+                                                          const mapping::SemanticOcTree& fused,
                                                           const merging::Contributions& all,
                                                           const Matrix6& covariance) {
   if (!options.wants_positions()) return std::optional<mapping::PositionFigures>();
@@ -70,7 +71,7 @@ Result<std::optional<mapping::PositionFigures>> positions(const Options& options
   return std::optional(merging::position_figures(*found));
 }
 
-int report(const Options& options, const mapping::SemanticOcTree& fused, double seconds,
+int report(const MergeMapsOptions& options, const mapping::SemanticOcTree& fused, double seconds,
            const std::optional<mapping::PositionFigures>& places) {
   const report::MapSummary summary = report::summarise(fused);
   if (options.json) {
@@ -108,7 +109,7 @@ Result<void> check_reach(const mapping::SemanticOcTree& a, const mapping::Semant
                fmt::format("it reaches to {:.6g} m, and voxels of this size to {:.6g} m", farthest_m, reach_m)};
 }
 
-int run(const Options& options) {
+int run(const MergeMapsOptions& options) {
   if (const auto named = check_map_name(options.out); !named) return app::fail(named.error());
   const auto T_a_b = pose_from_option("--pose", options.pose);
   if (!T_a_b) return app::fail(T_a_b.error());
@@ -143,7 +144,7 @@ int run(const Options& options) {
 
 void add_merge_command(app::Commands& commands) {
   CLI::App* sub = commands.app.add_subcommand("merge", "fuses two maps into one");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<MergeMapsOptions>();
   const auto names = merging::policy_names();
   sub->add_option("a", options->a, "first map (.cairn, .ot or .bt); the result is in its frame")->required();
   sub->add_option("b", options->b, "second map")->required();

@@ -12,12 +12,13 @@ namespace {
 
 using Colour = std::array<std::uint8_t, 3>;  // blue, green, red
 
-constexpr double kNearest_m = 3, kFarthest_m = 50;
+constexpr double kNearestShown_m = 3, kFarthestShown_m = 50;
 constexpr Colour kUprightColour{255, 255, 255}, kLevelColour{0, 255, 255};
 
 /// From red over green to blue, evenly in the logarithm of the depth.
 Colour depth_colour(double depth) {
-  const double share = std::clamp(std::log(depth / kNearest_m) / std::log(kFarthest_m / kNearest_m), 0.0, 1.0);
+  const double share =
+      std::clamp(std::log(depth / kNearestShown_m) / std::log(kFarthestShown_m / kNearestShown_m), 0.0, 1.0);
   const auto ramp = [&](double peak) {
     return static_cast<std::uint8_t>(255 * std::clamp(1.5 - std::abs(4 * share - peak), 0.0, 1.0));
   };

@@ -20,7 +20,7 @@
 namespace cairn::cli {
 namespace {
 
-struct Options {
+struct SimulateOptions {
   simulator::SimulationConfig simulation;
   LiveArguments live;
   std::vector<std::string> sensors;  // by name
@@ -39,7 +39,7 @@ simulator::Progress progress_line() {
   };
 }
 
-nlohmann::ordered_json to_json(const Options& options, const std::vector<simulator::RobotSummary>& robots) {
+nlohmann::ordered_json to_json(const SimulateOptions& options, const std::vector<simulator::RobotSummary>& robots) {
   nlohmann::ordered_json object{{"scene", options.simulation.scene},
                                 {"seconds", options.simulation.seconds},
                                 {"seed", options.simulation.seed},
@@ -100,7 +100,7 @@ simulator::Sensors sensors(const std::vector<std::string>& names) {
 }
 
 /// What both kinds of simulation share.
-int run_live(Options options, bool limited) {
+int run_live(SimulateOptions options, bool limited) {
   simulator::LiveConfig& live = options.live.config;
   live.scene = options.simulation.scene;
   live.seed = options.simulation.seed;
@@ -109,7 +109,7 @@ int run_live(Options options, bool limited) {
   return cli::run_live(options.live, options.json);
 }
 
-int run(Options options) {
+int run(SimulateOptions options) {
   if (options.simulation.flies()) make_uav(options.simulation);
   options.simulation.motion = simulator::style_of(simulator::motion_of(options.motion));
   if (!options.sensors.empty()) options.simulation.sensors = sensors(options.sensors);
@@ -198,7 +198,7 @@ void add_camera_options(CLI::App& sub, simulator::StereoConfig& camera, simulato
 void add_simulate_command(app::Commands& commands) {
   CLI::App* sub = commands.app.add_subcommand(
       "simulate", "drives robots through a simulated world; writes recordings with ground truth");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<SimulateOptions>();
   simulator::SimulationConfig& s = options->simulation;
   sub->add_option("--scene", s.scene, "the world")->required()->check(CLI::IsMember(simulator::scene_names()));
   sub->add_option("--out", s.out, "new folder: gets one recording per robot, NAME_1, NAME_2, …");

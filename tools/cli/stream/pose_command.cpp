@@ -22,7 +22,7 @@ namespace {
 using client::PoseMessage;
 
 constexpr double kDegPerRad = 180 / std::numbers::pi;
-constexpr Duration kPatience = std::chrono::seconds(5);
+constexpr Duration kPosesWithin = std::chrono::seconds(5);
 
 struct PoseArguments {
   std::filesystem::path socket;
@@ -72,7 +72,7 @@ class PosePrinter {
   }
   Result<bool> idle() {
     const Duration passed = LiveClock().now() - start_;
-    if (poses_ == 0 && !complained_ && passed > kPatience) {
+    if (poses_ == 0 && !complained_ && passed > kPosesWithin) {
       complained_ = true;
       std::cerr << "cairn: no pose yet: the core has located no scan; `cairn top` shows why\n";
     }

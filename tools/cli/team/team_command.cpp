@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct Options {
+struct TeamCommandOptions {
   team_run::TeamOptions team;
   std::string link = "radio";
   bool json = false;
@@ -39,7 +39,7 @@ Result<void> find_programs(team_run::TeamOptions& team) {
 }
 
 /// One line on a terminal that overwrites itself; nothing elsewhere.
-std::function<void(double, double)> progress_line() {
+std::function<void(double, double)> team_progress_line() {
   if (::isatty(STDERR_FILENO) == 0) return {};
   return [shown = -1](double seconds, double of) mutable {
     if (static_cast<int>(seconds) == shown) return;
@@ -48,7 +48,7 @@ std::function<void(double, double)> progress_line() {
   };
 }
 
-int run(Options options) {
+int run(TeamCommandOptions options) {
   auto link = team_run::load_link(options.link);
   if (!link) return app::fail(link.error());
   options.team.link = *link;
@@ -56,7 +56,7 @@ int run(Options options) {
   app::catch_stop_signals();
   options.team.stop = app::stop_requested;
   options.team.say = [](const std::string& line) { std::cerr << "cairn team: " << line << '\n'; };
-  options.team.progress = progress_line();
+  options.team.progress = team_progress_line();
   const auto outcome = run_team(options.team);
   if (options.team.progress) std::cerr << '\n';
   if (!outcome) return app::fail(outcome.error());
@@ -69,7 +69,7 @@ int run(Options options) {
 void add_team_command(app::Commands& commands) {
   CLI::App* sub = commands.app.add_subcommand(
       "team", "runs several robots on this machine, joined by an emulated radio, and compares their team maps");
-  const auto options = std::make_shared<Options>();
+  const auto options = std::make_shared<TeamCommandOptions>();
   team_run::TeamOptions& team = options->team;
   sub->add_option("--recordings", team.recordings, "one recording per robot, or folders of recordings")->required();
   sub->add_option("--out", team.out, "new folder: gets one folder per robot, team.json and team.png")->required();

@@ -16,7 +16,7 @@
 namespace cairn::cli {
 namespace {
 
-constexpr Duration kPatience = std::chrono::seconds(5);  // the core speaks once per second
+constexpr Duration kLongestSilence = std::chrono::seconds(5);  // the core speaks once per second
 
 struct TopArguments {
   std::filesystem::path socket;
@@ -49,7 +49,7 @@ int watch(const TopArguments& a) {
   if (!client) return app::fail(client.error());
   if (!a.once && !a.json && ::isatty(STDOUT_FILENO) != 0) std::cout << "\x1b[2J";
   for (;;) {
-    const auto line = client->next(kPatience);
+    const auto line = client->next(kLongestSilence);
     if (!line) return app::fail(line.error());
     if (!*line)
       return app::fail({Errc::kLinkDown, "the core says nothing", a.socket.string(), {}, "its watch task hangs"});
