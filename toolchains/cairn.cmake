@@ -182,12 +182,17 @@ function(cairn_test name)
   gtest_discover_tests(test_${name} ${how} TEST_FILTER Full* TEST_LIST test_${name}_SLOW PROPERTIES TIMEOUT 3600 LABELS slow)
 endfunction()
 
-# cairn_fuzz(NAME SOURCE [LINK lib …]): a libFuzzer target fuzz_NAME. Without CAIRN_FUZZ the same entry point runs over
-# the corpus in tests/fuzz/corpus/NAME and over damaged copies of it, as an ordinary test with any compiler. The target
-# fuzzers is all of them.
+# cairn_fuzz(NAME SOURCE [LARGE] [LINK lib …]): a libFuzzer target fuzz_NAME. Without CAIRN_FUZZ the same entry point runs
+# over the corpus in tests/fuzz/corpus/NAME and over damaged copies of it, as an ordinary test with any compiler. The target
+# fuzzers is those of the readers, for every change. LARGE ones need large libraries, which take minutes to compile with the
+# sanitisers: all_fuzzers has them, too. tools/ci/fuzz.sh finds the names of both in build/fuzz.
 add_custom_target(fuzzers)
+add_custom_target(all_fuzzers)
+add_dependencies(all_fuzzers fuzzers)
+file(WRITE ${PROJECT_BINARY_DIR}/fuzzers.txt "")
+file(WRITE ${PROJECT_BINARY_DIR}/all_fuzzers.txt "")
 function(cairn_fuzz name source)
-  cmake_parse_arguments(A "" "" "LINK" ${ARGN})
+  cmake_parse_arguments(A "LARGE" "" "LINK" ${ARGN})
   set(corpus ${PROJECT_SOURCE_DIR}/tests/fuzz/corpus/${name})
   if(CAIRN_FUZZ)
     add_executable(fuzz_${name} ${source})
@@ -200,7 +205,13 @@ function(cairn_fuzz name source)
   endif()
   target_link_libraries(fuzz_${name} PRIVATE cairn_flags ${A_LINK})
   cairn_precompile(fuzz_${name} program)
-  add_dependencies(fuzzers fuzz_${name})
+  file(APPEND ${PROJECT_BINARY_DIR}/all_fuzzers.txt "${name}\n")
+  if(A_LARGE)
+    add_dependencies(all_fuzzers fuzz_${name})
+  else()
+    file(APPEND ${PROJECT_BINARY_DIR}/fuzzers.txt "${name}\n")
+    add_dependencies(fuzzers fuzz_${name})
+  endif()
 endfunction()
 
 # cairn_bench(NAME SOURCES … [LINK lib …]): a Google Benchmark program bench_NAME; the target benchmarks is all of them.

@@ -6,8 +6,8 @@
 #     --asan      with AddressSanitizer and UndefinedBehaviorSanitizer
 #     --tsan      with ThreadSanitizer, the rooms that use threads
 #     --clang     with clang++
-#     --fuzz      with clang++ and both of --asan, the rooms that read foreign bytes; builds all fuzz targets
-#     --fuzz-all  the same with every test
+#     --fuzz      with clang++ and both of --asan, the rooms that read foreign bytes; builds their fuzz targets
+#     --fuzz-all  the same with every test and every fuzz target
 #     --cross     for aarch64, run under qemu-user (makes the sysroot at first)
 #     --slow      the slow tests, too (alone: --slow -L slow)
 #   Further arguments go to ctest: -R mapping runs the tests of one room.
@@ -31,7 +31,7 @@ case ${1:-} in
   --fuzz)
     preset=fuzz groups+=(ci) targets=(--target fuzzers) && shift
     only hal velodyne camera thermal depth recording drive gpio networks cameras labelling alignment people \
-      picture_health stereo peer_link peer_process peers mapping generations live scheduler cli_evaluate
+      picture_health stereo peer_link peer_process peers mapping generations live scheduler people_files
     ;;
   --cross)
     # qemu-user knows neither the kernel's receive stamps nor its drop counts, without which no UDP port is opened.

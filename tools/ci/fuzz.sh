@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Builds the fuzz targets (clang, libFuzzer, both sanitisers) and runs each, two at a time:
-#   tools/ci/fuzz.sh [SECONDS [NAME…]]         each for so long, 30 s by default
+#   tools/ci/fuzz.sh [SECONDS [NAME…]]         those named, or those of all readers; each for so long, 30 s by default
 #   tools/ci/fuzz.sh NUMBERruns [NAME…]        each so often: 1000000runs
+#   tools/ci/fuzz.sh SECONDS --all             also those that need large libraries
 # New inputs stay in build/fuzz/corpus/NAME for the next run. A crash leaves its input in build/fuzz/crash.
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 
@@ -10,11 +11,15 @@ limit=-max_total_time=${1:-30}
 [[ ${1:-} != *runs ]] || limit=-runs=${1%runs}
 shift || true
 tools/packages.sh build test ci
-build fuzz --target fuzzers
 
+set_of=fuzzers
+[[ ${1:-} != --all ]] || { set_of=all_fuzzers && shift; }
 names=("$@")
 if ((${#names[@]} == 0)); then
-  for target in build/fuzz/bin/fuzz_*; do names+=("${target##*/fuzz_}"); done
+  build fuzz --target "$set_of"
+  mapfile -t names <"build/fuzz/$set_of.txt"
+else
+  build fuzz --target "${names[@]/#/fuzz_}"
 fi
 mkdir -p build/fuzz/crash
 
