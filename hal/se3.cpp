@@ -118,6 +118,10 @@ Matrix6 right_jacobian(const Vector6& xi) { return left_jacobian(-xi); }
 
 Matrix6 right_jacobian_inverse(const Vector6& xi) { return right_jacobian(xi).partialPivLu().inverse(); }
 
+Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  return Eigen::Quaterniond::FromTwoVectors(from, to);
+}
+
 double rotation_angle(const SE3& T) { return log_so3(T.quaternion()).norm(); }
 
 UncertainPose compose(const UncertainPose& a, const UncertainPose& b) {

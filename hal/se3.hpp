@@ -54,6 +54,8 @@ class SE3 {
 /// J_r(ξ) with exp(ξ + δ) ≈ exp(ξ)·exp(J_r δ).
 [[nodiscard]] Matrix6 right_jacobian(const Vector6& xi);
 [[nodiscard]] Matrix6 right_jacobian_inverse(const Vector6& xi);
+/// The smallest rotation that takes the direction of `from` to that of `to`. Eigen's FromTwoVectors, compiled once.
+[[nodiscard]] Eigen::Quaterniond rotation_between(const Eigen::Vector3d& from, const Eigen::Vector3d& to);
 /// Angle in radians of the rotation part, in [0, π].
 [[nodiscard]] double rotation_angle(const SE3& T);
 

@@ -11,4 +11,8 @@ SymmetricEigen symmetric_eigen(const Matrix6& matrix) {
       .values = solver.eigenvalues(), .vectors = solver.eigenvectors(), .converged = solver.info() == Eigen::Success};
 }
 
+Eigen::Vector2d symmetric_eigenvalues(const Eigen::Matrix2d& matrix) {
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(matrix).eigenvalues();
+}
+
 }  // namespace cairn

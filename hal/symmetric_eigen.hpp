@@ -15,5 +15,7 @@ struct SymmetricEigen {
 /// Reads the lower triangle of `matrix` alone. Eigen's SelfAdjointEigenSolver, compiled once: for six rows it takes
 /// each file that names it four seconds.
 [[nodiscard]] SymmetricEigen symmetric_eigen(const Matrix6& matrix);
+/// Ascending.
+[[nodiscard]] Eigen::Vector2d symmetric_eigenvalues(const Eigen::Matrix2d& matrix);
 
 }  // namespace cairn

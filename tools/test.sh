@@ -30,8 +30,8 @@ case ${1:-} in
   --clang | --fuzz-all) preset=${1#--} preset=${preset%-all} groups+=(ci) && shift ;;
   --fuzz)
     preset=fuzz groups+=(ci) targets=(--target fuzzers) && shift
-    only hal velodyne camera thermal depth recording drive gpio networks cameras labelling alignment people \
-      picture_health stereo peer_link peer_process peers mapping generations live scheduler people_files
+    only hal velodyne camera thermal depth recording drive gpio networks cameras peer_link peer_process peers mapping \
+      generations live scheduler people_files
     ;;
   --cross)
     # qemu-user knows neither the kernel's receive stamps nor its drop counts, without which no UDP port is opened.

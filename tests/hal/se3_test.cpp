@@ -63,6 +63,15 @@ TEST(SE3, AdjointMovesAPerturbationAcrossTheTransform) {
   }
 }
 
+TEST(SE3, RotationBetweenTwoDirectionsTakesTheShortestWay) {
+  const Eigen::Vector3d a(1, 2, 3), b(-2, 0.5, 1);
+  const Eigen::Quaterniond q = rotation_between(a, b);
+  EXPECT_LT((q * a.normalized() - b.normalized()).norm(), 1e-12);
+  const Eigen::AngleAxisd turn(q);
+  EXPECT_NEAR(std::abs(turn.axis().dot(a)) + std::abs(turn.axis().dot(b)), 0, 1e-12);
+  EXPECT_LT((rotation_between(a, -a) * a + a).norm(), 1e-6) << "any half turn about an axis across";
+}
+
 TEST(SE3, ComposeAndInverseCovarianceUseTheNumericalJacobians) {
   Random random;
   const SE3 a = SE3::exp(random.tangent(1.5)), b = SE3::exp(random.tangent(1.5));

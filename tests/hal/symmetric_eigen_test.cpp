@@ -39,5 +39,12 @@ TEST(SymmetricEigen, SaysThatANaNHasNone) {
   EXPECT_FALSE(symmetric_eigen(m).converged);
 }
 
+TEST(SymmetricEigen, ValuesOfTwoRows) {
+  const Eigen::Matrix2d turn = Eigen::Rotation2Dd(0.3).toRotationMatrix();
+  const Eigen::Vector2d values = symmetric_eigenvalues(turn * Eigen::Vector2d(5, -2).asDiagonal() * turn.transpose());
+  EXPECT_NEAR(values[0], -2, 1e-12);
+  EXPECT_NEAR(values[1], 5, 1e-12);
+}
+
 }  // namespace
 }  // namespace cairn

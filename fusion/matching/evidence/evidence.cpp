@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fusion/matching/evidence/evidence.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,6 +9,7 @@
 #include <vector>
 
 #include "fusion/matching/features/cell_index.hpp"
+#include "hal/symmetric_eigen.hpp"
 
 namespace cairn::matching {
 namespace {
@@ -189,9 +189,7 @@ Evidence weigh(const Indexed& target, const Indexed& source, const SE3& T, const
   out.conflict = share(m.in_free, m.all());
   out.reverse_conflict = share(reverse.in_free + reverse.beside, reverse.all());
   out.agreeing_floor_m2 = agreeing_places(m.places) * static_cast<double>(kPlace_m * kPlace_m);
-  if (m.agree > 0)
-    out.weakest_translation =
-        std::max(0.0, Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(m.normals / m.agree).eigenvalues()[0]);
+  if (m.agree > 0) out.weakest_translation = std::max(0.0, symmetric_eigenvalues(m.normals / m.agree)[0]);
   return out;
 }
 

@@ -87,8 +87,7 @@ double extent(std::span<const Surfel> surfels, const Eigen::Vector3d& direction)
 
 SE3 upwards(Eigen::Vector3d direction) {
   if (direction.z() < 0) direction = -direction;
-  return {Eigen::Quaterniond::FromTwoVectors(direction, Eigen::Vector3d::UnitZ()).toRotationMatrix(),
-          Eigen::Vector3d::Zero()};
+  return {rotation_between(direction, Eigen::Vector3d::UnitZ()).toRotationMatrix(), Eigen::Vector3d::Zero()};
 }
 
 }  // namespace

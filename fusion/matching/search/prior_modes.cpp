@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fusion/matching/search/prior_modes.hpp"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
 #include "fusion/matching/features/sample.hpp"
 #include "fusion/matching/features/structure.hpp"
 #include "fusion/matching/search/coarse_search.hpp"
+#include "hal/symmetric_eigen.hpp"
 
 namespace cairn::matching {
 namespace {
@@ -23,8 +23,7 @@ std::vector<Eigen::Vector3f> points_of(std::span<const Surfel> surfels) {
 SearchWindow window_of(const UncertainPose& prior, const CoarseSearchConfig& config) {
   const Eigen::Matrix3d R = prior.mean.rotation();
   const Eigen::Matrix3d position = R * prior.covariance.topLeftCorner<3, 3>() * R.transpose();
-  const double xy = std::sqrt(
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(position.topLeftCorner<2, 2>()).eigenvalues().maxCoeff());
+  const double xy = std::sqrt(symmetric_eigenvalues(position.topLeftCorner<2, 2>()).maxCoeff());
   const double z = std::sqrt(std::max(0.0, position(2, 2)));
   SearchWindow window;
   window.xy_m = std::clamp(config.sigmas * xy, config.least_xy_m, config.most_xy_m);

@@ -42,7 +42,7 @@ Eigen::Matrix3d best_rotation(const Eigen::Matrix3d& spread, const SE3& otherwis
   if (s(0) < kStandingStill_m * kStandingStill_m) return otherwise.rotation();
   if (s(1) <= 1e-9 * s(0)) {
     const Eigen::Vector3d line = otherwise.quaternion() * V.col(0);
-    return (Eigen::Quaterniond::FromTwoVectors(line, U.col(0)) * otherwise.quaternion()).toRotationMatrix();
+    return (rotation_between(line, U.col(0)) * otherwise.quaternion()).toRotationMatrix();
   }
   const double mirrored = U.determinant() * V.determinant() < 0 ? -1.0 : 1.0;
   return U * Eigen::Vector3d(1, 1, mirrored).asDiagonal() * V.transpose();
