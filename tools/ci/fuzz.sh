@@ -23,11 +23,12 @@ else
 fi
 mkdir -p build/fuzz/crash
 
-fuzz() {  # fuzz NAME: one line of result, or the fuzzer's last words
-  local name=$1 found=build/fuzz/corpus/$1 log=build/fuzz/$1.log dictionary=tests/fuzz/$1.dict options=()
+# shellcheck disable=SC2317  # xargs calls it
+fuzz() {  # fuzz LIMIT NAME: one line of result, or the fuzzer's last words
+  local name=$2 found=build/fuzz/corpus/$2 log=build/fuzz/$2.log dictionary=tests/fuzz/$2.dict options=()
   mkdir -p "$found"
   [[ ! -f $dictionary ]] || options=(-dict="$dictionary")
-  if "build/fuzz/bin/fuzz_$name" "$limit" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
+  if "build/fuzz/bin/fuzz_$name" "$1" -timeout=10 -rss_limit_mb=2048 -print_final_stats=1 \
     -artifact_prefix="build/fuzz/crash/$name-" "${options[@]}" "$found" "tests/fuzz/corpus/$name" >"$log" 2>&1; then
     awk -v name="$name" '/number_of_executed_units/ {n = $2} /peak_rss_mb/ {rss = $2} / cov: / {sub(/.* cov: /, ""); cov = $1}
       END {printf "  %-24s %10d runs  %6d edges  %5d MB\n", name, n, cov, rss}' "$log"
@@ -37,11 +38,7 @@ fuzz() {  # fuzz NAME: one line of result, or the fuzzer's last words
     return 1
   fi
 }
+export -f fuzz
 
-bad=0
-for ((i = 0; i < ${#names[@]}; i += 2)); do
-  pids=()
-  for name in "${names[@]:i:2}"; do fuzz "$name" & pids+=($!); done
-  for pid in "${pids[@]}"; do wait "$pid" || bad=1; done
-done
-exit "$bad"
+# shellcheck disable=SC2016  # expanded by the inner shell
+printf '%s\n' "${names[@]}" | xargs -d '\n' -n 1 -P 2 bash -c 'fuzz "$0" "$1"' "$limit"
