@@ -7,6 +7,7 @@
 # New inputs stay in build/fuzz/corpus/NAME for the next run. A crash leaves its input in build/fuzz/crash.
 source "$(dirname "${BASH_SOURCE[0]}")/../common.sh"
 
+[[ ${1:-30} =~ ^[0-9]+(runs)?$ ]] || { sed -n '3,6s/^# //p' "${BASH_SOURCE[0]#"$PWD/"}" >&2; exit 2; }
 limit=-max_total_time=${1:-30}
 [[ ${1:-} != *runs ]] || limit=-runs=${1%runs}
 shift || true
