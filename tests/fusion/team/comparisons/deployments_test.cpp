@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <initializer_list>
+
 #include "fusion/matching/belief/guess.hpp"
 #include "tests/fusion/team/comparisons/known_team.hpp"
 
@@ -120,7 +122,7 @@ TEST_F(FirmDeploymentsTest, InTheOdomOfATeammate) {
 }
 
 TEST_F(FirmDeploymentsTest, ACircleSaysNothingOfAThird) {
-  for (const peers::RobotId robot : {1, 2, 3}) hear_of(robot);
+  for (const peers::RobotId robot : std::initializer_list<peers::RobotId>{1, 2, 3}) hear_of(robot);
   put(2, 3, KnownTeam::at(1, 0));
   put(3, 2, KnownTeam::at(-1, 0));
   EXPECT_FALSE(off(1, 2, SE3()));
