@@ -105,7 +105,7 @@ struct OdometryConfig {
   // Map of the recent past
   double finest_block_m = 0.5;     ///< m, edge of the smallest blocks; the others have 2 and 4 times this
   double window_m = 80.0;          ///< m, radius around the robot in which the map is kept
-  int max_blocks = 1 << 16;        ///< in each of the two finest grids, half as many in each coarser one: 42 MB in all
+  int max_blocks = 1 << 16;        ///< in each of the two finest grids, half as many in each coarser one: 50 MB in all
   int max_points_per_block = 400;  ///< a block that has seen so many does not change any more
 
   /// s. A surface that has been seen for less time is fresh. It was made with the twist that is now estimated, so it

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hal/huge_pages.hpp"
 #include "onboard/odometry/local_map/patch.hpp"
 
 namespace cairn::odometry {
@@ -104,11 +105,11 @@ class PatchGrid {
   double edge_;
   double half_;  // centre of block 0 in blocks: ½, or 0 when staggered
   Limits limits_;
-  std::vector<Slot> slots_;
+  HugePageVector<Slot> slots_;
   std::vector<BlockIndex> index_;  // dense, in order of creation, like the arrays below
   std::vector<Side> side_;
-  std::vector<Moments> moments_;
-  std::vector<Patch> patches_;
+  HugePageVector<Moments> moments_;
+  HugePageVector<Patch> patches_;
   std::vector<float> first_s_;        // when the block's first point was seen
   std::vector<float> fitted_;         // count at the last fit; negative while the block waits for the next
   std::vector<std::uint32_t> grown_;  // blocks to be fitted

@@ -6,6 +6,8 @@
 #include <span>
 #include <vector>
 
+#include "hal/huge_pages.hpp"
+
 namespace cairn::odometry {
 
 /// Thins a cloud: of the points that fall into one cube of a grid, one is kept. It is drawn at random, and is the same
@@ -30,7 +32,7 @@ class Subsample {
     std::uint32_t call;      // the slot is taken if this is the present call
     std::uint32_t position;  // of the point in kept_
   };
-  std::vector<Slot> slots_;
+  HugePageVector<Slot> slots_;
   std::vector<std::uint32_t> kept_;
   std::uint32_t call_ = 0;
 };
