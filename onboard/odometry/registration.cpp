@@ -18,6 +18,10 @@ constexpr int kFewTelling = 60;
 // 10 m as far.
 constexpr double kConverged_m = 2e-4, kConverged_rad = 2e-5;
 
+bool is_small(const Vector12& step) {
+  return step.head<3>().norm() < kConverged_m && step.segment<3>(3).norm() < kConverged_rad;
+}
+
 }  // namespace
 
 double Fit::inlier_ratio() const {
@@ -72,22 +76,26 @@ Fit Registration::align(const Selection& scan, const PatchMap& map, const Motion
   fit.state = start;
   const int max_steps = std::min(max_iterations_, effort.max_steps);
   double gate_m = std::clamp(effort.gate_m, narrowest_gate_m_, widest_gate_m_);
+  Vector12 last = Vector12::Zero();
   while (!fit.converged && fit.iterations < max_steps && budget.one_more()) {
-    iterate(fit, linearise(scan, map, fit.state, gate_m), filter, gate_m <= narrowest_gate_m_,
-            effort.share * min_facing_points_);
+    const Vector12 step =
+        iterate(fit, linearise(scan, map, fit.state, gate_m), filter, effort.share * min_facing_points_);
+    // A step that undoes the last one would be undone in turn: a few points change between two patches for ever.
+    fit.converged = gate_m <= narrowest_gate_m_ && (is_small(step) || is_small(last + step));
+    last = step;
     gate_m = std::max(narrowest_gate_m_, kGateShrink * gate_m);
   }
   return fit;
 }
 
-void Registration::iterate(Fit& fit, const NormalEquations& all, const MotionFilter& filter, bool narrowest,
-                           double min_facing_points) const {
+Vector12 Registration::iterate(Fit& fit, const NormalEquations& all, const MotionFilter& filter,
+                               double min_facing_points) const {
   fit.degeneracy = find_degeneracy(all, linearise_.rows(), min_facing_points);
   fit.equations = without_degenerate(all, fit.degeneracy);
   const Vector12 step = filter.step(fit.state, {fit.equations, fit.degeneracy, correlation_factor_});
   fit.state = fit.state + step;
   ++fit.iterations;
-  fit.converged = narrowest && step.head<3>().norm() < kConverged_m && step.segment<3>(3).norm() < kConverged_rad;
+  return step;
 }
 
 int Registration::inliers(const Selection& scan, const PatchMap& map, const MotionState& at, double gate_m) {

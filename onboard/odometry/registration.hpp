@@ -72,8 +72,7 @@ class Registration {
   [[nodiscard]] std::span<const KeypointUse> uses() const { return linearise_.uses(); }
 
  private:
-  void iterate(Fit& fit, const NormalEquations& all, const MotionFilter& filter, bool narrowest,
-               double min_facing_points) const;
+  Vector12 iterate(Fit& fit, const NormalEquations& all, const MotionFilter& filter, double min_facing_points) const;
   [[nodiscard]] NormalEquations linearise(const Selection& scan, const PatchMap& map, const MotionState& at,
                                           double gate_m);
 
