@@ -106,6 +106,10 @@ int Registration::telling_inliers(const Selection& scan, const PatchMap& map, co
   return linearise(scan, map, at, gate_m).telling_inliers;
 }
 
+double Registration::weight(const Selection& scan, const PatchMap& map, const MotionState& at, double gate_m) {
+  return linearise(scan, map, at, gate_m).robust;
+}
+
 NormalEquations Registration::linearise(const Selection& scan, const PatchMap& map, const MotionState& at,
                                         double gate_m) {
   const Linearisation here{.T_odom_base = at.T_odom_base,

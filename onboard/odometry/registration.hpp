@@ -68,6 +68,9 @@ class Registration {
   [[nodiscard]] int inliers(const Selection& scan, const PatchMap& map, const MotionState& at, double gate_m);
   /// The same for keypoints that are not on floors or ceilings.
   [[nodiscard]] int telling_inliers(const Selection& scan, const PatchMap& map, const MotionState& at, double gate_m);
+  /// Sum of the keypoints' robust weights at `at`. Unlike inliers() it also grows while points come nearer to their
+  /// patches.
+  [[nodiscard]] double weight(const Selection& scan, const PatchMap& map, const MotionState& at, double gate_m);
   /// Which epochs of the map the last call has used, one entry per keypoint.
   [[nodiscard]] std::span<const KeypointUse> uses() const { return linearise_.uses(); }
 

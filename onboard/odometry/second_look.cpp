@@ -2,6 +2,7 @@
 #include "onboard/odometry/second_look.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <tuple>
 
@@ -21,6 +22,12 @@ constexpr double kLeastLevel = 0.05;
 // Of the usual share of these. Walks through simulated offices went astray where a nod of 5° within a scan left a
 // seventh to two thirds of them.
 constexpr double kTilted = 0.75;
+// Of the usual deviation from the usual share, how much is unusual. In offices nearly all scans fit alike (0.006): a
+// wrong fit that lost a fifteenth of the points was not doubtful, and the scans after it were lost with it.
+constexpr double kUnusual = 4;
+// Of the share of points that fit, in all: less is never unusual. One odd scan changes the deviation by a fifth at
+// most.
+constexpr double kLeastSpread = 0.003, kMostOdd = 3;
 // Times as many of these must fit, or the floor is not found again. Wrong places had 1.02, a right one 1.6.
 constexpr double kFound = 1.25;
 
@@ -30,12 +37,28 @@ constexpr double kFound = 1.25;
 constexpr double kPoor = 0.4;
 constexpr double kFine_m = 0.125, kFineYaw_rad = 0.03;
 constexpr int kFineSteps = 5;
+
+// A walker's nod changes the tilt by up to 6° from scan to scan (0.05 rad, 1.9 steps a second, 1.5 m/s): the prediction
+// is so far off, and registration ends between the floor and the trunks. A roll changes it by half as much.
+constexpr double kTiltStep_rad = 0.05;
+constexpr int kTiltSteps = 2;        // to each side, of roll and pitch together
+constexpr double kTiltGate_m = 0.5;  // half a step in tilt moves a point at 20 m so far
+constexpr std::size_t kTiltPoints = 500;
+
 constexpr std::size_t kThird = 3, kAskedFully = 6, kRefined = 2;
 
 /// About so many of them, evenly spread.
 void add_some(std::span<const Keypoint> from, std::size_t wanted, std::vector<Keypoint>& out) {
   const std::size_t stride = from.size() / wanted + 1;
   for (std::size_t i = 0; i < from.size(); i += stride) out.push_back(from[i]);
+}
+
+MotionState tilted_by(const MotionState& from, double roll, double pitch, double dt_s) {
+  Vector12 change = Vector12::Zero();
+  change[3] = roll;
+  change[4] = pitch;
+  change.tail<6>() = change.head<6>() / dt_s;
+  return from + change;
 }
 
 }  // namespace
@@ -47,8 +70,10 @@ SecondLook::SecondLook(const OdometryConfig& config, const SE3& T_base_lidar)
       search_(T_base_lidar) {}
 
 bool SecondLook::needed(const Fit& first, double dt_s) const {
-  return dt_s > config_.long_step_s || doubtful(first) || tilted(first);
+  return dt_s > config_.long_step_s || doubtful(first) || unusual(first) || tilted(first);
 }
+
+bool SecondLook::unusual(const Fit& fit) const { return fit.telling_share() < usual_share_ - kUnusual * usual_spread_; }
 
 bool SecondLook::doubtful(const Fit& fit) const { return fit.telling_share() < config_.doubtful_share * usual_share_; }
 
@@ -70,6 +95,8 @@ bool SecondLook::sure(const Fit& fit, double dt_s) const {
 
 void SecondLook::learn(const Fit& fit) {
   const double change = fit.telling_share() - usual_share_;
+  const double odd = std::min(std::abs(change), kMostOdd * usual_spread_);
+  usual_spread_ = std::max(kLeastSpread, usual_spread_ + kRise * (odd - usual_spread_));
   usual_share_ += (change > 0 ? kRise : kFall) * change;
   usual_level_ += kRise * (fit.level_share() - usual_level_);
 }
@@ -80,6 +107,7 @@ std::optional<Fit> SecondLook::find(const Selection& scan, const PatchMap& map, 
   choose(scan, wide.state().T_odom_base);
   const auto places = search_.find({.for_map = {}, .keypoints = telling_, .duration_s = scan.duration_s}, map,
                                    wide.state(), wide.uncertainty().local, dt_s);
+  const MotionState predicted = wide.state();
   const Selection few{.for_map = {}, .keypoints = few_, .duration_s = scan.duration_s};
   const double share = static_cast<double>(few_.size()) / static_cast<double>(scan.keypoints.size());
   MotionState start = first.state;
@@ -96,6 +124,11 @@ std::optional<Fit> SecondLook::find(const Selection& scan, const PatchMap& map, 
   if (most < kPoor * static_cast<double>(telling_.size())) {
     for (const MotionState& place : places.first(std::min(places.size(), kRefined)))
       attempt(refined(place, map, dt_s, registration));
+  }
+  const bool far = dt_s > config_.long_step_s;
+  if (usual_level_ > kLeastLevel && (far || doubtful(first) || tilted(first))) {
+    const bool found = far && !places.empty();  // the prediction says little then
+    attempt(nodded(scan, found ? places.front() : predicted, map, dt_s, registration));
   }
   wide.believe(start);
   Fit again = registration.align(scan, map, wide, start, budget, {kLastGate_m});
@@ -127,6 +160,27 @@ MotionState SecondLook::refined(const MotionState& place, const PatchMap& map, d
   between_.resize(kAskedFully);
   for (Counted& counted : between_) counted.fits = count(telling_, counted.state);
   return std::ranges::max_element(between_, {}, &Counted::fits)->state;
+}
+
+/// Where most of the scan comes near to the map, if the base has only tilted otherwise than `from` says.
+MotionState SecondLook::nodded(const Selection& scan, const MotionState& from, const PatchMap& map, double dt_s,
+                               Registration& registration) {
+  some_.clear();
+  add_some(scan.keypoints, kTiltPoints, some_);
+  const Selection some{.for_map = {}, .keypoints = some_, .duration_s = scan.duration_s};
+  MotionState best = from;
+  double most = 0;
+  for (int roll = -kTiltSteps; roll <= kTiltSteps; ++roll) {
+    const int reach = kTiltSteps - std::abs(roll);
+    for (int pitch = -reach; pitch <= reach; ++pitch) {
+      const MotionState state = tilted_by(from, kTiltStep_rad * roll, kTiltStep_rad * pitch, dt_s);
+      const double weight = registration.weight(some, map, state, kTiltGate_m);
+      if (weight <= most) continue;
+      most = weight;
+      best = state;
+    }
+  }
+  return best;
 }
 
 /// What is searched with, and what the places found are tried with: also points on floors, which

@@ -53,6 +53,7 @@ class SecondLook {
   void reset() {
     usual_share_ = 1;
     usual_level_ = 0;
+    usual_spread_ = kFirstSpread;
   }
 
   static constexpr int kStepsOfATrial = 8;  ///< of its registration
@@ -60,10 +61,16 @@ class SecondLook {
   static constexpr int kTrialSteps = 2 * static_cast<int>(CoarseSearch::kPlaces) * kStepsOfATrial;
 
  private:
+  static constexpr double kFirstSpread = 0.02;
+
+  /// Fewer fit than the share's usual fluctuation explains.
+  [[nodiscard]] bool unusual(const Fit& fit) const;
   [[nodiscard]] bool tilted(const Fit& fit) const;
   [[nodiscard]] bool better(const Fit& again, const Fit& first) const;
   void choose(const Selection& scan, const SE3& T_odom_base);
 
+  [[nodiscard]] MotionState nodded(const Selection& scan, const MotionState& from, const PatchMap& map, double dt_s,
+                                   Registration& registration);
   [[nodiscard]] MotionState refined(const MotionState& place, const PatchMap& map, double dt_s,
                                     Registration& registration);
 
@@ -73,8 +80,9 @@ class SecondLook {
   UprightPoints upright_;
   CoarseSearch search_;
   double usual_share_ = 1, usual_level_ = 0;
-  double duration_s_ = 0;                        // of the scan
-  std::vector<Keypoint> telling_, third_, few_;  // of its keypoints
+  double usual_spread_ = kFirstSpread;                  // mean difference of a share to the usual one
+  double duration_s_ = 0;                               // of the scan
+  std::vector<Keypoint> telling_, third_, few_, some_;  // of its keypoints
   struct Counted {
     MotionState state;
     int fits = 0;

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <limits>
+#include <random>
 
 #include "onboard/odometry/motion_prior.hpp"
 #include "tests/onboard/odometry/room_points.hpp"
@@ -23,11 +24,24 @@ Fit fit_of(int telling, int inliers) {
 
 TEST(SecondLook, IsNeededIfFewerPointsFitThanUsual) {
   SecondLook look({}, {});
-  for (int i = 0; i < 200; ++i) look.learn(fit_of(1000, 800));
+  for (int i = 0; i < 200; ++i) look.learn(fit_of(1000, i % 2 == 0 ? 780 : 820));
   EXPECT_FALSE(look.needed(fit_of(1000, 760), kStep_s));
   EXPECT_TRUE(look.needed(fit_of(1000, 730), kStep_s));
   EXPECT_TRUE(look.needed(fit_of(0, 0), kStep_s)) << "nothing fits";
   EXPECT_TRUE(look.needed(fit_of(1000, 990), 0.5)) << "after half a second the prediction says little";
+}
+
+TEST(SecondLook, IsNeededEarlierWhereAllScansFitAlike) {
+  SecondLook look({}, {});
+  for (int i = 0; i < 200; ++i) look.learn(fit_of(1000, i % 2 == 0 ? 965 : 975));
+  EXPECT_TRUE(look.needed(fit_of(1000, 920), kStep_s));
+  look.reset();
+  for (int i = 0; i < 200; ++i) look.learn(fit_of(1000, i % 2 == 0 ? 940 : 990));
+  EXPECT_FALSE(look.needed(fit_of(1000, 920), kStep_s));
+  for (int i = 0; i < 200; ++i) look.learn(fit_of(1000, 970));
+  EXPECT_FALSE(look.needed(fit_of(1000, 960), kStep_s)) << "a hundredth less is never unusual";
+  look.learn(fit_of(1000, 500));
+  EXPECT_TRUE(look.needed(fit_of(1000, 920), kStep_s)) << "one odd scan does not make others usual";
 }
 
 TEST(SecondLook, OnAnOpenFieldTheFloorIsAllThatCanFit) {
@@ -83,10 +97,10 @@ class SecondLookInARoom : public ::testing::Test {
     narrow_.predict(kStep_s, MotionPrior({}).usual(true));
     wide_.predict(kStep_s, MotionPrior({}).anything(kStep_s));
   }
-  Selection scan_from(const SE3& truth) {
+  Selection scan_from(const SE3& truth) { return scan_of(Room(3).points(2000, 0.01), truth); }
+  Selection scan_of(const std::vector<Eigen::Vector3d>& points, const SE3& truth) {
     keypoints_.clear();
-    for (const Eigen::Vector3d& p : Room(3).points(2000, 0.01))
-      keypoints_.push_back({(truth.inverse() * p).cast<float>(), 0});
+    for (const Eigen::Vector3d& p : points) keypoints_.push_back({(truth.inverse() * p).cast<float>(), 0});
     return {.for_map = {}, .keypoints = keypoints_, .duration_s = 0};
   }
   Fit first(const Selection& scan) {
@@ -120,6 +134,41 @@ TEST_F(SecondLookInARoom, FindsWhatTheFirstHasMissed) {
     EXPECT_LT((found->state.T_odom_base.inverse() * truth).log().norm(), 0.01) << yaw;
     EXPECT_EQ(registration_.uses().size(), scan.keypoints.size());
   }
+}
+
+/// Rough ground with slim trunks, as far as a scan reaches.
+std::vector<Eigen::Vector3d> forest(unsigned seed, std::size_t n) {
+  std::mt19937 random(seed), places(7);
+  std::uniform_real_distribution<double> far(-20, 20), high(-1, 2);
+  std::normal_distribution<double> bark(0, 0.02), ground(-1, 0.1);
+  std::vector<Eigen::Vector3d> trunks, out;
+  for (int i = 0; i < 200; ++i) trunks.emplace_back(far(places), far(places), 0);
+  for (std::size_t i = 0; i < n; ++i) {
+    const Eigen::Vector3d& trunk = trunks[i / 3 % trunks.size()];
+    if (i % 3 == 0)
+      out.emplace_back(trunk + Eigen::Vector3d(bark(random), bark(random), high(random)));
+    else
+      out.emplace_back(far(random), far(random), ground(random));
+  }
+  return out;
+}
+
+TEST_F(SecondLookInARoom, FindsTheTiltOfANodInAForest) {
+  map_.clear();
+  map_.insert(forest(1, 60000), Room::sensor(), 0, workers_);
+  for (int i = 0; i < 100; ++i) look_.learn(fit_with_level(1000));
+  int found = 0;
+  for (const double roll : {0.0, 0.06, -0.05, 0.03}) {
+    for (const double pitch : {-0.12, -0.1, -0.08, 0.08, 0.12}) {
+      const SE3 truth = SE3::from_xyz_rpy((Vector6() << 0.1, 0.02, 0.02, roll, pitch, 0.02).finished());
+      const Selection scan = scan_of(forest(2, 2000), truth);
+      const MotionFilter prediction = wide_;
+      const auto fit = second(scan, first(scan));
+      wide_ = prediction;
+      found += fit && (fit->state.T_odom_base.inverse() * truth).log().norm() < 0.1 ? 1 : 0;
+    }
+  }
+  EXPECT_GE(found, 18) << "of 20; without a search for the tilt, half of them";
 }
 
 TEST_F(SecondLookInARoom, LeavesAGoodFitAlone) {
