@@ -14,7 +14,8 @@ namespace cairn::odometry {
 
 /// Looks for the robot around a prediction that says little: over headings and over positions in
 /// the plane, by how many upright points of the scan fall on upright things of the map. Roll, pitch
-/// and height stay as predicted; they hardly matter here, and registration finds them.
+/// and height stay as predicted: they hardly matter here. SecondLook searches roll and pitch, and registration finds
+/// the height.
 class CoarseSearch {
  public:
   static constexpr std::size_t kPlaces = 4;  ///< that are found at most

@@ -25,8 +25,8 @@ constexpr double kTilted = 0.75;
 // Of the usual deviation from the usual share, how much is unusual. In offices nearly all scans fit alike (0.006): a
 // wrong fit that lost a fifteenth of the points was not doubtful, and the scans after it were lost with it.
 constexpr double kUnusual = 4;
-// Of the share of points that fit, in all: less is never unusual. One odd scan changes the deviation by a fifth at
-// most.
+// The deviation counts as this share of the points at least: a hundredth fewer is never unusual. One odd scan changes
+// it by a fifth at most.
 constexpr double kLeastSpread = 0.003, kMostOdd = 3;
 // Times as many of these must fit, or the floor is not found again. Wrong places had 1.02, a right one 1.6.
 constexpr double kFound = 1.25;
