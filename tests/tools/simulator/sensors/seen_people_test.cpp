@@ -146,7 +146,7 @@ TEST(SeenPeople, AFrozenThermalPictureShowsPeopleWhereTheyWere) {
   Workers workers(1);
   Packet packet;
   SeenPeople seen;
-  const auto boxes = [&](const ThermalCamera& camera, Duration later) {
+  const auto boxes = [&, t = t](const ThermalCamera& camera, Duration later) {
     camera.shoot(1, t + later, workers, packet, &seen);
     return seen.boxes(kAnything);
   };
