@@ -61,7 +61,9 @@ void declare_tracking(config::Section& s, OdometryConfig& c) {
   s.integer("min_matches", c.min_matches, {6, 10000}, "", "lost if fewer points lie near planes");
   s.number("min_facing_points", c.min_facing_points, {1.0, 1000.0}, "",
            "a direction is degenerate if fewer points look at a surface that faces it");
-  s.integer("reinitialise_after", c.reinitialise_after, {1, 1000}, "", "lost scans in a row before a new map is begun");
+  s.integer("reinitialise_after", c.reinitialise_after, {1, 1000}, "",
+            "lost scans in a row before a new map is begun, where wheels tell the motion");
+  s.integer("give_up_after", c.give_up_after, {1, 10000}, "", "the same, where nothing tells it");
 }
 
 }  // namespace
