@@ -7,6 +7,8 @@
 #include <string>
 #include <utility>
 
+#include "onboard/mapping/tree/tile_state.hpp"
+
 namespace cairn::mapping {
 namespace {
 
@@ -57,8 +59,7 @@ std::unique_ptr<SemanticOcTree> Mapper::begin_anew() {
 }
 
 Result<InsertReport> Mapper::insert(std::span<const Eigen::Vector3f> points_map, const Eigen::Vector3f& origin_map) {
-  if (tree_->memoryUsage() > std::max(megabytes(config_.max_mb), megabytes(config_.reserve_mb) + kMegabyte))
-    return Error{Errc::kLimit, "the map is as large as allowed", {}, {}, std::to_string(config_.max_mb) + " MB"};
+  if (const auto fit = room(); !fit) return fit.error();
   const auto counts = rays_.prepare(points_map, origin_map, footprints_.front());
   if (!counts) return counts.error();
   if (!march())
@@ -110,6 +111,21 @@ std::size_t Mapper::take_back(std::span<const Eigen::Vector3f> points_map) {
   const std::size_t voxels = retraction_.take_back(points_map, *tree_, changed_now_);
   note_changed();
   return voxels;
+}
+
+Result<void> Mapper::room() const {
+  if (tree_->memoryUsage() > std::max(megabytes(config_.max_mb), megabytes(config_.reserve_mb) + kMegabyte))
+    return Error{Errc::kLimit, "the map is as large as allowed", {}, {}, std::to_string(config_.max_mb) + " MB"};
+  return {};
+}
+
+Result<void> Mapper::fill(std::span<const TileKey> tiles, const SemanticOcTree& other) {
+  if (auto fit = room(); !fit) return fit;
+  changed_now_.clear();
+  for (const TileKey tile : tiles)
+    if (fill_tile(*tree_, tile, other)) changed_now_.push_back(tile);
+  note_changed();
+  return {};
 }
 
 Standing Mapper::standing(const Eigen::Vector3f& p) const {

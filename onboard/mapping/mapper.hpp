@@ -76,6 +76,10 @@ class Mapper {
   /// changed.
   std::size_t take_back(std::span<const Eigen::Vector3f> points_map);
 
+  /// Adds to these tiles, in canonical order, what `other` knows and the map does not; see fill_tile(). On an error
+  /// (kLimit: the map's memory) the map is as before.
+  Result<void> fill(std::span<const TileKey> tiles, const SemanticOcTree& other);
+
   /// What the map knows of a point's voxel.
   [[nodiscard]] Standing standing(const Eigen::Vector3f& point_map) const;
 
@@ -95,6 +99,7 @@ class Mapper {
   void set_up();
   [[nodiscard]] bool march();
   void note_changed();
+  [[nodiscard]] Result<void> room() const;
 
   MappingConfig config_;
   Workers& workers_;

@@ -41,6 +41,16 @@ void clear_below(NodeWriter& writer, SemanticNode* node) {
   writer.drop_block(node);
 }
 
+/// The node of a tile, or the leaf above it that stands for it; null: nothing is known there.
+const SemanticNode* node_of(const SemanticOcTree& map, TileKey tile) {
+  const SemanticNode* node = map.getRoot();
+  for (unsigned depth = 0; node != nullptr && depth < kTileDepth && node->block() != nullptr; ++depth) {
+    node = node->block() + child_on_path(tile, depth);
+    if (!node->present()) return nullptr;
+  }
+  return node;
+}
+
 bool childless(const SemanticNode* node) {
   return std::none_of(node->block(), node->block() + SemanticNode::kChildren,
                       [](const SemanticNode& child) { return child.present(); });
@@ -123,11 +133,7 @@ void TileState::set(unsigned x, unsigned y, unsigned z, float log_odds, float th
 
 TileState read_tile(const SemanticOcTree& map, TileKey tile) {
   TileState state;
-  const SemanticNode* node = map.getRoot();
-  for (unsigned depth = 0; node != nullptr && depth < kTileDepth && node->block() != nullptr; ++depth) {
-    node = node->block() + child_on_path(tile, depth);
-    if (!node->present()) return state;
-  }
+  const SemanticNode* node = node_of(map, tile);
   if (node == nullptr) return state;
   TileVoxels voxels;
   read_voxels(*node, voxels);
@@ -175,6 +181,26 @@ void write_tile(SemanticOcTree& map, TileKey tile, const TileVoxels& voxels, con
   }
   map.settle_count();
   if (!known) map.clear();
+}
+
+bool fill_tile(SemanticOcTree& map, TileKey tile, const SemanticOcTree& other) {
+  const SemanticNode *own = node_of(map, tile), *others = node_of(other, tile);
+  if (others == nullptr) return false;
+  TileVoxels voxels, added;
+  TileLabels labels{}, added_labels{};
+  voxels.fill(SemanticNode::kAbsent);
+  if (own != nullptr) read_voxels(*own, voxels);
+  read_voxels(*others, added);
+  bool labelled = own != nullptr && read_labels(*own, labels), changed = false;
+  labelled = read_labels(*others, added_labels) || labelled;
+  for (std::size_t i = 0; i < voxels.size(); ++i) {
+    if (voxels[i] != SemanticNode::kAbsent || added[i] == SemanticNode::kAbsent) continue;
+    voxels[i] = added[i];
+    labels[i] = added_labels[i];
+    changed = true;
+  }
+  if (changed) write_tile(map, tile, voxels, labelled ? &labels : nullptr);
+  return changed;
 }
 
 std::vector<TileKey> known_tiles(const SemanticOcTree& map, std::size_t most) {

@@ -67,6 +67,10 @@ void write_tile(SemanticOcTree& map, TileKey tile, const TileState& state);
 /// The same for any log-odds; `labels` null: none.
 void write_tile(SemanticOcTree& map, TileKey tile, const TileVoxels& voxels, const TileLabels* labels = nullptr);
 
+/// Adds to one tile of the map what `other`, a map of the same grid and resolution, knows of voxels of which the map
+/// knows nothing. Voxels that the map knows stay as they are. The map stays canonical. True: the tile has changed.
+bool fill_tile(SemanticOcTree& map, TileKey tile, const SemanticOcTree& other);
+
 /// Every tile in which the map knows something, in canonical order; not more than `most`.
 [[nodiscard]] std::vector<TileKey> known_tiles(const SemanticOcTree& map, std::size_t most);
 

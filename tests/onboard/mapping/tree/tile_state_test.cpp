@@ -213,5 +213,31 @@ TEST(TileState, ALeafAboveTheTileIsTakenApart) {
   EXPECT_EQ(known_tiles(map, 5).size(), 5U);
 }
 
+/// Voxel by voxel: the map's own word, where it has one, or else the other's.
+TEST(TileState, FillingATileAddsOnlyWhatIsNotKnown) {
+  for (unsigned seed = 0; seed < 6; ++seed) {
+    std::mt19937 random(seed);
+    SemanticOcTree map(0.2), other(0.2);
+    for (int i = 0; i < 200; ++i) write_tile(map, random_tile(random), random_state(random));
+    for (int i = 0; i < 200; ++i) write_tile(other, random_tile(random), random_state(random));
+    const SemanticOcTree before(map);
+    std::size_t changed = 0;
+    for (const TileKey tile : known_tiles(other, kAll)) changed += fill_tile(map, tile, other) ? 1 : 0;
+    EXPECT_GT(changed, 0U);
+    ASSERT_TRUE(map.is_canonical());
+    ASSERT_EQ(map.size(), map.calcNumNodes());
+    for (const TileKey tile : known_tiles(map, kAll)) {
+      const TileState own = read_tile(before, tile), others = read_tile(other, tile), filled = read_tile(map, tile);
+      for (unsigned i = 0; i < 512; ++i) {
+        const unsigned x = i % 8, y = i / 8 % 8, z = i / 64;
+        const TileState& source = own.log_odds(x, y, z) != SemanticNode::kAbsent ? own : others;
+        ASSERT_EQ(filled.log_odds(x, y, z), source.log_odds(x, y, z));
+        ASSERT_EQ(filled.label(x, y, z), source.label(x, y, z));
+      }
+    }
+    for (const TileKey tile : known_tiles(other, kAll)) EXPECT_FALSE(fill_tile(map, tile, other)) << "again";
+  }
+}
+
 }  // namespace
 }  // namespace cairn::mapping
