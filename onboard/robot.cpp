@@ -143,12 +143,7 @@ void Robot::begin_map(std::uint32_t epoch) {
   map_began_.reset();
   if (people_) people_->clear();
   mates_.clear();
-  const std::uint32_t ended = std::exchange(mapped_epoch_, epoch);
-  if (before->size() == 0) return;
-  earlier_.push_back({.epoch = ended, .tree = std::move(before)});
-  if (earlier_.size() <= kEarlierMaps) return;
-  ++dropped_maps_;
-  earlier_.erase(std::ranges::min_element(earlier_, {}, [](const EarlierMap& map) { return map.tree->size(); }));
+  earlier_.keep(std::exchange(mapped_epoch_, epoch), std::move(before));
 }
 
 Result<void> Robot::extend_map(const LocatedScan& scan, const MapShare& share) {

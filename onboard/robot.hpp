@@ -15,6 +15,7 @@
 #include "hal/result.hpp"
 #include "hal/se3.hpp"
 #include "hal/workers.hpp"
+#include "onboard/earlier_maps.hpp"
 #include "onboard/mapping/mapper.hpp"
 #include "onboard/odometry/odometry.hpp"
 #include "onboard/perception/cameras/camera_model.hpp"
@@ -122,12 +123,6 @@ struct Resume {
   std::span<const visual_odometry::Keyframe> keyframes{};  ///< of a robot that both eyes tell its motion
 };
 
-/// The map of an epoch that has ended.
-struct EarlierMap {
-  std::uint32_t epoch = 0;
-  std::unique_ptr<mapping::SemanticOcTree> tree;
-};
-
 /// One robot: scans and labels of pictures in, trajectory and map out. Deterministic for any number of threads.
 /// locate() and extend_map() may run at the same time on two threads.
 class Robot {
@@ -203,11 +198,17 @@ class Robot {
   [[nodiscard]] std::uint64_t cleared_voxels() const { return cleared_voxels_; }
   /// Of map(). It may lag behind the last TrackPoint's.
   [[nodiscard]] std::uint32_t map_epoch() const { return mapped_epoch_; }
-  static constexpr std::size_t kEarlierMaps = 3;
-  /// Maps of earlier epochs, the oldest first: at most kEarlierMaps, the largest ones.
-  [[nodiscard]] const std::vector<EarlierMap>& earlier_maps() const { return earlier_; }
-  /// Maps of earlier epochs that are no longer there, because larger ones came.
-  [[nodiscard]] std::size_t dropped_maps() const { return dropped_maps_; }
+  /// Maps of epochs that have ended. Of extend_map()'s thread.
+  [[nodiscard]] const EarlierMaps& earlier_maps() const { return earlier_; }
+  /// Adds to these tiles, in canonical order, what `moved` knows and map() does not: an earlier map in the frame of
+  /// map(). Of extend_map()'s thread. Error kLimit: the map's memory.
+  Result<void> fill_map(std::span<const mapping::TileKey> tiles, const mapping::SemanticOcTree& moved) {
+    return mapper_.fill(tiles, moved);
+  }
+  /// All that the map of epoch `earlier` knows has been added to map(), in which it lies so. Of extend_map()'s thread.
+  void note_joined(std::uint32_t earlier, const UncertainPose& T_map_earlier) {
+    earlier_.join(earlier, mapped_epoch_, T_map_earlier);
+  }
   [[nodiscard]] std::span<const mapping::TileKey> changed_tiles() const { return mapper_.changed_tiles(); }
   /// See Mapper::take_changed_tiles(). After a new epoch began, all of the map's.
   [[nodiscard]] std::vector<mapping::TileKey> take_changed_tiles() { return mapper_.take_changed_tiles(); }
@@ -232,8 +233,7 @@ class Robot {
   std::uint32_t epoch_ = 0;         // odometry's
   std::uint32_t mapped_epoch_ = 0;  // mapping's: of the map
   std::optional<Time> map_began_;   // its first scan
-  std::vector<EarlierMap> earlier_;
-  std::size_t dropped_maps_ = 0;
+  EarlierMaps earlier_;
   std::uint64_t cleared_voxels_ = 0;
   std::vector<Eigen::Vector3f> points_odom_;  // reused
   /// Where the robot was; nothing while the scan after `t` is still to come.

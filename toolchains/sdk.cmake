@@ -52,7 +52,7 @@ cairn_component(networks NEEDS hal LIBRARIES cairn_networks HEADERS onboard/perc
 cairn_component(visual_odometry NEEDS odometry cameras LIBRARIES cairn_visual_odometry cairn_stereo
   HEADERS onboard/visual_odometry onboard/perception/stereo/stereo_geometry.hpp onboard/perception/stereo/stereo_pair.hpp
     onboard/perception/stereo/rectifier.hpp onboard/perception/stereo/dense_stereo.hpp)
-cairn_component(robot NEEDS visual_odometry mapping LIBRARIES cairn_robot HEADERS onboard/robot.hpp)
+cairn_component(robot NEEDS visual_odometry mapping LIBRARIES cairn_robot HEADERS onboard/earlier_maps.hpp onboard/robot.hpp)
 cairn_component(fusion NEEDS mapping LIBRARIES cairn_team cairn_matching cairn_merging cairn_peers
   HEADERS fusion/matching fusion/merging fusion/peers fusion/team)
 

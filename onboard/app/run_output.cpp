@@ -13,6 +13,7 @@
 #include "onboard/app/door/door.hpp"
 #include "onboard/app/door/fitted.hpp"
 #include "onboard/app/people_figures.hpp"
+#include "onboard/app/rejoin/joined_track.hpp"
 #include "onboard/app/run.hpp"
 #include "onboard/app/runs/connect_inputs.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
@@ -26,7 +27,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kMap = "map.cairn";
-constexpr const char* kEpochMap = "map-epoch-";
 
 /// See Recording::time_shift_ns.
 Duration shift_of(const RunFacts& facts) { return Duration{facts.door.recording.time_shift_ns}; }
@@ -153,8 +153,7 @@ void add_input(const RunFacts& facts, report::RunReport& report) {
 }
 
 /// Every stage of the odometry and the map, as far as the run got.
-report::RunReport make_report(const RunFacts& facts) {
-  const auto& track = facts.tasks.robot.track();
+report::RunReport make_report(const RunFacts& facts, const std::vector<TrackPoint>& track) {
   report::RunReport report;
   report.robot = facts.profile.name;
   report.profile = facts.profile_file.string();
@@ -194,13 +193,18 @@ void add_ground_truth(const RunFacts& facts, report::RunReport& report) {
 /// One file for each epoch that ended during the run: their maps do not lie in the frame of map.cairn.
 Result<void> write_earlier_maps(const RunFacts& facts, const fs::path& folder, report::RunReport& report,
                                 std::vector<fs::path>& hashed) {
-  for (const EarlierMap& map : facts.tasks.robot.earlier_maps()) {
-    report.earlier_maps.push_back(kEpochMap + std::to_string(map.epoch) + ".cairn");
-    hashed.push_back(folder / report.earlier_maps.back());
+  const Robot& robot = facts.tasks.robot;
+  for (const EarlierMap& map : robot.earlier_maps().all()) {
+    const std::string name = earlier_map_file(map.epoch);
+    if (const auto place = robot.earlier_maps().between(robot.map_epoch(), map.epoch))
+      report.joined_maps.emplace_back(name, place->mean);
+    else
+      report.earlier_maps.push_back(name);
+    hashed.push_back(folder / name);
     if (const auto r = mapping::save_cairn(*map.tree, hashed.back()); !r) return r.error();
   }
-  report.cleared_voxels = facts.tasks.robot.cleared_voxels();
-  report.dropped_maps = facts.tasks.robot.dropped_maps();
+  report.cleared_voxels = robot.cleared_voxels();
+  report.dropped_maps = robot.earlier_maps().dropped();
   return {};
 }
 
@@ -220,11 +224,12 @@ Result<void> add_team_files(const RunFacts& facts, const fs::path& folder, repor
 
 /// All files of a run.
 Result<report::RunReport> write_results(const RunFacts& facts, const fs::path& folder) {
-  report::RunReport report = make_report(facts);
+  const std::vector<TrackPoint> track = joined_track(facts.tasks.robot);
+  report::RunReport report = make_report(facts, track);
   add_ground_truth(facts, report);
   std::vector<fs::path> hashed{folder / "trajectory.tum", folder / kMap};
   if (const auto r = write_file_atomic(folder / "config.yaml", report.effective_config); !r) return r.error();
-  if (const auto r = write_trajectory(hashed[0], facts.tasks.robot.track(), shift_of(facts)); !r) return r.error();
+  if (const auto r = write_trajectory(hashed[0], track, shift_of(facts)); !r) return r.error();
   if (const auto r = mapping::save_cairn(facts.tasks.robot.map(), hashed[1]); !r) return r.error();
   if (const auto r = mapping::save_ot(facts.tasks.robot.map(), folder / "map.ot"); !r) return r.error();
   const auto people = write_people(facts.tasks, facts.profile.perception.people, shift_of(facts), folder);
@@ -256,7 +261,7 @@ void remove_stale(const fs::path& out, const std::set<fs::path>& fresh) {
     const bool not_in_every_run = name == kFailedRun || name == "schedule.log" ||
                                   std::ranges::find(kPeopleFiles, name.string()) != kPeopleFiles.end() ||
                                   std::ranges::find(kTeamFiles, name.string()) != kTeamFiles.end() ||
-                                  name.string().starts_with(kEpochMap);
+                                  name.string().starts_with("map-epoch-");
     if (not_in_every_run && !fresh.contains(name)) fs::remove_all(out / name, ignored);
   }
 }

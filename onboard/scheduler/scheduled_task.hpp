@@ -22,6 +22,7 @@ enum class TaskRole : std::uint8_t {
   kStage,     ///< computes from what its input ports give it
   kInput,     ///< reads packets, and says when there are no more
   kLiveOnly,  ///< recording, saving, publishing: a replay leaves it out
+  kNewStage,  ///< a stage that earlier versions lacked: it idles in the replay of a log that does not know it
 };
 
 /// One task and all that the executive keeps about it.

@@ -12,6 +12,7 @@ namespace {
 std::string_view to_string(TaskRole role) {
   switch (role) {
     case TaskRole::kStage:
+    case TaskRole::kNewStage:
       return "stage";
     case TaskRole::kInput:
       return "input";

@@ -88,8 +88,8 @@ TEST_F(StereoResume, BeginsAnewElsewhereSaysSoAndKeepsTheSavedMap) {
   for (const Event& event : monitor_.events()) said = said || event.what.find("begins anew") != std::string::npos;
   EXPECT_TRUE(said);
   point = look(robot, elsewhere, 9);
-  ASSERT_EQ(robot.earlier_maps().size(), 1U);
-  EXPECT_EQ(robot.earlier_maps().front().epoch, 0U);
+  ASSERT_EQ(robot.earlier_maps().all().size(), 1U);
+  EXPECT_EQ(robot.earlier_maps().all().front().epoch, 0U);
 }
 
 }  // namespace

@@ -17,6 +17,7 @@ void declare(config::Section& s, ScheduleProfile& p) {
   s.group("stereo", p.stereo, "of a robot without a LiDAR: turns one stereo picture at a time into points for the map");
   s.group("team", p.team, "in a team: datagrams of peers, and a slice of the team's map");
   s.group("matching", p.matching, "in a team: compares maps, one pair at a time, for seconds if need be");
+  s.group("rejoin", p.rejoin, "after the way was lost: compares the map with earlier ones, for deadline_ms at most");
   s.group("watch", p.watch, "events, signs of life, live view: waits for no disk");
   s.group("streams", p.streams,
           "robot.sock, where --sockets says so: poses, state, tiles and scans for other programs");

@@ -56,6 +56,7 @@ struct ScheduleProfile {
       .name = "stereo", .rate_hz = 50, .phase_ms = 5, .deadline_ms = 250, .soft_ms = 50, .busy_hz = 5};
   scheduler::TaskSpec team{.name = "team", .rate_hz = 25, .phase_ms = 3, .deadline_ms = 200, .soft_ms = 4};
   scheduler::TaskSpec matching{.name = "matching", .rate_hz = 10, .phase_ms = 6, .deadline_ms = 5000};
+  scheduler::TaskSpec rejoin{.name = "rejoin", .rate_hz = 10, .phase_ms = 6.5, .deadline_ms = 2500, .nice = 5};
   scheduler::TaskSpec watch{.name = "watch", .rate_hz = 20, .phase_ms = 4, .deadline_ms = 1000, .soft_ms = 0.5};
   scheduler::TaskSpec streams{.name = "streams", .rate_hz = 400, .phase_ms = 0.6, .deadline_ms = 5};
   scheduler::TaskSpec housekeeping{

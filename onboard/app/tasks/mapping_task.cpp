@@ -28,17 +28,21 @@ MappingTask::MappingTask(const safety::OverloadConfig& overload, Duration deadli
       latency_(monitor.stage("packet_to_map")),
       label_joiner_(robot, monitor),
       cloud_joiner_(robot, monitor),
-      box_joiner_(robot, monitor) {}
+      box_joiner_(robot, monitor),
+      rejoin_plan_(robot, monitor) {}
 
 void MappingTask::tick(Tick& tick) {
   while (const Mates* news = mates.take(tick)) robot_.note_mates(news->mates, news->epoch);
   if (copier_ && motions.size() == 0) copier_->idle(tick.release(), robot_.map());
+  bool idle = true;
   while (const ArrivedMotion* motion = motions.take(tick)) {
+    idle = false;
     extend(*motion, tick);
     if (tick.regime() != Regime::kDrain) break;
   }
   motions.give_back(tick);
   take_pictures(tick);
+  if (idle || tick.regime() == Regime::kDrain) rejoin(tick);
   if (tick.regime() == Regime::kDrain) hand_on_tiles(tick);
   if (outlet_ == nullptr) return;
   if (tick.release() > next_batch_ + kBatchPeriod) owe_changes();  // no further scan may come
@@ -85,6 +89,18 @@ void MappingTask::take_pictures(Tick& tick) {
   cloud_joiner_.join();
   while (ArrivedLabels* arrived = labels.take(tick)) label_joiner_.add(arrived->labels);
   label_joiner_.join(tick);
+}
+
+void MappingTask::rejoin(Tick& tick) {
+  while (RejoinJob* result = rejoined.take(tick)) rejoin_plan_.take(std::move(*result), tick.release());
+  if (tick.regime() == Regime::kDrain) return rejoin_plan_.finish(tick.release());
+  if (!rejoin_jobs.connected()) return;
+  auto job = rejoin_plan_.step(tick.release());
+  if (!job) return;
+  RejoinJob* out = rejoin_jobs.back(tick);
+  if (out == nullptr) return rejoin_plan_.take(*std::move(job), tick.release());
+  *out = *std::move(job);
+  rejoin_jobs.push(tick);
 }
 
 void MappingTask::share_resumed_tiles() {

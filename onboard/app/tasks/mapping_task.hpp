@@ -12,6 +12,7 @@
 #include "onboard/app/perception/cloud_joiner.hpp"
 #include "onboard/app/perception/label_joiner.hpp"
 #include "onboard/app/perception/people_log.hpp"
+#include "onboard/app/rejoin/rejoin_plan.hpp"
 #include "onboard/app/restart/map_copier.hpp"
 #include "onboard/app/streams/outlets/stream_outlets.hpp"
 #include "onboard/app/tasks/messages.hpp"
@@ -34,6 +35,8 @@ class MappingTask final : public scheduler::Task {
   scheduler::InputPort<ArrivedBoxes> boxes{*this, "boxes"};                  ///< of the colour camera
   scheduler::InputPort<ArrivedBoxes> thermal_boxes{*this, "thermal_boxes"};  ///< of the thermal camera
   scheduler::InputPort<Mates> mates{*this, "mates"};                         ///< where teammates are
+  scheduler::OutputPort<RejoinJob> rejoin_jobs{*this, "rejoin_jobs"};
+  scheduler::InputPort<RejoinJob> rejoined{*this, "rejoined"};
 
   /// All must outlive the task. `deadline`: from the last byte of a scan until the scan is in the map.
   MappingTask(const safety::OverloadConfig& overload, Duration deadline, Robot& robot, Monitor& monitor);
@@ -76,6 +79,7 @@ class MappingTask final : public scheduler::Task {
   void extend(const ArrivedMotion& motion, scheduler::Tick& tick);
   void note_people(const LocatedScan& scan);
   void take_pictures(scheduler::Tick& tick);
+  void rejoin(scheduler::Tick& tick);
   safety::Shed decide(const ArrivedMotion& motion, scheduler::Tick& tick);
   void note_changes(const LocatedScan& scan, scheduler::Tick& tick);
   void hand_on_tiles(scheduler::Tick& tick);
@@ -95,6 +99,7 @@ class MappingTask final : public scheduler::Task {
   CloudJoiner cloud_joiner_;
   BoxJoiner box_joiner_;
   PeopleLog people_log_;
+  RejoinPlan rejoin_plan_;
   std::optional<MapCopier> copier_;
   std::vector<mapping::TileKey> resumed_tiles_;  // not handed on yet; of epoch 0
   struct Changes {

@@ -20,6 +20,8 @@ constexpr std::size_t kWaitingRequests = 8;
 constexpr std::size_t kWaitingPictures = 8;
 // One is measured while the next one waits.
 constexpr std::size_t kWaitingViews = 2;
+// One is out at a time; its place may be given back a little after its result is there.
+constexpr std::size_t kWaitingMaps = 2;
 // In virtual time. Real news takes less, so a replay at real speed need not wait for it.
 constexpr Duration kSensorsLag = std::chrono::milliseconds(20);
 // Visible with the next tick of the consumer.
@@ -53,7 +55,8 @@ RobotTasks::RobotTasks(std::span<const recording::SourceEntry> sources, const Ro
       robot(make_robot(profile, sight, *this, previous, monitor)),
       safety(profile.failsafe, fitted),
       receive(monitor),
-      mapping(profile.overload, profile.schedule.mapping.deadline(), robot, monitor) {
+      mapping(profile.overload, profile.schedule.mapping.deadline(), robot, monitor),
+      rejoin(profile.schedule.rejoin.deadline(), monitor) {
   add_inputs(profile.schedule);
   if (sight.eyes)
     add_eyes(*std::move(sight.eyes), profile, options, monitor);
@@ -73,6 +76,7 @@ RobotTasks::RobotTasks(std::span<const recording::SourceEntry> sources, const Ro
     if (previous.resumed) team->team().go_on();
     mapping.share_resumed_tiles();
   }
+  add_rejoin(profile.schedule);
   if (options.reference) {
     scheduler::TaskSpec spec = profile.schedule.safety;
     spec.name = "reference";
@@ -122,6 +126,13 @@ void RobotTasks::connect_map(const ScheduleProfile& schedule, bool live) {
   graph.connect(visual->views, stereo->views, {.capacity = kWaitingViews});
   graph.connect(stereo->motions, mapping.motions,
                 {.capacity = kWaitingScans, .reserve = scans, .lag = schedule.stereo.deadline()});
+}
+
+void RobotTasks::add_rejoin(const ScheduleProfile& schedule) {
+  graph.add(schedule.rejoin, rejoin, scheduler::TaskRole::kNewStage);
+  graph.connect(mapping.rejoin_jobs, rejoin.jobs, {.capacity = kWaitingMaps, .reserve = kWaitingMaps});
+  graph.connect(rejoin.results, mapping.rejoined,
+                {.capacity = kWaitingMaps, .reserve = kWaitingMaps, .lag = schedule.rejoin.deadline()});
 }
 
 void RobotTasks::publish_poses_to(LatestValue<TrackPoint>& pose) {

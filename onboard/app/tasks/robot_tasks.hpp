@@ -8,6 +8,7 @@
 #include "hal/workers.hpp"
 #include "onboard/app/perception/open_sight.hpp"
 #include "onboard/app/profile/run_options.hpp"
+#include "onboard/app/rejoin/rejoin_task.hpp"
 #include "onboard/app/restart/restart.hpp"
 #include "onboard/app/tasks/depth_task.hpp"
 #include "onboard/app/tasks/detection_task.hpp"
@@ -44,6 +45,7 @@ class RobotTasks {
   DriveTask drive;
   ReceiveTask receive;
   MappingTask mapping;
+  RejoinTask rejoin;
   scheduler::IdleTask reference;  ///< as often as the control task
   scheduler::TaskGraph graph;
   std::optional<OdometryTask> odometry;      ///< none: both eyes tell the motion
@@ -67,6 +69,7 @@ class RobotTasks {
   void add_eyes(StereoEyes eyes, const RobotProfile& profile, const RunOptions& options, Monitor& monitor);
   void connect_safety(const ScheduleProfile& schedule);
   void connect_map(const ScheduleProfile& schedule, bool live);
+  void add_rejoin(const ScheduleProfile& schedule);
   void add_depth(const RobotProfile& profile, bool live, Monitor& monitor);
   void add_detection(DetectionParts parts, const ScheduleProfile& schedule, bool live, Monitor& monitor);
   void add_perception(Perception sight, const ScheduleProfile& schedule, bool live, Monitor& monitor);

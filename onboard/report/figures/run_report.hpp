@@ -172,6 +172,8 @@ struct RunReport {
   /// Files of maps whose place in `map` is not known, the oldest first; and how many more were not kept.
   std::vector<std::string> earlier_maps;
   std::size_t dropped_maps = 0;
+  /// Files of maps that are parts of `map` by now, the oldest first, and T_map_earlier.
+  std::vector<std::pair<std::string, SE3>> joined_maps;
   std::uint64_t cleared_voxels = 0;  ///< of the map: something had come into free space there, and went
   std::optional<std::uint64_t> map_file_bytes;
   std::optional<MapPicture> picture;  ///< from above

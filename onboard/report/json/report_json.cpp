@@ -168,6 +168,9 @@ Json notes_json(const RunReport& report) {
 
 Json map_json(const RunReport& report) {
   const MapSummary& map = report.map;
+  Json joined = Json::array();
+  for (const auto& [file, pose] : report.joined_maps)
+    joined.push_back({{"file", file}, {"T_map_earlier", numbers(pose.matrix())}});
   return {{"resolution_m", map.resolution_m},
           {"occupied", map.occupied},
           {"free", map.free},
@@ -178,7 +181,8 @@ Json map_json(const RunReport& report) {
           {"nodes", map.nodes},
           {"mean_entropy_occupancy", or_null(map.mean_entropy_occupancy)},
           {"earlier", report.earlier_maps},
-          {"earlier_not_kept", report.dropped_maps}};
+          {"earlier_not_kept", report.dropped_maps},
+          {"joined", joined}};
 }
 
 }  // namespace

@@ -12,6 +12,17 @@ std::string listed(const std::vector<std::string>& names) {
   return text;
 }
 
+void note_joined(NoteList& notes, const RunReport& report) {
+  if (report.joined_maps.empty()) return;
+  std::vector<std::string> files;
+  for (const auto& [file, pose] : report.joined_maps) files.push_back(file);
+  notes.warning(
+      fmt::format("Odometry was lost, and began another map. What it had mapped before was found again, and is "
+                  "in map.cairn: {}.",
+                  listed(files)),
+      "poses while odometry was lost are predicted: do not rely on them");
+}
+
 void note_split(NoteList& notes, const RunReport& report) {
   const std::size_t kept = report.earlier_maps.size();
   if (kept + report.dropped_maps == 0) return;
@@ -62,6 +73,7 @@ void note_odometry(NoteList& notes, const RunReport& report) {
     notes.error(fmt::format("Odometry was lost for {:.1f} s, in {} of {} scans: the motion was predicted.",
                             odometry.lost_s, odometry.lost_scans, report.trajectory.size()),
                 "do not rely on the path there; docs/tuning-budgets.md says what to try");
+  note_joined(notes, report);
   note_split(notes, report);
   note_empty_map(notes, report);
   note_open_directions(notes, odometry);

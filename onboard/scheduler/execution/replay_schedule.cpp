@@ -24,7 +24,8 @@ Result<ReplaySchedule> ReplaySchedule::prepare(TaskGraph& graph, const ReplayOpt
     task.next = 0;
     task.progress.reach(task.releases.first - Duration{1});
     if (options.log == nullptr || task.live_only()) continue;
-    if (!take_history(task, *options.log))
+    const bool known = take_history(task, *options.log);
+    if (!known && (task.history != nullptr || task.role != TaskRole::kNewStage))
       return Error{Errc::kInvalidConfig,
                    "the schedule log is of another schedule",
                    task.spec.name,

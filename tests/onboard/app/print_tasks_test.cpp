@@ -26,6 +26,7 @@ TEST(PrintTasks, ALiveRunHasTasksForTheDiskAndChannelsBetweenTheOthers) {
             "receive            100        60     -        1       10           20  input\n"
             "odometry           100        50     -       40       80          100  stage\n"
             "mapping            100         -     -       30       90          100  stage\n"
+            "rejoin              10         -     -        -        -         2500  stage\n"
             "housekeeping        20         -     -        1        -         1000  live only\n"
             "saving              10         -     -        5        -         1000  live only\n"
             "watch               20         -     -      0.5        -         1000  live only\n"
@@ -39,7 +40,9 @@ TEST(PrintTasks, ALiveRunHasTasksForTheDiskAndChannelsBetweenTheOthers) {
             "drive.rearms         safety.rearms               8    0.001\n"
             "drive.wheels         odometry.wheels            64    0.001\n"
             "receive.scans        odometry.scans              4        0\n"
-            "odometry.motions     mapping.motions             4        0\n");
+            "odometry.motions     mapping.motions             4        0\n"
+            "mapping.rejoin_jobs  rejoin.jobs                 2        0\n"
+            "rejoin.results       mapping.rejoined            2     2500\n");
 }
 
 TEST(PrintTasks, ClientsAreServedByATaskOfTheirOwn) {

@@ -26,7 +26,7 @@ struct ReplayRunTest : ::testing::Test {
     tasks.emplace(door.recording.sources, profile, options, previous, Sight(), monitor);
     return replay_recording(*tasks, {door, profile, options, previous, monitor});
   }
-  /// Idle, but for the first tick of the receive task, which took a packet.
+  /// Of a version without the task `rejoin`. Idle, but for the first tick of the receive task, which took a packet.
   scheduler::ScheduleLog log() {
     scheduler::ScheduleLog log;
     for (const scheduler::TaskSpec& spec : {profile.schedule.safety, profile.schedule.drive, profile.schedule.receive,

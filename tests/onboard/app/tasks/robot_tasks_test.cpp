@@ -47,19 +47,23 @@ TEST_F(RobotTasksTest, TheSlotsInTheScheduleLogNeverChange) {
       {"odometry",
        {tasks.odometry->scans.slot(), tasks.odometry->steps_slot, tasks.odometry->motions.slot(),
         tasks.odometry->status.slot()}},
-      {"mapping", {tasks.mapping.motions.slot(), tasks.mapping.shed_slot, tasks.mapping.tiles.slot()}},
+      {"mapping",
+       {tasks.mapping.motions.slot(), tasks.mapping.shed_slot, tasks.mapping.tiles.slot(), tasks.mapping.mates.slot(),
+        tasks.mapping.rejoin_jobs.slot(), tasks.mapping.rejoined.slot()}},
       {"team", {team.tiles.slot(), team.datagrams_slot, team.fuse_slot, team.jobs.slot(), team.results.slot()}},
-      {"matching", {matching.jobs.slot(), matching.steps_slot, matching.results.slot()}}};
+      {"matching", {matching.jobs.slot(), matching.steps_slot, matching.results.slot()}},
+      {"rejoin", {tasks.rejoin.jobs.slot(), tasks.rejoin.steps_slot, tasks.rejoin.results.slot()}}};
   const std::map<std::string, std::vector<std::size_t>> expected{{"safety", {0, 1, 2, 3, 4, 5, 6, 7}},
                                                                  {"drive", {0, 1, 2, 3, 4, 5}},
                                                                  {"receive", {0, 8, 9}},
                                                                  {"odometry", {0, 1, 2, 3}},
-                                                                 {"mapping", {0, 1, 2}},
+                                                                 {"mapping", {0, 1, 2, 7, 8, 9}},
                                                                  {"team", {0, 1, 2, 3, 4}},
-                                                                 {"matching", {0, 1, 2}}};
+                                                                 {"matching", {0, 1, 2}},
+                                                                 {"rejoin", {0, 1, 2}}};
   EXPECT_EQ(numbers, expected);
   EXPECT_THAT(names(tasks),
-              ::testing::ElementsAre("safety", "drive", "receive", "odometry", "mapping", "team", "matching"))
+              ::testing::ElementsAre("safety", "drive", "receive", "odometry", "mapping", "team", "matching", "rejoin"))
       << "their order decides which runs first when several are released together";
 }
 
@@ -68,7 +72,8 @@ TEST_F(RobotTasksTest, ARobotWithoutPeersHasNoTeam) {
   options.reference = true;
   const RobotTasks tasks(lidar, profile, options, previous, {}, monitor);
   EXPECT_FALSE(tasks.team.has_value());
-  EXPECT_THAT(names(tasks), ::testing::ElementsAre("safety", "drive", "receive", "odometry", "mapping", "reference"));
+  EXPECT_THAT(names(tasks),
+              ::testing::ElementsAre("safety", "drive", "receive", "odometry", "mapping", "rejoin", "reference"));
   EXPECT_TRUE(tasks.graph.tasks().back().live_only());
   EXPECT_FALSE(tasks.mapping.tiles.connected()) << "nobody takes tiles";
 }

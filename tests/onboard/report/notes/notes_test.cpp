@@ -92,6 +92,19 @@ TEST(Notes, AMapThatWasSplitNamesItsParts) {
   EXPECT_THAT(notes_of(report)[0].remedy, HasSubstr("cairn match map-epoch-2.cairn map.cairn --method global"));
 }
 
+TEST(Notes, AMapThatWasFoundAgainIsNoPartMore) {
+  RunReport report = uneventful();
+  report.joined_maps = {{"map-epoch-0.cairn", SE3()}};
+  EXPECT_THAT(
+      lines(report),
+      ElementsAre("warning: Odometry was lost, and began another map. What it had mapped before was found again, "
+                  "and is in map.cairn: map-epoch-0.cairn."));
+  const auto joined = to_json(report)["map"]["joined"];
+  ASSERT_EQ(joined.size(), 1U);
+  EXPECT_EQ(joined[0]["file"], "map-epoch-0.cairn");
+  EXPECT_EQ(joined[0]["T_map_earlier"][0], 1);
+}
+
 TEST(Notes, ACovarianceThatHoldsTooLittleIsAnErrorOfAllItsAxes) {
   auto run = sample_run(300);
   run->report.peers.clear(), run->report.odometry = {}, run->report.lost_packets = 0, run->report.monitor = nullptr;
