@@ -111,6 +111,10 @@ void declare(config::Section& s, SecondLookConfig& c) {
   s.number("unsure_after_s", c.unsure_after_s, {0.0, 60.0}, "s",
            "after a longer time without a scan that fits, only a fit nearly as good as usual is believed");
   s.number("sure_share", c.sure_share, {0.0, 1.0}, "", "of the usual share of points that fit, for that");
+  s.number("blind_after_s", c.blind_after_s, {0.0, 3600}, "s",
+           "without scans and wheels, after which only a place near the last one is believed");
+  s.number("stood_m", c.stood_m, {0.0, 1000}, "m", "how near");
+  s.integer("blind_patience", c.blind_patience, {1, 1000}, "", "then so many lost scans in a row begin a new map");
   s.number("long_step_s", c.long_step_s, {0.0, 60.0}, "s", "after a longer time between scans every fit is doubted");
   s.number("better", c.better, {1.0, 10.0}, "", "times as many points must fit before another place is believed");
   s.integer("keypoints", c.keypoints, {50, 20000}, "", "points to search with");

@@ -66,8 +66,11 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget, c
   if (place == Relocalisation::kElsewhere) return begin(prepared, selected);
 
   const SE3 motion = filter_.motion_to(fit.state.T_odom_base);
-  const int patience = bridged(dt_s) || !map_.settled() ? config_.reinitialise_after : config_.give_up_after;
-  const Track track = tracking_.judge(fit, motion, dt_s, map_.patches(), second_look_.sure(fit, dt_s), patience);
+  const bool blind = tracking_.blind() && !bridged(dt_s) && place == Relocalisation::kNotNeeded;
+  const bool sure = second_look_.sure(fit, dt_s, blind ? &motion : nullptr);
+  const int told = bridged(dt_s) || !map_.settled() ? config_.reinitialise_after : config_.give_up_after;
+  const int patience = blind ? config_.second_look.blind_patience : told;
+  const Track track = tracking_.judge(fit, motion, dt_s, map_.patches(), sure, patience);
   const bool clear = track == Track::kFollowed ? follow(fit, motion, dt_s) : lose(track, dt_s);
   deskewer_.deskew(prepared, filter_.state().twist);
   if (clear) insert(selected.for_map, filter_, prepared.stamp);
@@ -148,12 +151,6 @@ std::optional<Fit> LidarOdometry::look_farther(const Selection& selected, const 
   if (elsewhere && !second_look_.doubtful(*elsewhere)) return elsewhere;
   filter_ = as_wheels_say;
   return found;
-}
-
-/// Whether wheels tell the motion better than the twist of the last scan that was followed.
-bool LidarOdometry::bridged(double dt_s) const {
-  const bool needed = dt_s > config_.second_look.long_step_s || tracking_.lost();
-  return needed && !wheel_aid_.wrong_scale() && wheels_.since_followed().has_value();
 }
 
 /// The first scan was taken in an unknown motion, so it is skewed. The second is skewed alike and fits, with a twist of

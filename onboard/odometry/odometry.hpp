@@ -105,7 +105,11 @@ class LidarOdometry final : public MotionSource {
   [[nodiscard]] Fit align(const Selection& selected, double dt_s, Budget& budget);
   [[nodiscard]] std::optional<Fit> look_farther(const Selection& selected, const Fit& first, double dt_s,
                                                 const OpenMotion* open, Budget& budget);
-  [[nodiscard]] bool bridged(double dt_s) const;
+  /// Whether wheels tell the motion better than the twist of the last scan that was followed.
+  [[nodiscard]] bool bridged(double dt_s) const {
+    const bool needed = dt_s > config_.second_look.long_step_s || tracking_.lost();
+    return needed && !wheel_aid_.wrong_scale() && wheels_.since_followed().has_value();
+  }
   /// To the scan that comes now: by wheels where they tell more than the twist, otherwise steadily.
   void predict(double dt_s, const OpenMotion* open);
   [[nodiscard]] bool follow(const Fit& fit, const SE3& motion, double dt_s);

@@ -89,7 +89,8 @@ bool SecondLook::better(const Fit& again, const Fit& first) const {
   return floor_found && again.equations.inliers > config_.better * first.equations.inliers;
 }
 
-bool SecondLook::sure(const Fit& fit, double dt_s) const {
+bool SecondLook::sure(const Fit& fit, double dt_s, const SE3* blind) const {
+  if (blind != nullptr && blind->translation().norm() > config_.stood_m) return false;
   return dt_s <= config_.unsure_after_s || fit.telling_share() >= config_.sure_share * usual_share_;
 }
 

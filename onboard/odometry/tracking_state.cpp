@@ -38,7 +38,8 @@ std::string_view to_string(Track track) {
 }
 
 TrackingState::TrackingState(const OdometryConfig& config)
-    : min_matches_(config.min_matches),
+    : blind_after_s_(config.second_look.blind_after_s),
+      min_matches_(config.min_matches),
       min_inlier_ratio_(config.min_inlier_ratio),
       max_speed_m_s_(config.max_speed),
       max_angular_speed_rad_s_(config.max_angular_speed) {}
@@ -46,6 +47,7 @@ TrackingState::TrackingState(const OdometryConfig& config)
 void TrackingState::begin(Time stamp) {
   last_stamp_ = followed_stamp_ = stamp;
   lost_in_a_row_ = 0;
+  blind_ = false;
 }
 
 bool TrackingState::is_fragment_after_gap(double dt_s, double duration_s) const {
@@ -61,6 +63,7 @@ bool TrackingState::is_fragment(double duration_s) const { return duration_s < k
 void TrackingState::advance(Time stamp, double duration_s) {
   last_was_fragment_ = is_fragment(duration_s);
   revolution_s_ = std::max(duration_s, revolution_s_ - kShorter * duration_s);
+  blind_ = blind_ || seconds_since_last(stamp) > blind_after_s_;
   last_stamp_ = stamp;
 }
 
@@ -69,6 +72,7 @@ Track TrackingState::judge(const Fit& fit, const SE3& motion, double dt_s, const
   const bool followed = sure && plausible(fit, motion, dt_s);
   if (!followed && ++lost_in_a_row_ < patience && map.patches() > 0) return Track::kLost;
   lost_in_a_row_ = 0;
+  blind_ = false;
   followed_stamp_ = last_stamp_.value_or(followed_stamp_);
   return followed ? Track::kFollowed : Track::kReinitialised;
 }

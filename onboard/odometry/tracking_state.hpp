@@ -49,6 +49,8 @@ class TrackingState {
   [[nodiscard]] bool last_was_fragment() const { return last_was_fragment_; }
   /// Takes note of a scan that is used.
   void advance(Time stamp, double duration_s);
+  /// No scan came for longer than SecondLookConfig::blind_after_s, and none was followed since.
+  [[nodiscard]] bool blind() const { return blind_; }
 
   /// Judges a fit that says the base made this `motion` in `dt_s` seconds. Counts the lost scans in
   /// a row. Not `sure`: it may be of another place. `patience`: so many lost scans in a row begin a new map.
@@ -61,6 +63,7 @@ class TrackingState {
  private:
   [[nodiscard]] bool plausible(const Fit& fit, const SE3& motion, double dt_s) const;
 
+  double blind_after_s_;
   int min_matches_;
   double min_inlier_ratio_, max_speed_m_s_, max_angular_speed_rad_s_;
 
@@ -68,6 +71,7 @@ class TrackingState {
   Time followed_stamp_{};
   double revolution_s_ = 0;  // the longest of the last scans; 0 while scans have no firing times
   bool last_was_fragment_ = false;
+  bool blind_ = false;
   int lost_in_a_row_ = 0;
 };
 

