@@ -10,9 +10,8 @@
 #include <optional>
 #include <string>
 
-#include "drivers/recording/formats/scan_file.hpp"
-#include "drivers/recording/recording_writer.hpp"
 #include "onboard/app/run.hpp"
+#include "tests/onboard/app/scan_recording.hpp"
 #include "tests/support/box_world.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -37,22 +36,12 @@ inline support::World room() {
 /// Sweeps of a robot that drives through the room, and with GPIO lines of which none ever changes.
 inline void record_room(const fs::path& folder, bool with_gpio = false, const support::World& world = room(),
                         int scans = kScans) {
-  recording::Recording index;
-  index.robot = "husky_1";
-  index.sources.push_back({"lidar", recording::kScans, "data.csv", "lidar", "VLP-16", kMount});
-  if (with_gpio) index.sources.push_back({"gpio", recording::kGpio, "gpio.csv", "base_link", ""});
-  auto writer = recording::RecordingWriter::create(folder, index);
-  ASSERT_TRUE(writer) << to_string(writer.error());
+  ScanRecording recording(folder, kMount, with_gpio);
   support::Vlp16 lidar(SE3::from_xyz_rpy(kMount), 0.02, 1);
   for (int i = 0; i < scans; ++i) {
-    const Scan scan = lidar.scan(world, path, 0.1 * i);
-    Packet packet;
-    packet.channel = static_cast<std::uint16_t>(recording::ScanLayout::kXyziOffset);
-    packet.arrival = scan.valid.end;
-    packet.bytes = recording::encode_scan(scan.cloud, true);
-    ASSERT_TRUE(writer->write(packet));
+    recording.add(lidar.scan(world, path, 0.1 * i));
   }
-  ASSERT_TRUE(writer->close());
+  recording.close();
 }
 
 /// Runs on that recording. The folder is one for all tests of a suite.

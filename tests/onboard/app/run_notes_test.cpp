@@ -5,11 +5,10 @@
 
 #include <string>
 
-#include "drivers/recording/formats/scan_file.hpp"
-#include "drivers/recording/recording_writer.hpp"
 #include "onboard/app/run.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/notes/notes.hpp"
+#include "tests/onboard/app/scan_recording.hpp"
 #include "tests/support/map_pairs.hpp"
 #include "tests/support/temporary_folder.hpp"
 
@@ -23,11 +22,7 @@ const Vector6 kMountInTheDark = (Vector6() << 0.2, 0, 0.6, 0, 0, 0.1).finished()
 /// The robot is carried away in the dark: nothing says how the second place lies to the first.
 TEST(RunNotes, NameAMapThatWasSplit) {
   const support::TemporaryFolder folder;
-  recording::Recording index;
-  index.sources.push_back({"lidar", recording::kScans, "data.csv", "lidar", "VLP-16", kMountInTheDark});
-  index.robot = "husky_1";
-  auto writer = recording::RecordingWriter::create(folder / "two_places", index);
-  ASSERT_TRUE(writer) << to_string(writer.error());
+  ScanRecording recording(folder / "two_places", kMountInTheDark);
   support::Vlp16 lidar(SE3::from_xyz_rpy(kMountInTheDark), 0.02, 1);
   support::World first;
   first.box({-4, -3, 0}, {6, 4, 3}).box({2, 2, 0}, {3, 3, 1.5}).box({-2, -2.5, 0}, {-1, -1.5, 1});
@@ -38,13 +33,9 @@ TEST(RunNotes, NameAMapThatWasSplit) {
     const bool carried = i >= kFirst;
     const Scan scan = lidar.scan(
         carried ? second.world : first, [&](double) { return carried ? there : here; }, 0.1 * i + (carried ? 8 : 0));
-    Packet packet;
-    packet.channel = static_cast<std::uint16_t>(recording::ScanLayout::kXyziOffset);
-    packet.arrival = scan.valid.end;
-    packet.bytes = recording::encode_scan(scan.cloud, true);
-    ASSERT_TRUE(writer->write(packet));
+    recording.add(scan);
   }
-  ASSERT_TRUE(writer->close());
+  recording.close();
   RunOptions o;
   o.recording = folder / "two_places";
   o.out = folder / "split";

@@ -7,10 +7,9 @@
 #include <cmath>
 #include <filesystem>
 
-#include "drivers/recording/formats/scan_file.hpp"
 #include "drivers/recording/formats/trajectory_file.hpp"
-#include "drivers/recording/recording_writer.hpp"
 #include "onboard/app/run.hpp"
+#include "tests/onboard/app/scan_recording.hpp"
 #include "tests/support/drive_path.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -31,23 +30,15 @@ struct LobbyRide {
 
   [[nodiscard]] SE3 at(double t) const { return path(t < kSilentTo_s ? t : t + kCarried_s); }
   void record(const fs::path& folder) const {
-    recording::Recording index;
-    index.sources.push_back({"lidar", recording::kScans, "data.csv", "lidar", "VLP-16", kLidarMount});
-    index.robot = "husky_1";
-    auto writer = recording::RecordingWriter::create(folder, index);
-    ASSERT_TRUE(writer) << to_string(writer.error());
+    ScanRecording recording(folder, kLidarMount);
     support::Vlp16 lidar(SE3::from_xyz_rpy(kLidarMount), 0.02, 1);
     for (double t = 0; t < kEnd_s; t += 0.2) {
       if (t > kSilentFrom_s && t < kSilentTo_s) continue;
       const Scan scan = lidar.scan(
           scene.world, [this](double s) { return at(s); }, t);
-      Packet packet;
-      packet.channel = static_cast<std::uint16_t>(recording::ScanLayout::kXyziOffset);
-      packet.arrival = scan.valid.end;
-      packet.bytes = recording::encode_scan(scan.cloud, true);
-      ASSERT_TRUE(writer->write(packet));
+      recording.add(scan);
     }
-    ASSERT_TRUE(writer->close());
+    recording.close();
   }
 };
 
