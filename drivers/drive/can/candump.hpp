@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -19,6 +20,9 @@ struct CandumpLine {
   CanFrame frame;
   std::optional<Direction> direction;  ///< only with -x: R and T, RX and TX
 };
+
+/// What candump -l writes. Frames that come live are stamped in whole ones, too: so a recording holds what was used.
+using CandumpTick = std::chrono::microseconds;
 
 inline constexpr std::size_t kMaxInterface = 15;
 inline constexpr std::size_t kMaxCandumpLine = 1024;  ///< the longest FD line, in binary digits, has 660

@@ -13,6 +13,7 @@
 #include <utility>
 
 #include "drivers/drive/can/bus_name.hpp"
+#include "drivers/drive/can/candump.hpp"
 #include "drivers/drive/can/socketcan_link.hpp"
 #include "drivers/drive/can/unix_can_link.hpp"
 
@@ -95,6 +96,7 @@ void SocketLink::label(Packet& packet, Direction direction) {
   packet.source = source_;
   packet.channel = static_cast<std::uint16_t>(direction);
   packet.sequence = counters_.delivered++;
+  packet.arrival = std::chrono::floor<CandumpTick>(packet.arrival);
 }
 
 /// The kernel stamps on CLOCK_REALTIME; a stamp in the future or more than a second back on the monotonic line was made

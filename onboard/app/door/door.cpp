@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "drivers/drive/can/candump.hpp"
 #include "drivers/recording/formats/scan_file.hpp"
 #include "drivers/recording/recording_reader.hpp"
 #include "drivers/velodyne/lidar.hpp"
@@ -112,7 +113,7 @@ Result<void> add_decoders(Door& door, RobotProfile& profile, Monitor& monitor) {
 Result<Door> open_devices(const RobotProfile& profile, const Devices& which, const Clock& clock, Monitor& monitor) {
   if (const auto fit = check_devices(profile); !fit) return fit.error();
   Door door;
-  const Duration utc_offset = LiveClock::realtime_offset();
+  const Duration utc_offset = std::chrono::floor<drive::CandumpTick>(LiveClock::realtime_offset());
   door.recording.robot = profile.name;
   door.recording.realtime_offset_ns = utc_offset.count();
   for (const SourceEntry& entry : devices_of(profile)) {

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/drive/can/candump.hpp"
 #include "drivers/drive/chassis/config.hpp"
 #include "tests/support/local_socket.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -89,6 +90,7 @@ TEST_F(UnixCanLinkTest, FramesCrossBothWays) {
   EXPECT_EQ(packet.source, SourceId{4});
   EXPECT_GE(packet.arrival, before - 1ms);
   EXPECT_LE(packet.arrival, clock.now());
+  EXPECT_EQ(packet.arrival, std::chrono::floor<CandumpTick>(packet.arrival)) << "a recording must hold it";
   EXPECT_EQ(link->counters().unstamped, 0U) << "the kernel stamps records of Unix sockets";
   CanFrame longer;
   longer.id = 0x155;

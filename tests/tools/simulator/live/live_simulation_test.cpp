@@ -37,6 +37,7 @@ TEST(LiveSimulation, ARobotsProgramOpensTheDevicesOfTheProfile) {
     Monitor monitor;
     const auto door = app::open_devices(*profile, {.all = true}, clock, monitor);
     ASSERT_TRUE(door) << to_string(door.error());
+    EXPECT_EQ(door->recording.realtime_offset_ns % 1000, 0) << "drive.log has microseconds of UTC";
     ASSERT_EQ(door->inputs.size(), 3U);
     EXPECT_NE(door->inputs[1].can, nullptr);
     ASSERT_NE(door->inputs[2].lines, nullptr);
