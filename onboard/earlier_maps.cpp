@@ -6,9 +6,10 @@
 
 namespace cairn {
 
-void EarlierMaps::keep(std::uint32_t epoch, std::unique_ptr<mapping::SemanticOcTree> tree) {
+void EarlierMaps::keep(std::uint32_t epoch, std::unique_ptr<mapping::SemanticOcTree> tree,
+                       const std::optional<UncertainPose>& T_next_earlier) {
   if (tree->size() == 0) return;
-  maps_.push_back({.epoch = epoch, .tree = std::move(tree)});
+  maps_.push_back({.epoch = epoch, .tree = std::move(tree), .T_next_earlier = T_next_earlier});
   if (maps_.size() > kMost) drop_one();
 }
 

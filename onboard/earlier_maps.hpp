@@ -22,6 +22,7 @@ struct EarlierMap {
     UncertainPose T_later_earlier;
   };
   std::optional<Joined> joined{};
+  std::optional<UncertainPose> T_next_earlier{};  ///< a guess of how it lies in the map of the next epoch
 };
 
 /// The maps that a robot made before it lost its way, and how they lie in later ones. Bounded: the largest are kept.
@@ -30,8 +31,9 @@ class EarlierMaps {
   static constexpr std::size_t kMost = 3;
 
   /// An epoch has ended with this map; an empty one is not kept. Beyond kMost one is dropped: the smallest of those
-  /// that were joined to a later map, or else the smallest.
-  void keep(std::uint32_t epoch, std::unique_ptr<mapping::SemanticOcTree> tree);
+  /// that were joined to a later map, or else the smallest. `T_next_earlier`: see EarlierMap.
+  void keep(std::uint32_t epoch, std::unique_ptr<mapping::SemanticOcTree> tree,
+            const std::optional<UncertainPose>& T_next_earlier = {});
   /// The map of `later` got what that of `earlier` knew.
   void join(std::uint32_t earlier, std::uint32_t later, const UncertainPose& T_later_earlier);
 

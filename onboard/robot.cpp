@@ -118,13 +118,15 @@ const TrackPoint& Robot::place(const odometry::MotionUpdate& motion, bool resumi
   located.stamp = motion.stamp;
   located.T_odom_base = motion.T_odom_base;
   located.twist = motion.twist;
-  if (motion.began || motion.apart) ++epoch_;
-  if (motion.apart && !resuming)
+  if (motion.began || motion.apart()) ++epoch_;
+  if (motion.apart() && !resuming)
     monitor_.event(motion.stamp, "odometry",
                    "a new map begins: how it lies to the one before is not known (kept as map-epoch-N.cairn)");
-  if ((motion.began || motion.apart) && resuming)
+  if ((motion.began || motion.apart()) && resuming)
     monitor_.event(motion.stamp, "restart", "the robot is not where the saved map ends: it begins anew");
+  if (motion.began || motion.apart()) T_odom_before_ = motion.T_odom_before;
   located.epoch = epoch_;
+  located.T_odom_before = T_odom_before_;
   located.lost = motion.lost;
   track_.push_back({.stamp = motion.stamp,
                     .T_odom_base = motion.T_odom_base,
@@ -138,18 +140,20 @@ const TrackPoint& Robot::place(const odometry::MotionUpdate& motion, bool resumi
   return track_.back();
 }
 
-void Robot::begin_map(std::uint32_t epoch) {
+void Robot::begin_map(const LocatedScan& first) {
   auto before = mapper_.begin_anew();
   map_began_.reset();
   if (people_) people_->clear();
   mates_.clear();
-  earlier_.keep(std::exchange(mapped_epoch_, epoch), std::move(before));
+  const bool next = first.epoch == mapped_epoch_ + 1;
+  earlier_.keep(std::exchange(mapped_epoch_, first.epoch), std::move(before),
+                next ? first.T_odom_before : std::nullopt);
 }
 
 Result<void> Robot::extend_map(const LocatedScan& scan, const MapShare& share) {
   if (scan.lost) return {};
   const StageTimer timing(mapping_stage_);
-  if (scan.epoch != mapped_epoch_) begin_map(scan.epoch);
+  if (scan.epoch != mapped_epoch_) begin_map(scan);
   const SE3& T_odom_base = scan.T_odom_base.mean;
   const Eigen::Matrix3f R = T_odom_base.rotation().cast<float>();
   const Eigen::Vector3f t = T_odom_base.translation().cast<float>();

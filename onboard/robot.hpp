@@ -85,10 +85,11 @@ struct TrackPoint {
 struct LocatedScan {
   Time stamp{};
   UncertainPose T_odom_base;
-  Vector6 twist = Vector6::Zero();           ///< of base_link in base_link: m/s, rad/s
-  std::vector<Eigen::Vector3f> points_base;  ///< deskewed, in base_link at `stamp`, in metres
-  std::uint32_t epoch = 0;                   ///< see TrackPoint
-  bool lost = false;                         ///< the pose is only a prediction
+  Vector6 twist = Vector6::Zero();               ///< of base_link in base_link: m/s, rad/s
+  std::vector<Eigen::Vector3f> points_base;      ///< deskewed, in base_link at `stamp`, in metres
+  std::uint32_t epoch = 0;                       ///< see TrackPoint
+  std::optional<UncertainPose> T_odom_before{};  ///< where that of the epoch before may lie: a guess
+  bool lost = false;                             ///< the pose is only a prediction
 };
 
 /// What a depth camera saw at one instant.
@@ -224,13 +225,14 @@ class Robot {
   const TrackPoint& place(const odometry::MotionUpdate& motion, bool resuming, LocatedScan& located);
   void set_up_odometry(const RobotConfig& config, Workers& workers);
   void set_up_cameras(const RobotConfig& config);
-  void begin_map(std::uint32_t epoch);
+  void begin_map(const LocatedScan& first);
 
   Monitor& monitor_;
   StageStats& odometry_stage_;
   StageStats& mapping_stage_;
   std::vector<TrackPoint> track_;
-  std::uint32_t epoch_ = 0;         // odometry's
+  std::uint32_t epoch_ = 0;  // odometry's
+  std::optional<UncertainPose> T_odom_before_;
   std::uint32_t mapped_epoch_ = 0;  // mapping's: of the map
   std::optional<Time> map_began_;   // its first scan
   EarlierMaps earlier_;

@@ -71,7 +71,7 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget, c
   const int told = bridged(dt_s) || !map_.settled() ? config_.reinitialise_after : config_.give_up_after;
   const int patience = blind ? config_.second_look.blind_patience : told;
   const Track track = tracking_.judge(fit, motion, dt_s, map_.patches(), sure, patience);
-  const bool clear = track == Track::kFollowed ? follow(fit, motion, dt_s) : lose(track, dt_s);
+  const bool clear = track == Track::kFollowed ? follow(fit, motion, dt_s) : lose(track, fit, dt_s);
   deskewer_.deskew(prepared, filter_.state().twist);
   if (clear) insert(selected.for_map, filter_, prepared.stamp);
   if (track == Track::kReinitialised) keep_first(prepared, selected);
@@ -91,11 +91,14 @@ bool LidarOdometry::follow(const Fit& fit, const SE3& motion, double dt_s) {
 }
 
 /// The prediction stands. True if the scan shall begin a new map.
-bool LidarOdometry::lose(Track track, double dt_s) {
+bool LidarOdometry::lose(Track track, const Fit& fit, double dt_s) {
   filter_ = bridged(dt_s) ? wheels_.move(followed_, dt_s) : prior_.moved_anyhow(followed_, dt_s, tracking_.lost());
-  apart_ = track == Track::kReinitialised && !filter_.placed_within(kConnected_m, kConnected_rad);
-  if (track == Track::kReinitialised) reinitialise();
-  return track == Track::kReinitialised;
+  if (track != Track::kReinitialised) return false;
+  const bool fits = tracking_.fits(fit) && second_look_.sure(fit, dt_s, nullptr);
+  T_odom_before_ = filter_.place_of_odom(fits ? &fit.state.T_odom_base : nullptr);
+  if (filter_.placed_within(kConnected_m, kConnected_rad)) T_odom_before_.reset();
+  reinitialise();
+  return true;
 }
 
 /// Predicts, and registers the scan; once more, and farther around, if that leaves doubts.
@@ -270,7 +273,7 @@ OdometryUpdate LidarOdometry::report(Time stamp, const Fit& fit, Track track) co
   update.degenerate_length_m = fit.degeneracy.length_m;
   update.lost = track != Track::kFollowed;
   update.reinitialised = track == Track::kReinitialised;
-  update.apart = update.reinitialised && apart_;
+  if (update.reinitialised) update.T_odom_before = T_odom_before_;
   return update;
 }
 

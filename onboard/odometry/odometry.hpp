@@ -113,7 +113,7 @@ class LidarOdometry final : public MotionSource {
   /// To the scan that comes now: by wheels where they tell more than the twist, otherwise steadily.
   void predict(double dt_s, const OpenMotion* open);
   [[nodiscard]] bool follow(const Fit& fit, const SE3& motion, double dt_s);
-  [[nodiscard]] bool lose(Track track, double dt_s);
+  [[nodiscard]] bool lose(Track track, const Fit& fit, double dt_s);
   void correct(const Fit& fit, double dt_s);
   void learn(const Fit& fit, double dt_s);
   void reinitialise();
@@ -146,7 +146,8 @@ class LidarOdometry final : public MotionSource {
   Relocaliser relocaliser_;
   std::optional<FirstScan> first_;
   bool by_wheels_ = false;  // see MotionUpdate
-  bool apart_ = false;      // the last scan began a map that must not be added to the one before
+  /// A guess of how the map before lies in this one, which must not be added to it; none: this one goes on.
+  std::optional<UncertainPose> T_odom_before_;
 };
 
 }  // namespace cairn::odometry

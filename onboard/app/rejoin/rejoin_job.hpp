@@ -17,6 +17,7 @@ struct RejoinJob {
   std::uint32_t earlier_epoch = 0, present_epoch = 0;
   std::shared_ptr<const mapping::SemanticOcTree> earlier{};
   std::unique_ptr<mapping::SemanticOcTree> present{};  ///< a copy; null in the result
+  std::optional<UncertainPose> guess{};                ///< of T_present_earlier
 
   /// The result: how the earlier map lies in the present one, and the same map in its frame; none: that is not sure.
   std::optional<UncertainPose> T_present_earlier{};

@@ -12,21 +12,22 @@
 namespace cairn::app {
 namespace {
 
-// A map is compared again when it has so many times the nodes.
-constexpr double kGrowth = 1.15;
+// A map is compared again after a way of this share of the way before, and of so many metres. The map's size would not
+// tell: a small room is known to its walls after one scan, and its map shrinks from then on, because what is sure takes
+// fewer nodes. A comparison takes half a second of a core: at 1 m/s, the most is a tenth of its time.
+constexpr double kLonger = 0.15, kLeastWay_m = 1, kMostWay_m = 5;
+// A turn by a radian shows as much as a way of so many metres, to a camera.
+constexpr double kTurn_m = 1;
 // Each about a millisecond of a NUC.
 constexpr std::size_t kNodesInAStep = 20'000, kTilesInAStep = 64;
-// No map grows beyond this size.
-constexpr std::size_t kNever = std::numeric_limits<std::size_t>::max() / 2;
+constexpr double kNever = std::numeric_limits<double>::max();
+
+double next_after(double way_m) { return way_m + std::clamp(kLonger * way_m, kLeastWay_m, kMostWay_m); }
 
 }  // namespace
 
 std::optional<RejoinJob> RejoinPlan::step(Time now) {
-  if (std::exchange(epoch_, robot_.map_epoch()) != robot_.map_epoch()) {
-    copy_.reset();
-    joining_.reset();
-    compared_with_.clear();
-  }
+  begin(robot_.map_epoch());
   if (joining_) {
     join(kTilesInAStep, now);
     return std::nullopt;
@@ -37,26 +38,43 @@ std::optional<RejoinJob> RejoinPlan::step(Time now) {
   auto present = std::exchange(copy_, std::nullopt)->take();
   const EarlierMap* map = next_map();
   if (map == nullptr) return std::nullopt;
-  compared_with_[map->epoch] = robot_.map().size();
+  compared_at_m_[map->epoch] = way_m_;
   out_ = true;
-  return RejoinJob{
-      .earlier_epoch = map->epoch, .present_epoch = epoch_, .earlier = map->tree, .present = std::move(present)};
+  return RejoinJob{.earlier_epoch = map->epoch,
+                   .present_epoch = epoch_,
+                   .earlier = map->tree,
+                   .present = std::move(present),
+                   .guess = map->epoch + 1 == epoch_ ? map->T_next_earlier : std::nullopt};
 }
 
-/// The one with which the smallest present map was compared. None: the present map has not grown since, or all are
-/// joined.
+/// The one that has waited longest. None: the robot has not gone on since, or all are joined.
 const EarlierMap* RejoinPlan::next_map() const {
   const EarlierMap* next = nullptr;
-  std::size_t least = std::numeric_limits<std::size_t>::max();
+  double least = std::numeric_limits<double>::max();
   for (const EarlierMap& map : robot_.earlier_maps().all()) {
-    const auto then = compared_with_.find(map.epoch);
-    const std::size_t size = then != compared_with_.end() ? then->second : 0;
-    if (map.joined || size >= least) continue;
-    least = size;
+    const auto then = compared_at_m_.find(map.epoch);
+    const double due_m = then != compared_at_m_.end() ? next_after(then->second) : 0;
+    if (map.joined || due_m >= least) continue;
+    least = due_m;
     next = &map;
   }
-  const auto now = static_cast<double>(robot_.map().size());
-  return now > kGrowth * static_cast<double>(least) ? next : nullptr;
+  return way_m_ >= least ? next : nullptr;
+}
+
+void RejoinPlan::went_to(const SE3& T_odom_base, std::uint32_t epoch) {
+  if (begin(epoch)) last_ = T_odom_base;
+  const SE3 motion = last_.inverse() * T_odom_base;
+  way_m_ += motion.translation().norm() + kTurn_m * rotation_angle(motion);
+  last_ = T_odom_base;
+}
+
+bool RejoinPlan::begin(std::uint32_t epoch) {
+  if (std::exchange(epoch_, epoch) == epoch) return false;
+  copy_.reset();
+  joining_.reset();
+  compared_at_m_.clear();
+  way_m_ = 0;
+  return true;
 }
 
 void RejoinPlan::take(RejoinJob result, Time now) {
@@ -78,7 +96,7 @@ void RejoinPlan::join(std::size_t tiles, Time now) {
     robot_.note_joined(joining_->earlier_epoch, *joining_->T_present_earlier);
     monitor_.event(now, "rejoin", "an earlier map was found again: the map has all that " + name + " knows");
   } else {
-    compared_with_[joining_->earlier_epoch] = kNever;
+    compared_at_m_[joining_->earlier_epoch] = kNever;
     monitor_.event(now, "rejoin", name + " was found again, but not all of it has room: " + to_string(filled.error()));
   }
   joining_.reset();

@@ -44,7 +44,7 @@ void RejoinTask::run(RejoinJob& job, Budget& budget) {
   const auto features = matching::MapFeatures::build(*present);
   Followed* earlier = features ? followed(job) : nullptr;
   if (earlier == nullptr) return;
-  earlier->match.update(*features, earlier->features, budget);
+  earlier->match.update(*features, earlier->features, budget, job.guess);
   const matching::Hypothesis* found = earlier->match.hypotheses().accepted();
   if (found == nullptr) return;
   auto moved = merging::moved_map(*job.earlier, found->T_a_b.mean);

@@ -101,6 +101,9 @@ class MotionFilter {
   [[nodiscard]] Matrix6 odom_covariance() const;
   /// Whether position and heading against the map have no larger standard deviations than these: m, rad.
   [[nodiscard]] bool placed_within(double position_m, double heading_rad) const;
+  /// If another odom begins at the present state: where this one lies in it. The base is at `T_odom_found` in this one,
+  /// or, if that is null, about where the state says.
+  [[nodiscard]] UncertainPose place_of_odom(const SE3* T_odom_found) const;
   /// Motion to T_odom_base from where the base was before the last predict().
   [[nodiscard]] SE3 motion_to(const SE3& T_odom_base) const { return before_.T_odom_base.inverse() * T_odom_base; }
   /// Covariance of exp(δ) in T_previous_now·exp(δ) for the last predict() and update().

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "hal/se3.hpp"
 #include "hal/time.hpp"
 
@@ -26,7 +28,9 @@ struct MotionUpdate {
   bool lost = false;           ///< the measurement did not fit: the pose is predicted, the map was left alone
   bool reinitialised = false;  ///< lost for too long: a new map began at the predicted pose
   /// Reinitialised at a pose so uncertain that the new map must not be added to the one before: they would not match.
-  bool apart = false;
+  /// Then: a guess of where the odom before lies in the new one. One scan fits there, or it is the prediction.
+  std::optional<UncertainPose> T_odom_before{};
+  [[nodiscard]] bool apart() const { return T_odom_before.has_value(); }
 };
 
 }  // namespace cairn::odometry

@@ -56,7 +56,7 @@ TEST(Gap, WithoutWheelsAPlaceThatLooksAlikeIsNotBelieved) {
 }
 
 /// For ten seconds nothing tells its way. A robot that stood meanwhile goes on. One that moved may be at any place that
-/// looks alike: it begins a map of its own, at once.
+/// looks alike: it begins a map of its own, at once. Where the scan fits in the map before is told as a guess.
 TEST(Gap, AfterALongSilenceOnlyARobotThatStoodGoesOn) {
   for (const bool stands : {true, false}) {
     Ride ride(support::lobby().world, [stands](double t) { return there_and_back(stands ? std::min(t, 2.0) : t); });
@@ -66,10 +66,14 @@ TEST(Gap, AfterALongSilenceOnlyARobotThatStoodGoesOn) {
     int scans = 0;
     do update = ride.step();
     while (++scans < 10 && update.lost && !update.reinitialised);
-    EXPECT_EQ(update.apart, !stands);
+    EXPECT_EQ(update.apart(), !stands);
     EXPECT_EQ(scans, stands ? 1 : OdometryConfig{}.second_look.blind_patience);
     if (stands) {
       EXPECT_LT(ride.error(update).head<3>().norm(), 0.05);
+    } else {
+      const SE3 off = ride.error_of_guess(update);
+      EXPECT_LT(off.translation().norm(), 0.2);
+      EXPECT_LT(rotation_angle(off), 0.02);
     }
   }
 }
@@ -102,7 +106,7 @@ TEST(Gap, AMapThatBeginsSomewhereUnknownIsApart) {
     OdometryUpdate update;
     for (; !update.reinitialised && lost < 100; ++lost) update = ride.feed(blind(3.1 + 0.1 * lost));
     EXPECT_EQ(lost, wheels ? OdometryConfig{}.reinitialise_after : OdometryConfig{}.give_up_after);
-    EXPECT_EQ(update.apart, !wheels);
+    EXPECT_EQ(update.apart(), !wheels);
   }
 }
 

@@ -73,6 +73,11 @@ class Ride {
     const SE3 truth = T_world_odom_.inverse() * path_(to_seconds(update.stamp));
     return (update.T_odom_base.mean.inverse() * truth).log();
   }
+  /// At the base.
+  [[nodiscard]] SE3 error_of_guess(const OdometryUpdate& update) const {
+    const SE3 truth = T_world_odom_.inverse() * path_(to_seconds(update.stamp));
+    return update.T_odom_base.mean.inverse() * update.T_odom_before.value().mean * truth;
+  }
   /// What the wheels say at a time in seconds, from now on.
   void roll(std::function<DriveState(double)> wheels) { wheels_ = std::move(wheels); }
   /// Wheels that say where the path is, to a share of the way.

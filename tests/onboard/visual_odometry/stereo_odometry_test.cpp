@@ -107,7 +107,7 @@ TEST(StereoOdometry, AfterALongDarknessANewMapBeginsAndIsSaid) {
   const Flight flight = fly(45, path, [](double t) { return t > 0.9 && t < 2.7; });
   const auto anew = std::ranges::find_if(flight.updates, [](const VisualUpdate& u) { return u.reinitialised; });
   ASSERT_NE(anew, flight.updates.end());
-  EXPECT_TRUE(anew->apart);
+  EXPECT_TRUE(anew->apart());
   EXPECT_TRUE(anew->lost);
   EXPECT_FALSE(flight.updates.back().lost);
 }
@@ -142,7 +142,7 @@ TEST(StereoOdometry, GoesOnWhereAnotherOneEnded) {
     view.shoot(flown(kPeriod_s * i) * kFlightMount, Time{from_seconds(1 + kPeriod_s * i)}, pair);
     Budget budget = Budget::steps(most_steps(quick()));
     const VisualUpdate u = odometry.update(pair, budget).value();
-    EXPECT_FALSE(u.lost || u.began || u.apart) << i;
+    EXPECT_FALSE(u.lost || u.began || u.apart()) << i;
     EXPECT_FALSE(odometry.resuming());
     const SE3 truth = flown(0).inverse() * flown(kPeriod_s * i);
     EXPECT_LT((u.T_odom_base.mean.translation() - truth.translation()).norm(), 0.05) << i;
@@ -163,9 +163,9 @@ TEST(StereoOdometry, WhereNoPictureShowsTheSavedPlaceAMapBeginsAnew) {
     Budget budget = Budget::steps(most_steps(quick()));
     updates.push_back(odometry.update(pair, budget).value());
     EXPECT_FALSE(updates.back().began);
-    if (updates.back().apart) break;
+    if (updates.back().apart()) break;
   }
-  EXPECT_TRUE(updates.back().apart);
+  EXPECT_TRUE(updates.back().apart());
   EXPECT_GT(updates.back().stamp - updates.front().stamp, from_seconds(quick().give_up_after_s));
   EXPECT_TRUE(std::ranges::all_of(updates, &VisualUpdate::lost));
   EXPECT_FALSE(odometry.resuming());

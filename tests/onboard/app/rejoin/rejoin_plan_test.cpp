@@ -50,6 +50,7 @@ struct Carried {
       LocatedScan located;
       ASSERT_TRUE(robot.locate(scan, budget, located));
       ASSERT_TRUE(robot.extend_map(located));
+      plan.went_to(located.T_odom_base.mean, located.epoch);
     }
   }
   void map_the_room() { map(room, SE3(), 4); }
@@ -84,26 +85,44 @@ TEST(RejoinPlan, ComparesAnEarlierMapWithACopyOfThePresentOne) {
   ASSERT_TRUE(job);
   EXPECT_EQ(job->earlier_epoch, 1U);
   EXPECT_EQ(job->present_epoch, 2U);
-  EXPECT_EQ(job->earlier, carried.robot.earlier_maps().all().front().tree);
+  const EarlierMap& earlier = carried.robot.earlier_maps().all().front();
+  EXPECT_EQ(job->earlier, earlier.tree);
+  ASSERT_TRUE(job->guess && earlier.T_next_earlier);
+  EXPECT_EQ(job->guess->mean.matrix(), earlier.T_next_earlier->mean.matrix());
   job->present->canonicalise();
   EXPECT_EQ(mapping::differing_nodes(*job->present, carried.robot.map()), 0U);
   EXPECT_FALSE(carried.next_job()) << "one is out";
 }
 
-TEST(RejoinPlan, ComparesAgainWhenTheMapHasGrown) {
+/// A map of a small room has its size after the first scan.
+TEST(RejoinPlan, ComparesAgainWhenTheRobotHasGoneOn) {
   Carried carried;
   carried.map_the_room();
   carried.be_carried();
-  auto job = carried.next_job();
-  ASSERT_TRUE(job);
-  carried.plan.take(*std::move(job), carried.now);
-  carried.now += 10 * RejoinPlan::kPeriod;
-  EXPECT_FALSE(carried.next_job()) << "the map is the same";
-  const std::size_t before = carried.robot.map().size();
-  for (double phi = 0.1; carried.robot.map().size() < before * 6 / 5; phi += 0.1)
-    carried.map(carried.corridor.world, support::pose_on(carried.corridor.ride, phi), 1);
-  carried.now += 10 * RejoinPlan::kPeriod;
-  EXPECT_TRUE(carried.next_job());
+  const auto compare = [&] {
+    carried.now += 10 * RejoinPlan::kPeriod;
+    auto job = carried.next_job();
+    if (job) carried.plan.take(*std::move(job), carried.now);
+    return job.has_value();
+  };
+  EXPECT_TRUE(compare());
+  EXPECT_FALSE(compare()) << "it stands";
+  const SE3 here = carried.robot.track().back().T_odom_base.mean;
+  const auto go = [&](double x_m, double yaw) {
+    carried.plan.went_to(here * SE3::exp((Vector6() << x_m, 0, 0, 0, 0, yaw).finished()), carried.robot.map_epoch());
+  };
+  for (double x_m = 0; x_m < 0.85; x_m += 0.1) go(x_m, 0);
+  EXPECT_FALSE(compare()) << "not far enough";
+  for (double x_m = 0.85; x_m < 1.1; x_m += 0.1) go(x_m, 0);
+  EXPECT_TRUE(compare());
+  for (double yaw = 0; yaw < 1.1; yaw += 0.1) go(1.05, yaw);
+  EXPECT_TRUE(compare()) << "a camera saw other things";
+  for (double x_m = 1.05; x_m < 40; x_m += 0.1) go(x_m, 1);
+  EXPECT_TRUE(compare());
+  for (double x_m = 40; x_m < 44; x_m += 0.1) go(x_m, 1);
+  EXPECT_FALSE(compare()) << "after a long way it is asked more seldom";
+  for (double x_m = 44; x_m < 45.5; x_m += 0.1) go(x_m, 1);
+  EXPECT_TRUE(compare());
 }
 
 TEST(RejoinPlan, JoinsWhatIsNotKnownYetAndKeepsWhatIs) {
@@ -138,6 +157,23 @@ TEST(RejoinPlan, AtTheEndOfTheRunTheRestIsJoinedAtOnce) {
   carried.plan.take(carried.found(*std::move(job), kPlace), carried.now);
   carried.plan.finish(carried.now);
   EXPECT_TRUE(carried.robot.earlier_maps().all().front().joined);
+}
+
+TEST(RejoinPlan, OnlyOfTheMapJustBeforeIsItsPlaceGuessed) {
+  Carried carried;
+  carried.map_the_room();
+  carried.be_carried();
+  carried.scans += 80;
+  carried.map(carried.room, SE3(), 6);
+  ASSERT_EQ(carried.robot.map_epoch(), 3U);
+  for (const std::uint32_t epoch : {1U, 2U}) {
+    carried.now += 10 * RejoinPlan::kPeriod;
+    auto job = carried.next_job();
+    ASSERT_TRUE(job);
+    EXPECT_EQ(job->earlier_epoch, epoch);
+    EXPECT_EQ(job->guess.has_value(), epoch == 2);
+    carried.plan.take(*std::move(job), carried.now);
+  }
 }
 
 TEST(RejoinPlan, AResultForAMapThatHasEndedIsIgnored) {
