@@ -25,12 +25,12 @@ void run_task_live(ScheduledTask& task, const Clock& clock, CountAllocations all
                    const std::atomic<bool>& stop) {
   TaskMeter meter(task, clock, allocations);
   std::uint64_t k = task.releases.not_before(clock.now());
-  std::uint64_t expected = 0;
-  task.stats.slips += k;  // the thread began late
+  std::uint64_t expected = 0, slipped = k;  // at first: the thread began late
   for (;;) {
     const Time release = task.releases.at(k);
     LiveClock::wait_until(release);
     if (stop.load(std::memory_order_relaxed)) break;
+    task.stats.slips += slipped;  // not before: the run may end first
     TickRecord record;
     record.index = k;
     record.skipped = static_cast<std::uint32_t>(k - expected);
@@ -44,7 +44,7 @@ void run_task_live(ScheduledTask& task, const Clock& clock, CountAllocations all
     expected = k + 1;
     task.next = expected;
     k = task.releases.after(k, clock.now());
-    task.stats.slips += k - expected;
+    slipped = k - expected;
     k += skip;
   }
 }
