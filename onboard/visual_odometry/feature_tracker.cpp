@@ -7,6 +7,7 @@
 #include <opencv2/video/tracking.hpp>
 
 #include "onboard/perception/stereo/as_mat.hpp"
+#include "onboard/visual_odometry/corner_detector.hpp"
 #include "onboard/visual_odometry/patch.hpp"
 
 namespace cairn::visual_odometry {
@@ -45,22 +46,23 @@ cv::Mat free_places(std::span<const Feature> features, const cv::Size& size, int
 
 }  // namespace
 
-struct FeatureTracker::Pyramids {
-  std::vector<cv::Mat> before, left, right;
+struct FeatureTracker::Pictures {
+  std::vector<cv::Mat> before, left, right;  // pyramids
+  CornerDetector detector;
 };
 
 FeatureTracker::FeatureTracker(const TrackingConfig& config, const stereo::StereoGeometry& geometry)
-    : config_(config), geometry_(geometry), pyramids_(std::make_unique<Pyramids>()) {}
+    : config_(config), geometry_(geometry), pictures_(std::make_unique<Pictures>()) {}
 FeatureTracker::FeatureTracker(FeatureTracker&&) noexcept = default;
 FeatureTracker& FeatureTracker::operator=(FeatureTracker&&) noexcept = default;
 FeatureTracker::~FeatureTracker() = default;
 
 void FeatureTracker::follow(const stereo::StereoPair& pair, const Expected& expected) {
   const cv::Size window(config_.window_px, config_.window_px);
-  std::swap(pyramids_->before, pyramids_->left);
+  std::swap(pictures_->before, pictures_->left);
   features_before_ = features_;
-  cv::buildOpticalFlowPyramid(stereo::as_mat(pair.left), pyramids_->left, window, config_.levels);
-  cv::buildOpticalFlowPyramid(stereo::as_mat(pair.right), pyramids_->right, window, config_.levels);
+  cv::buildOpticalFlowPyramid(stereo::as_mat(pair.left), pictures_->left, window, config_.levels);
+  cv::buildOpticalFlowPyramid(stereo::as_mat(pair.right), pictures_->right, window, config_.levels);
   if (features_.empty()) return;
   std::vector<cv::Point2f> from;
   Alignment now;
@@ -69,7 +71,7 @@ void FeatureTracker::follow(const stereo::StereoPair& pair, const Expected& expe
     const auto place = expected(f);
     now.to.push_back(place ? cv::Point2f(static_cast<float>(place->x()), static_cast<float>(place->y())) : from.back());
   }
-  align(pyramids_->before, pyramids_->left, from, config_, now);
+  align(pictures_->before, pictures_->left, from, config_, now);
   std::size_t kept = 0;
   for (std::size_t i = 0; i < features_.size(); ++i) {
     const cv::Point2f& p = now.to[i];
@@ -88,7 +90,7 @@ void FeatureTracker::follow(const stereo::StereoPair& pair, const Expected& expe
 /// Puts a feature to where its patch is in the left eye. One whose patch is not found, or has none, gets that of this
 /// picture.
 void FeatureTracker::anchor(Feature& f) const {
-  const cv::Mat& left = pyramids_->left[0];
+  const cv::Mat& left = pictures_->left[0];
   if (const auto found = f.patch ? f.patch->find(left, {f.left, f.warp_left}) : std::nullopt) {
     f.left = found->middle;
     f.warp_left = found->warp;
@@ -103,7 +105,7 @@ void FeatureTracker::anchor(Feature& f) const {
 /// Looks for a feature's patch in the right eye. False, and nothing has changed, where it is not near `disparity`.
 bool FeatureTracker::find_right(Feature& f, float disparity) const {
   if (!f.patch) return false;
-  const auto found = f.patch->find(pyramids_->right[0], {{f.left.x() - disparity, f.left.y()}, f.warp_right});
+  const auto found = f.patch->find(pictures_->right[0], {{f.left.x() - disparity, f.left.y()}, f.warp_right});
   if (!found || !fits(f, found->middle)) return false;
   f.disparity = f.left.x() - found->middle.x();
   f.warp_right = found->warp;
@@ -130,7 +132,7 @@ void FeatureTracker::match_eyes(std::span<Feature> features, const Expected& exp
     right.to.emplace_back(f.left.x() - disparity, f.left.y());
   }
   if (unsure.empty()) return;
-  align(pyramids_->left, pyramids_->right, from, config_, right);
+  align(pictures_->left, pictures_->right, from, config_, right);
   for (std::size_t i = 0; i < unsure.size(); ++i) {
     Feature& f = *unsure[i];
     const Eigen::Vector2f to(right.to[i].x, right.to[i].y);
@@ -142,7 +144,7 @@ void FeatureTracker::match_eyes(std::span<Feature> features, const Expected& exp
 void FeatureTracker::drop(const std::function<bool(const Feature&)>& unwanted) { std::erase_if(features_, unwanted); }
 
 void FeatureTracker::reject() {
-  std::swap(pyramids_->before, pyramids_->left);
+  std::swap(pictures_->before, pictures_->left);
   features_ = features_before_;
 }
 
@@ -155,12 +157,11 @@ std::vector<Feature> FeatureTracker::fresh_corners() { return corners_between({}
 std::vector<Feature> FeatureTracker::corners_between(std::span<const Feature> others) {
   std::vector<Feature> corners;
   const int room = config_.features - static_cast<int>(others.size());
-  if (room <= 0 || pyramids_->left.empty()) return corners;
-  std::vector<cv::Point2f> found;
-  const cv::Mat& picture = pyramids_->left[0];
-  cv::goodFeaturesToTrack(picture, found, room, config_.quality, config_.spacing_px,
-                          free_places(others, picture.size(), config_.spacing_px), 3);
-  for (const cv::Point2f& p : found) corners.push_back({next_id_++, {p.x, p.y}, std::nullopt, nullptr});
+  if (room <= 0 || pictures_->left.empty()) return corners;
+  const cv::Mat& picture = pictures_->left[0];
+  const cv::Mat places = free_places(others, picture.size(), config_.spacing_px);
+  for (const cv::Point2f p : pictures_->detector.find(picture, places, {room, config_.spacing_px, config_.quality}))
+    corners.push_back({next_id_++, {p.x, p.y}, std::nullopt, nullptr});
   for (Feature& f : corners) anchor(f);
   match_eyes(corners, [](const Feature&) { return std::nullopt; });
   return corners;

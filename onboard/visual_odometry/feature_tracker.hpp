@@ -27,10 +27,9 @@ struct Feature {
   Eigen::Matrix2f warp_left = Eigen::Matrix2f::Identity(), warp_right = warp_left;  ///< of the patch in each eye
 };
 
-/// Follows corners from picture to picture and between the eyes: pyramids of Lucas and Kanade (Bouguet, 2001), corners
-/// of Shi and Tomasi (1994), both by OpenCV. Then each one is put to where the picture looks as where it was seen
-/// first, in both eyes. So its error does not grow as long as it is followed. The result does not depend on the number
-/// of threads.
+/// Follows corners from picture to picture and between the eyes: pyramids of Lucas and Kanade (Bouguet, 2001), by
+/// OpenCV. Then each one is put to where the picture looks as where it was seen first, in both eyes. So its error does
+/// not grow as long as it is followed. The result does not depend on the number of threads.
 class FeatureTracker {
  public:
   FeatureTracker(const TrackingConfig& config, const stereo::StereoGeometry& geometry);
@@ -58,7 +57,7 @@ class FeatureTracker {
   [[nodiscard]] std::span<const Feature> features() const { return features_; }
 
  private:
-  struct Pyramids;
+  struct Pictures;
   void anchor(Feature& f) const;
   [[nodiscard]] bool fits(const Feature& f, const Eigen::Vector2f& right) const;
   bool find_right(Feature& f, float disparity) const;
@@ -69,7 +68,7 @@ class FeatureTracker {
   stereo::StereoGeometry geometry_;
   std::vector<Feature> features_;
   std::vector<Feature> features_before_;  // the last follow()
-  std::unique_ptr<Pyramids> pyramids_;
+  std::unique_ptr<Pictures> pictures_;
   std::uint32_t next_id_ = 1;
 };
 
