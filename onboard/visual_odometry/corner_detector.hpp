@@ -10,7 +10,7 @@ namespace cairn::visual_odometry {
 
 /// Settings of CornerDetector.
 struct CornerConfig {
-  int most = 260;
+  int most = 260;           ///< corners
   int spacing_px = 18;      ///< pixels between two corners, at least
   double quality = 0.0015;  ///< least response of a corner, as a share of the strongest one's
 };

@@ -72,7 +72,7 @@ Result<VisualUpdate> StereoOdometry::update(const stereo::StereoPair& pair, Budg
   const bool lost = !followed && !found;
   if (lost) lose(dt_s);
   const bool anew = lost && gives_up(pair.stamp);
-  const UncertainPose T_odom_before = filter_.place_of_odom(nullptr);
+  const auto T_odom_before = anew ? std::optional(filter_.place_of_odom(nullptr)) : std::nullopt;
   if (lost && !anew) tracker_.reject();
   if (anew) begin_map(pair, budget);
   if (!lost || anew) know_place(pair.stamp);
@@ -81,7 +81,7 @@ Result<VisualUpdate> StereoOdometry::update(const stereo::StereoPair& pair, Budg
   VisualUpdate update = report(pair.stamp);
   update.lost = lost;
   update.reinitialised = anew;
-  if (anew) update.T_odom_before = T_odom_before;
+  update.T_odom_before = T_odom_before;
   update.keyframe = keyframe || anew;
   update.iterations = fit.iterations;
   update.followed = static_cast<int>(matches_.size());

@@ -21,7 +21,8 @@ struct CandumpLine {
   std::optional<Direction> direction;  ///< only with -x: R and T, RX and TX
 };
 
-/// What candump -l writes. Frames that come live are stamped in whole ones, too: so a recording holds what was used.
+/// What candump -l counts its stamps in. Live frames are stamped in whole ones, too: a recording then holds what was
+/// used.
 using CandumpTick = std::chrono::microseconds;
 
 inline constexpr std::size_t kMaxInterface = 15;

@@ -113,6 +113,7 @@ Result<void> add_decoders(Door& door, RobotProfile& profile, Monitor& monitor) {
 Result<Door> open_devices(const RobotProfile& profile, const Devices& which, const Clock& clock, Monitor& monitor) {
   if (const auto fit = check_devices(profile); !fit) return fit.error();
   Door door;
+  // Whole as the stamps of frames are: their UTC in drive.log loses nothing.
   const Duration utc_offset = std::chrono::floor<drive::CandumpTick>(LiveClock::realtime_offset());
   door.recording.robot = profile.name;
   door.recording.realtime_offset_ns = utc_offset.count();

@@ -27,7 +27,7 @@ class RejoinPlan {
   /// Goes on for about a millisecond, while no scan waits. A comparison that is due is returned; take() is then called
   /// with its result, or not at all if the run ends.
   [[nodiscard]] std::optional<RejoinJob> step(Time now);
-  /// The robot is there, in odom of the present epoch.
+  /// The present map got what the robot saw there, in odom of the epoch.
   void went_to(const SE3& T_odom_base, std::uint32_t epoch);
   void take(RejoinJob result, Time now);
   /// The run ends: what a result allows to be joined is joined now.

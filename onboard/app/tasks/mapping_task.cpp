@@ -63,8 +63,10 @@ void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
     monitor_.event(motion.scan.stamp, "mapping", to_string(extended.error()));
   else if (copier_)
     copier_->mapped(motion.scan);
-  if (extended && !motion.scan.lost) note_people(motion.scan);
-  if (extended) rejoin_plan_.went_to(motion.scan.T_odom_base.mean, motion.scan.epoch);
+  if (extended && !motion.scan.lost) {
+    note_people(motion.scan);
+    rejoin_plan_.went_to(motion.scan.T_odom_base.mean, motion.scan.epoch);
+  }
   note_changes(motion.scan, tick);
   memory_short_.store(!extended && extended.error().code == Errc::kLimit, std::memory_order_relaxed);
   if (tick.takes_time()) latency_.record(tick.figure_now() - motion.arrival);
