@@ -15,8 +15,12 @@ double acceleration_for(double deviation, double dt_s) { return std::sqrt(3.0) *
 // while it turned has often ended the turn.
 constexpr double kTwistBelieved_s = 0.2;
 
-/// Of a steady motion over `dt_s` seconds, the share that is left when belief in the twist fades.
-double believed_share(double dt_s) { return kTwistBelieved_s / dt_s * (1 - std::exp(-dt_s / kTwistBelieved_s)); }
+// s. Tilt and climb are believed for so long, on average. Chosen by hand: after the shortest silence that ends in a new
+// map, a third is left.
+constexpr double kTiltBelieved_s = 3;
+
+/// Of a steady motion over `dt_s` seconds, the share that is left when belief in it fades.
+double believed_share(double dt_s, double believed_s) { return believed_s / dt_s * (1 - std::exp(-dt_s / believed_s)); }
 
 }  // namespace
 
@@ -56,11 +60,21 @@ MotionNoise MotionPrior::anything(double dt_s) const {
 }
 
 MotionFilter MotionPrior::moved_anyhow(MotionFilter followed, double dt_s, bool lost) const {
-  Vector6 kept = Vector6::Constant(lost ? believed_share(dt_s) : 1.0);
+  Vector6 kept = Vector6::Constant(lost ? believed_share(dt_s, kTwistBelieved_s) : 1.0);
   kept.segment<2>(3).setZero();
   followed.doubt_twist(kept);
   followed.predict(dt_s, anything(dt_s));
   return followed;
+}
+
+SE3 MotionPrior::levelled(const MotionFilter& moved, const MotionFilter& followed, double dt_s) {
+  const SE3& T_odom_base = moved.state().T_odom_base;
+  const Eigen::Vector3d up = T_odom_base.rotation().col(2);
+  const double kept = std::exp(-dt_s / kTiltBelieved_s);
+  const Eigen::Vector3d level = kept * up + (1 - kept) * Eigen::Vector3d::UnitZ();
+  Eigen::Vector3d p = T_odom_base.translation();
+  p.z() = std::lerp(followed.state().T_odom_base.translation().z(), p.z(), believed_share(dt_s, kTiltBelieved_s));
+  return {rotation_between(up, level) * T_odom_base.quaternion(), p};
 }
 
 void MotionPrior::learn(const Vector6& change, double dt_s) {

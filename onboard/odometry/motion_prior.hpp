@@ -23,6 +23,10 @@ class MotionPrior {
   /// The filter of the last scan that was followed, `dt_s` seconds (> 0) later, expecting anything. A robot that tilts
   /// does not go on tilting. One that was `lost` since may not go on moving, either.
   [[nodiscard]] MotionFilter moved_anyhow(MotionFilter followed, double dt_s, bool lost) const;
+  /// T_odom_base where a new map begins, `dt_s` seconds (> 0) after the scan of `followed`, if the filter would be
+  /// `moved`. What no scan has confirmed fades: the tilt, and the climb that comes of it. So a map leans by what the
+  /// robot is tilted by, and not by what it was tilted by at each new map before.
+  [[nodiscard]] static SE3 levelled(const MotionFilter& moved, const MotionFilter& followed, double dt_s);
   /// The twist has changed by so much in `dt_s` seconds (> 0), as a scan showed.
   void learn(const Vector6& change, double dt_s);
   /// Forgets what was learnt.

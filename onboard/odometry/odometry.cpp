@@ -64,7 +64,6 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget, c
   if (first_) fit = straighten_first(selected, fit, dt_s, budget);
   const Relocalisation place = relocaliser_.judge(fit, selected.keypoints.size());
   if (place == Relocalisation::kElsewhere) return begin(prepared, selected);
-
   const SE3 motion = filter_.motion_to(fit.state.T_odom_base);
   const bool blind = tracking_.blind() && !bridged(dt_s) && place == Relocalisation::kNotNeeded;
   const bool sure = second_look_.sure(fit, dt_s, blind ? &motion : nullptr);
@@ -90,13 +89,16 @@ bool LidarOdometry::follow(const Fit& fit, const SE3& motion, double dt_s) {
   return true;
 }
 
-/// The prediction stands. True if the scan shall begin a new map.
+/// The prediction stands. True if the scan shall begin a new map: where it seems to fit the one before, else level.
 bool LidarOdometry::lose(Track track, const Fit& fit, double dt_s) {
   filter_ = bridged(dt_s) ? wheels_.move(followed_, dt_s) : prior_.moved_anyhow(followed_, dt_s, tracking_.lost());
   if (track != Track::kReinitialised) return false;
-  const bool fits = tracking_.fits(fit) && second_look_.sure(fit, dt_s, nullptr);
-  T_odom_before_ = filter_.place_of_odom(fits ? &fit.state.T_odom_base : nullptr);
-  if (filter_.placed_within(kConnected_m, kConnected_rad)) T_odom_before_.reset();
+  T_odom_before_.reset();
+  if (!filter_.placed_within(kConnected_m, kConnected_rad)) {
+    const bool fits = tracking_.fits(fit) && second_look_.sure(fit, dt_s, nullptr);
+    filter_.believe(fits ? fit.state.T_odom_base : MotionPrior::levelled(filter_, followed_, dt_s));
+    T_odom_before_ = filter_.place_of_odom(fits);
+  }
   reinitialise();
   return true;
 }
@@ -121,8 +123,8 @@ Fit LidarOdometry::align(const Selection& selected, double dt_s, Budget& budget)
     first = fit();
   }
   by_wheels_ = by_wheels.has_value();
-  const bool sector = tracking_.is_fragment(selected.duration_s);  // fits in many places
-  if (sector || relocaliser_.pending() || !second_look_.needed(first, dt_s)) return first;
+  const bool fits_anywhere = tracking_.is_fragment(selected.duration_s);
+  if (fits_anywhere || relocaliser_.pending() || !second_look_.needed(first, dt_s)) return first;
   return look_farther(selected, first, dt_s, by_wheels ? &*by_wheels : nullptr, budget).value_or(first);
 }
 
@@ -131,8 +133,7 @@ void LidarOdometry::predict(double dt_s, const OpenMotion* open) {
   if (!bridged(dt_s)) filter_.predict(dt_s, prior_.usual(map_.settled()), open);
 }
 
-/// Where the wheels say that the base is. If the scan does not fit there, anywhere it may have come to: wheels spin,
-/// and robots are carried.
+/// Where the wheels say that the base is, or anywhere it may have come to: wheels spin, and robots are carried.
 std::optional<Fit> LidarOdometry::look_farther(const Selection& selected, const Fit& first, double dt_s,
                                                const OpenMotion* open, Budget& budget) {
   const auto anyhow = wheel_aid_.possible_motion(followed_.state().twist, prior_.anything(dt_s), dt_s);
@@ -292,8 +293,7 @@ void LidarOdometry::resume(const UncertainPose& T_odom_base, const Vector6& twis
 double LidarOdometry::known_share(const PlacedScan& scan) {
   const Selection selected = selector_.select(preparation_.prepare(scan, T_base_lidar_));
   if (selected.keypoints.empty()) return 0;
-  const MotionState at_rest{.T_odom_base = scan.T_odom_base, .twist = Vector6::Zero()};
-  return registration_.inliers(selected, map_.patches(), at_rest, config_.narrowest_gate_m) /
+  return registration_.inliers(selected, map_.patches(), {.T_odom_base = scan.T_odom_base}, config_.narrowest_gate_m) /
          static_cast<double>(selected.keypoints.size());
 }
 

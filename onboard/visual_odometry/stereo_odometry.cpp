@@ -72,16 +72,15 @@ Result<VisualUpdate> StereoOdometry::update(const stereo::StereoPair& pair, Budg
   const bool lost = !followed && !found;
   if (lost) lose(dt_s);
   const bool anew = lost && gives_up(pair.stamp);
-  const auto T_odom_before = anew ? std::optional(filter_.place_of_odom(nullptr)) : std::nullopt;
   if (lost && !anew) tracker_.reject();
-  if (anew) begin_map(pair, budget);
+  if (anew) begin_apart(pair, dt_s, budget);
   if (!lost || anew) know_place(pair.stamp);
   const bool keyframe = found || (followed && wants_keyframe(fit.inliers));
   if (keyframe) make_keyframe(pair, budget);
   VisualUpdate update = report(pair.stamp);
   update.lost = lost;
   update.reinitialised = anew;
-  update.T_odom_before = T_odom_before;
+  if (anew) update.T_odom_before = filter_.place_of_odom(false);
   update.keyframe = keyframe || anew;
   update.iterations = fit.iterations;
   update.followed = static_cast<int>(matches_.size());
@@ -133,6 +132,12 @@ void StereoOdometry::know_place(Time now) {
   last_followed_ = now;
   sought_since_ = now;
   resuming_ = false;
+}
+
+/// Nothing shows how a new map lies to the one before.
+void StereoOdometry::begin_apart(const stereo::StereoPair& pair, double dt_s, Budget& budget) {
+  filter_.believe(odometry::MotionPrior::levelled(filter_, followed_, dt_s));
+  begin_map(pair, budget);
 }
 
 /// A new map begins at the filter's pose.
@@ -246,7 +251,7 @@ void StereoOdometry::adjust(Budget& budget) {
   bundle_.adjust(budget);
   const double ratio = config_.pixel_noise / config_.adjustment.pixel_noise;
   bundle_.place(map_, ratio * ratio);
-  filter_.believe({bundle_.newest(), filter_.state().twist});
+  filter_.believe(bundle_.newest());
   followed_ = filter_;
 }
 

@@ -77,6 +77,7 @@ class StereoOdometry final : public odometry::MotionSource {
   [[nodiscard]] bool wants_keyframe(int inliers) const;
   void make_keyframe(const stereo::StereoPair& pair, Budget& budget);
   void adjust(Budget& budget);
+  void begin_apart(const stereo::StereoPair& pair, double dt_s, Budget& budget);
   void begin_map(const stereo::StereoPair& pair, Budget& budget);
   [[nodiscard]] SE3 T_odom_eye() const { return filter_.state().T_odom_base * T_base_eye_; }
   [[nodiscard]] VisualUpdate report(Time stamp) const;

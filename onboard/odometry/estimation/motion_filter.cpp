@@ -191,11 +191,10 @@ Matrix6 MotionFilter::odom_covariance() const {
   return ad * uncertainty_.total.topLeftCorner<6, 6>() * ad.transpose();
 }
 
-UncertainPose MotionFilter::place_of_odom(const SE3* T_odom_found) const {
+UncertainPose MotionFilter::place_of_odom(bool found) const {
   Matrix6 covariance = uncertainty_.local.topLeftCorner<6, 6>();
-  if (T_odom_found != nullptr) covariance = MotionNoise::of(kFound_m, kFound_rad).acceleration.cwiseAbs2().asDiagonal();
-  const SE3& T_odom_base = T_odom_found != nullptr ? *T_odom_found : state_.T_odom_base;
-  return compose({state_.T_odom_base, covariance}, {T_odom_base.inverse(), Matrix6::Zero()});
+  if (found) covariance = MotionNoise::of(kFound_m, kFound_rad).acceleration.cwiseAbs2().asDiagonal();
+  return compose({state_.T_odom_base, covariance}, {state_.T_odom_base.inverse(), Matrix6::Zero()});
 }
 
 void MotionFilter::follow_motion() {

@@ -77,6 +77,7 @@ class MotionFilter {
 
   /// Takes `state` instead, with the uncertainty as it is: what a search has found, or an adjustment.
   void believe(const MotionState& state) { state_ = state; }
+  void believe(const SE3& T_odom_base) { state_.T_odom_base = T_odom_base; }
 
   /// Adds what poses show that the twist lacks. The gap is closed then.
   void mend_twist(const Vector6& lacking) {
@@ -101,9 +102,9 @@ class MotionFilter {
   [[nodiscard]] Matrix6 odom_covariance() const;
   /// Whether position and heading against the map have no larger standard deviations than these: m, rad.
   [[nodiscard]] bool placed_within(double position_m, double heading_rad) const;
-  /// If another odom begins at the present state: where this one lies in it. The base is at `T_odom_found` in this one,
-  /// or, if that is null, about where the state says.
-  [[nodiscard]] UncertainPose place_of_odom(const SE3* T_odom_found) const;
+  /// If another odom begins at the present state: where this one lies in it. The base is about where the state says; it
+  /// was `found` there by a scan that fits, or was predicted.
+  [[nodiscard]] UncertainPose place_of_odom(bool found) const;
   /// Motion to T_odom_base from where the base was before the last predict().
   [[nodiscard]] SE3 motion_to(const SE3& T_odom_base) const { return before_.T_odom_base.inverse() * T_odom_base; }
   /// Covariance of exp(δ) in T_previous_now·exp(δ) for the last predict() and update().

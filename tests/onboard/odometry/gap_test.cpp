@@ -110,5 +110,21 @@ TEST(Gap, AMapThatBeginsSomewhereUnknownIsApart) {
   }
 }
 
+/// The base drives over a bump when the scans cease. The new map would lean by as much, and the next by more.
+TEST(Gap, AMapThatBeginsAfterALongSilenceDoesNotKeepTheTiltOfTheOneBefore) {
+  const auto onto_a_bump = [](double t) {
+    const double up = std::clamp(t - 1.5, 0.0, 1.0);
+    return SE3::from_xyz_rpy((Vector6() << 8 + t, 4, 0.1 * up, 0, -0.12 * up, 0).finished());
+  };
+  Ride ride(support::lobby().world, onto_a_bump);
+  OdometryUpdate update;
+  for (int i = 0; i < 25; ++i) update = ride.step();
+  EXPECT_NEAR(update.T_odom_base.mean.xyz_rpy()[4], -0.12, 0.02);
+  for (int lost = 0; !update.reinitialised && lost < 100; ++lost) update = ride.feed(blind(12.5 + 0.1 * lost));
+  EXPECT_TRUE(update.apart());
+  EXPECT_LT(std::abs(update.T_odom_base.mean.xyz_rpy()[4]), 0.01);
+  EXPECT_LT(std::abs(update.T_odom_base.mean.translation().z()), 0.5) << "ten seconds uphill would be 1.2 m";
+}
+
 }  // namespace
 }  // namespace cairn::odometry

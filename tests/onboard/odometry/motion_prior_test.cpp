@@ -51,5 +51,40 @@ TEST(MotionPrior, AnythingMeansMoreTheLongerNothingWasSeenButRobotsStayUpright) 
   EXPECT_GT(3 * moved(prior.anything(0.1), kYaw, 0.1), 0.52) << "30°";
 }
 
+/// A base that climbs at 1 m/s with its nose 0.2 rad up, headed 2 rad to the left.
+MotionFilter climbing() {
+  MotionFilter filter;
+  filter.reset({.T_odom_base = SE3::from_xyz_rpy((Vector6() << 3, 4, 5, 0, -0.2, 2).finished()),
+                .twist = (Vector6() << 1, 0, 0, 0, 0, 0).finished()},
+               {});
+  return filter;
+}
+
+TEST(MotionPrior, ANewMapIsTheMoreLevelTheLongerNothingWasSeen) {
+  const MotionPrior prior({});
+  const MotionFilter followed = climbing();
+  double tilt = 0.2;
+  for (const double dt_s : {0.1, 1.0, 4.0, 10.0, 100.0}) {
+    const MotionFilter moved = prior.moved_anyhow(followed, dt_s, false);
+    const SE3 at = MotionPrior::levelled(moved, followed, dt_s);
+    const SE3& predicted = moved.state().T_odom_base;
+    EXPECT_LT(-at.xyz_rpy()[4], tilt) << dt_s;
+    tilt = -at.xyz_rpy()[4];
+    EXPECT_NEAR(at.xyz_rpy()[3], 0, 1e-9);
+    EXPECT_NEAR(at.xyz_rpy()[5], 2, 1e-9) << "the heading stays";
+    EXPECT_EQ(at.translation().head<2>(), predicted.translation().head<2>());
+    EXPECT_LE(at.translation().z(), predicted.translation().z());
+    EXPECT_GE(at.translation().z(), 5);
+    EXPECT_LT(at.translation().z(), 5 + 3 * std::sin(0.2)) << "three seconds of climbing at most";
+  }
+  EXPECT_LT(tilt, 1e-9);
+}
+
+TEST(MotionPrior, AtOnceANewMapBeginsWhereTheBaseWas) {
+  const MotionFilter followed = climbing();
+  const SE3 at = MotionPrior::levelled(followed, followed, 1e-6);
+  EXPECT_LT((followed.state().T_odom_base.inverse() * at).log().norm(), 1e-6);
+}
+
 }  // namespace
 }  // namespace cairn::odometry
