@@ -157,16 +157,15 @@ std::optional<Fit> LidarOdometry::look_farther(const Selection& selected, const 
   return found;
 }
 
-/// The first scan was taken in an unknown motion, so it is skewed. The second is skewed alike and fits, with a twist of
-/// zero. But the way between them shows the motion: the map is made again, deskewed with it. The way found then is
-/// wrong to the other side, by 1.0 to 2.3 times as much in bad starts. FixedPoint chooses what is tried next.
+/// The second scan shows the motion in which the first was taken: the map is made again, deskewed with it. The way
+/// found then is wrong to the other side, by 1.0 to 2.3 times as much in bad starts. FixedPoint chooses what is tried
+/// next.
 Fit LidarOdometry::straighten_first(const Selection& selected, const Fit& fit, double dt_s, Budget& budget) {
   const FirstScan first = *std::exchange(first_, std::nullopt);
   if (!tracking_.fits(fit) || fit.degeneracy.count > 0) return fit;  // it does not show the motion
-  const auto moved = [&](const Fit& f) -> Vector6 { return filter_.motion_to(f.state.T_odom_base).log() / dt_s; };
-  Straightened best{.twist = followed_.state().twist, .fit = fit, .filter = filter_};
+  auto best = Straightened::with(followed_.state().twist, fit, filter_, dt_s);
   FixedPoint search;
-  Vector6 twist = search.next(best.twist, moved(fit));
+  Vector6 twist = search.next(best.twist, best.moved);
   for (int round = 0; round < kStraightenings; ++round) {
     begin_again(first, twist);
     filter_ = followed_;
@@ -174,8 +173,9 @@ Fit LidarOdometry::straighten_first(const Selection& selected, const Fit& fit, d
     filter_.believe({.T_odom_base = followed_.state().T_odom_base * SE3::exp(twist * dt_s), .twist = twist});
     const Fit again = registration_.align(selected, map_.patches(), filter_, filter_.state(), budget, {kRoundGate_m});
     if (again.iterations == 0) break;  // no time left
-    if (again.equations.inliers >= best.fit.equations.inliers) best = {twist, again, filter_};
-    twist = search.next(twist, moved(again));
+    const auto now = Straightened::with(twist, again, filter_, dt_s);
+    if (now.likelier_than(best)) best = now;
+    twist = search.next(twist, now.moved);
   }
   begin_again(first, best.twist);
   filter_ = best.filter;

@@ -30,6 +30,7 @@
 #include "onboard/odometry/scan_preparation.hpp"
 #include "onboard/odometry/second_look.hpp"
 #include "onboard/odometry/start_search.hpp"
+#include "onboard/odometry/straightened.hpp"
 #include "onboard/odometry/tracking_state.hpp"
 
 namespace cairn::odometry {
@@ -92,12 +93,6 @@ class LidarOdometry final : public MotionSource {
   struct FirstScan {
     PreparedScan scan;
     std::vector<std::uint32_t> for_map;
-  };
-  /// The twist that the map's first scan was deskewed with, and how the second one fits then.
-  struct Straightened {
-    Vector6 twist;
-    Fit fit;
-    MotionFilter filter;
   };
 
   OdometryUpdate begin(const PreparedScan& scan, const Selection& selected);

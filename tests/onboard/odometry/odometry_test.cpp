@@ -79,6 +79,23 @@ TEST(Odometry, BeginsInAFastTurn) {
   EXPECT_NEAR(last.twist[5], 2.0, 0.05) << "scans that are skewed alike fit with a twist of zero, too";
 }
 
+/// Scans that are skewed alike fit as well as straight ones: what belies them is the way between them.
+TEST(Odometry, KnowsItsTwistFromTheSecondScanOn) {
+  const support::World world = support::carpark().world;
+  for (const int place : {2, 5, 7}) {
+    const auto turning = [place](double t) {
+      const double yaw = 0.5 * place - 0.32 * t;
+      return SE3::from_xyz_rpy((Vector6() << 4.0 + place, 6.0 + 0.5 * place, 0, 0, 0, yaw).finished()) *
+             SE3::exp((Vector6() << 1.4 * t, 0, 0, 0, 0, 0).finished());
+    };
+    Ride ride(world, turning);
+    ride.step();
+    const OdometryUpdate second = ride.step();
+    EXPECT_NEAR(second.twist[0], 1.4, 0.3) << place;
+    EXPECT_NEAR(second.twist[5], -0.32, 0.1) << place;
+  }
+}
+
 TEST(Odometry, BeginsAmongTreesWhileItNods) {
   const auto nodding = [](double t) {
     return SE3::from_xyz_rpy((Vector6() << 8 + 1.5 * t, 6 + 0.1 * t, 0, 0.03, 0.6 * t, 0).finished());
