@@ -30,7 +30,7 @@ class SecondLook {
   [[nodiscard]] bool doubtful(const Fit& fit) const;
   /// A fit so long after the last one that was followed may be of a place that looks alike: it is believed only if it
   /// is nearly as good as usual. `blind`: of a robot that nothing has told its way since, the motion that the fit
-  /// means; null: something has.
+  /// means; null: something has. A blind robot is believed to have stood, or turned, and to be at rest.
   [[nodiscard]] bool sure(const Fit& fit, double dt_s, const SE3* blind) const;
   /// `first` fits worse than the last scans did, floors and ceilings included, or `dt_s` is so long
   /// that the prediction says little.

@@ -78,6 +78,21 @@ TEST(Gap, AfterALongSilenceOnlyARobotThatStoodGoesOn) {
   }
 }
 
+/// It went round a circle unseen, and drives by where it was last seen.
+TEST(Gap, ARobotThatDrivesByItsLastPlaceDidNotStand) {
+  const auto round = [](double t) {
+    const double yaw = 2 * std::numbers::pi * t / 8;
+    return SE3::from_xyz_rpy((Vector6() << 12 + 1.5 * std::sin(yaw), 4 - 1.5 * std::cos(yaw), 0, 0, 0, yaw).finished());
+  };
+  Ride ride(support::lobby().world, round);
+  for (int i = 0; i < 25; ++i) ride.step();
+  ride.lose(78);
+  OdometryUpdate update;
+  do update = ride.step();
+  while (update.lost && !update.reinitialised);
+  EXPECT_TRUE(update.apart());
+}
+
 /// The wheels spin on the spot while the robot stands.
 TEST(Gap, WheelsThatSpinAreFoundOut) {
   Ride ride(support::lobby().world, [](double) { return there_and_back(2); });
