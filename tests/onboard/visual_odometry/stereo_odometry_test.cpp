@@ -112,6 +112,22 @@ TEST(StereoOdometry, AfterALongDarknessANewMapBeginsAndIsSaid) {
   EXPECT_FALSE(flight.updates.back().lost);
 }
 
+/// Its nose is 0.2 rad down when the darkness comes: the new map does not keep all of that.
+TEST(StereoOdometry, AMapThatBeginsAfterALongDarknessIsNearlyLevel) {
+  const auto path = [](double t) {
+    if (t > 1) return SE3::from_xyz_rpy((Vector6() << 0, 0, 1.5, 0, 0, 3).finished());
+    const double nod = 0.2 * std::clamp((t - 0.1) / 0.5, 0.0, 1.0);
+    return flown(t) * SE3::from_xyz_rpy((Vector6() << 0, 0, 0, 0, nod, 0).finished());
+  };
+  const auto tilt = [](const VisualUpdate& u) { return std::acos(u.T_odom_base.mean.rotation()(2, 2)); };
+  const Flight flight = fly(45, path, [](double t) { return t > 0.9 && t < 2.7; });
+  const auto followed = std::ranges::find_if(flight.updates, &VisualUpdate::lost);
+  const auto anew = std::ranges::find_if(flight.updates, &VisualUpdate::reinitialised);
+  ASSERT_NE(anew, flight.updates.end());
+  EXPECT_NEAR(tilt(*std::prev(followed)), 0.2, 0.03);
+  EXPECT_LT(tilt(*anew), 0.14);
+}
+
 /// An odometry that flies for a second, and what it leaves.
 struct Ended {
   std::vector<Keyframe> keyframes;
