@@ -50,5 +50,5 @@ build "$preset" "${targets[@]}"
 # A sanitiser's report must end the test, whichever way the machine's defaults are set.
 export ASAN_OPTIONS=${ASAN_OPTIONS:-detect_stack_use_after_return=1:strict_string_checks=1}
 export UBSAN_OPTIONS=${UBSAN_OPTIONS:-print_stacktrace=1:halt_on_error=1}
-export TSAN_OPTIONS=${TSAN_OPTIONS:-halt_on_error=1:second_deadlock_stack=1}
+export TSAN_OPTIONS=${TSAN_OPTIONS:-halt_on_error=1:second_deadlock_stack=1:suppressions=$PWD/tools/ci/tsan.supp}
 ctest --preset "$preset" --parallel "$(nproc)" --no-tests=error "${select[@]}" "${without[@]}" "$@"
