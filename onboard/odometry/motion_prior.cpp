@@ -15,8 +15,8 @@ double acceleration_for(double deviation, double dt_s) { return std::sqrt(3.0) *
 // while it turned has often ended the turn.
 constexpr double kTwistBelieved_s = 0.2;
 
-// s. Tilt and climb are believed for so long, on average. Chosen by hand: after the shortest silence that ends in a new
-// map, a third is left.
+// s. Tilt and climb are believed for so long, on average. Chosen by hand: where a silence of second_look.blind_after_s
+// ends, a third is left.
 constexpr double kTiltBelieved_s = 3;
 
 /// Of a steady motion over `dt_s` seconds, the share that is left when belief in it fades.
