@@ -1,9 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fusion/matching/features/levelling.hpp"
 
+#include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
+
+#include "fusion/matching/features/cell_index.hpp"
 
 namespace cairn::matching {
 namespace {
@@ -19,10 +24,23 @@ constexpr double kApart = std::numbers::sqrt2 / 2;  // cosine of 45°, between t
 constexpr int kHalfSphere = 600;
 // Of the extent, a twentieth is cut off at either end.
 constexpr std::ptrdiff_t kOutermost = 20;
-// Cosines of 30°, 20° and 15°: normals that are averaged for the direction of gravity. Narrow gates
-// would find the grid's z: between the steps of its voxels, a leaning floor looks level.
-constexpr double kLevelGates[] = {0.866, 0.940, 0.966};
-constexpr double kLeastLean_cosine = 0.99863;  // of 3°
+// Of straightening(), tuned on seeds 1000 to 1017 of tests/bench/matching_pairs. Pieces are wider than the steps that
+// voxels make of a leaning surface: between two steps, a surfel looks level or upright.
+constexpr float kPiece_m = 2;
+constexpr int kLeastSurfels = 5;                               // of a piece
+constexpr double kMostThickness_m = 0.1, kLeastWidth_m = 0.3;  // standard deviations of a flat piece
+/// One step of the search for upwards. Floors bring it near, walls end it: ground slopes as a whole, walls do not.
+struct LevelStep {
+  double gate_deg;        // off level or upright
+  double floors_surfels;  // that all floors together weigh at most, in surfels of wall
+};
+constexpr double kAllFloors_surfels = 1e9, kFewFloors_surfels = 100;
+constexpr LevelStep kLevelSteps[] = {{20, kAllFloors_surfels}, {12, kAllFloors_surfels}, {8, kFewFloors_surfels},
+                                     {5, kFewFloors_surfels},  {5, kFewFloors_surfels},  {5, kFewFloors_surfels}};
+constexpr double kFloorWeight = 0.1;        // of a floor's surfel, in surfels of wall
+constexpr double kBelievedUp_surfels = 10;  // that the map's own z weighs, in surfels of wall
+constexpr double kLeastLean_deg = 0.5;      // less is not worth turning the map
+constexpr double kInDegrees_rad = std::numbers::pi / 180;
 
 using Vectors = std::vector<Eigen::Vector3d>;
 
@@ -90,6 +108,79 @@ SE3 upwards(Eigen::Vector3d direction) {
   return {rotation_between(direction, Eigen::Vector3d::UnitZ()).toRotationMatrix(), Eigen::Vector3d::Zero()};
 }
 
+/// A flat piece of surface.
+struct FlatPiece {
+  Eigen::Vector3d normal;
+  double surfels;
+};
+
+/// The points of a piece, summed.
+class PointsOfPiece {
+ public:
+  explicit PointsOfPiece(const Eigen::Vector3f& centre) : centre_(centre.cast<double>()) {}
+  void add(const Eigen::Vector3f& point) {
+    const Eigen::Vector3d p = point.cast<double>() - centre_;
+    sum_ += p;
+    squares_ += p * p.transpose();
+    ++count_;
+  }
+  [[nodiscard]] std::optional<FlatPiece> piece() const {
+    if (count_ < kLeastSurfels) return std::nullopt;
+    const Eigen::Vector3d mean = sum_ / count_;
+    const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> spread(squares_ / count_ - mean * mean.transpose());
+    if (spread.eigenvalues()[0] > kMostThickness_m * kMostThickness_m ||
+        spread.eigenvalues()[1] < kLeastWidth_m * kLeastWidth_m)
+      return std::nullopt;
+    return FlatPiece{spread.eigenvectors().col(0), static_cast<double>(count_)};
+  }
+
+ private:
+  Eigen::Vector3d centre_, sum_ = Eigen::Vector3d::Zero();
+  Eigen::Matrix3d squares_ = Eigen::Matrix3d::Zero();
+  int count_ = 0;
+};
+
+/// Walls and floors apart: most places that have a wall have some floor, too.
+std::vector<FlatPiece> flat_pieces(std::span<const Surfel> surfels) {
+  std::array<CellIndex, 2> index;
+  std::vector<PointsOfPiece> places;
+  for (const Surfel& s : surfels) {
+    if (!s.upright() && !s.level()) continue;
+    const Eigen::Vector3i cell = (s.point / kPiece_m).array().floor().cast<int>();
+    const auto next = static_cast<int>(places.size());
+    const int i = index[s.level() ? 1 : 0].find_or_insert(pack(cell), next);
+    if (i == next) places.emplace_back(kPiece_m * (cell.cast<float>().array() + 0.5F).matrix());
+    places[static_cast<std::size_t>(i)].add(s.point);
+  }
+  std::vector<FlatPiece> pieces;
+  for (const PointsOfPiece& place : places)
+    if (auto piece = place.piece()) pieces.push_back(*piece);
+  return pieces;
+}
+
+/// How much a piece counts that is off by this sine: from 1 at none to 0 at the gate.
+double nearness(double sine, double gate) { return std::max(0.0, 1 - sine * sine / (gate * gate)); }
+
+/// The direction to which walls are most nearly upright and floors most nearly level, of the pieces that are within
+/// the step's gate of being so for `up`.
+Eigen::Vector3d upright_and_level(std::span<const FlatPiece> pieces, const Eigen::Vector3d& up, const LevelStep& step) {
+  const double gate = std::sin(step.gate_deg * kInDegrees_rad);
+  const Eigen::Vector3d z = Eigen::Vector3d::UnitZ();
+  Eigen::Matrix3d walls = Eigen::Matrix3d::Zero(), floors = walls;
+  double of_floors = 0;
+  for (const FlatPiece& p : pieces) {
+    const double along = p.normal.dot(up), across = std::sqrt(std::max(0.0, 1 - along * along));
+    const double level = p.surfels * nearness(across, gate);
+    walls += p.surfels * nearness(along, gate) * p.normal * p.normal.transpose();
+    floors += level * p.normal * p.normal.transpose();
+    of_floors += level;
+  }
+  const double floor_weight = std::min(kFloorWeight, step.floors_surfels / std::max(1.0, of_floors));
+  const Eigen::Matrix3d cost = walls - floor_weight * floors - kBelievedUp_surfels * z * z.transpose();
+  const Eigen::Vector3d best = Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d>(cost).eigenvectors().col(0);
+  return best.z() < 0 ? Eigen::Vector3d(-best) : best;
+}
+
 }  // namespace
 
 std::vector<SE3> levellings(std::span<const Surfel> surfels) {
@@ -102,16 +193,10 @@ std::vector<SE3> levellings(std::span<const Surfel> surfels) {
 }
 
 SE3 straightening(std::span<const Surfel> surfels) {
+  const std::vector<FlatPiece> pieces = flat_pieces(surfels);
   Eigen::Vector3d up = Eigen::Vector3d::UnitZ();
-  for (const double gate : kLevelGates) {
-    Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-    for (const Surfel& s : surfels) {
-      const Eigen::Vector3d n = s.normal.cast<double>();
-      if (const double along = n.dot(up); s.flat() && std::abs(along) > gate) sum += std::copysign(1.0, along) * n;
-    }
-    if (sum.norm() > 0) up = sum.normalized();
-  }
-  return up.z() > kLeastLean_cosine ? SE3() : upwards(up);
+  for (const LevelStep& step : kLevelSteps) up = upright_and_level(pieces, up, step);
+  return up.z() > std::cos(kLeastLean_deg * kInDegrees_rad) ? SE3() : upwards(up);
 }
 
 std::vector<Surfel> turned(std::span<const Surfel> surfels, const SE3& turn) {

@@ -16,9 +16,9 @@ namespace cairn::matching {
 /// Gives the identity alone where nothing is flat.
 [[nodiscard]] std::vector<SE3> levellings(std::span<const Surfel> surfels);
 
-/// The turn of a map (T_level_map, without translation) whose z is upwards within some degrees.
-/// It brings the mean of its floors and ceilings level. Gives the identity where they lean by less
-/// than 3°: a search does not mind, and ground may slope as much.
+/// The turn of a map (T_level_map, without translation) whose z is upwards within some degrees. It brings flat pieces
+/// of 2 m that are nearly upright or level as near to that as it can. Walls weigh ten times as much as floors, because
+/// ground slopes. Gives the identity for a lean of less than 0.5°, and where little is flat.
 [[nodiscard]] SE3 straightening(std::span<const Surfel> surfels);
 
 /// The surfels, turned.

@@ -5,7 +5,6 @@
 
 #include <numbers>
 
-#include "fusion/matching/features/levelling.hpp"
 #include "fusion/matching/methods.hpp"
 #include "tests/support/map_pairs.hpp"
 
@@ -72,24 +71,6 @@ TEST(Tilted, OfMapsWithNothingInThemSaysSo) {
   ASSERT_TRUE(result);
   EXPECT_FALSE(result->accepted);
   EXPECT_FALSE(result->reason.empty());
-}
-
-TEST(Levelling, TurnsTheFloorUpwards) {
-  const support::Scene scene = support::office();
-  const SE3 turn = leaning_frame(0.3, -0.5, 0.4);
-  const SE3 T_map_world = turn * support::pose_on(scene.ride, 0).inverse();
-  const auto map = support::stretch_map(scene, {0, 2.2, 10}, T_map_world, 5, 0.1, 10);
-  const auto turns = levellings(MapFeatures::build(*map)->fine());
-  ASSERT_FALSE(turns.empty());
-  EXPECT_LE(turns.size(), 3U);
-  const Eigen::Vector3d up = turns.front() * (T_map_world.rotation() * Eigen::Vector3d::UnitZ());
-  EXPECT_GT(up.z(), std::cos(0.02));
-}
-
-TEST(Levelling, OfNothingIsNone) {
-  const auto turns = levellings({});
-  ASSERT_EQ(turns.size(), 1U);
-  EXPECT_EQ(turns.front().matrix(), Eigen::Matrix4d::Identity());
 }
 
 }  // namespace
