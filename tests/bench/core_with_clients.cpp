@@ -111,6 +111,22 @@ std::vector<Packet> packets_of(const fs::path& folder) {
   return packets;
 }
 
+void print(const app::RunResult& result, Latencies& latencies, const char* name) {
+  std::printf("%-8s scans %zu  pose to client p50 %.2f ms p99 %.2f ms (%zu)", name,
+              static_cast<std::size_t>(result.report.scans), latencies.percentile(0.5), latencies.percentile(0.99),
+              latencies.count());
+  for (const StageStats& stage : result.monitor.stages())
+    if (stage.name == "odometry")
+      std::printf("  odometry wall p99 %.2f ms cpu p99 %.2f ms mean %.2f ms",
+                  to_milliseconds(stage.wall.percentile(0.99)), to_milliseconds(stage.cpu.percentile(0.99)),
+                  to_milliseconds(stage.cpu.mean()));
+  for (const auto& task : result.report.tasks)
+    if (task.spec.name == "safety" || task.spec.name == "reference" || task.spec.name == "streams")
+      std::printf("  %s missed %llu", task.spec.name.c_str(), static_cast<unsigned long long>(task.stats.misses));
+  std::printf("\n");
+  std::fflush(stdout);
+}
+
 void play(const std::vector<Packet>& packets, bool with_clients) {
   const fs::path folder = fs::temp_directory_path() / ("core_with_clients_" + std::to_string(::getpid()));
   fs::remove_all(folder);
@@ -144,20 +160,7 @@ void play(const std::vector<Packet>& packets, bool with_clients) {
     over = true;
   });
   if (!result) std::fprintf(stderr, "%s\n", to_string(result.error()).c_str()), std::exit(1);
-  const auto& report = (*result)->report;
-  std::printf("%-8s scans %zu  pose to client p50 %.2f ms p99 %.2f ms (%zu)", with_clients ? "clients" : "alone",
-              static_cast<std::size_t>(report.scans), latencies.percentile(0.5), latencies.percentile(0.99),
-              latencies.count());
-  for (const StageStats& stage : (*result)->monitor.stages())
-    if (stage.name == "odometry")
-      std::printf("  odometry wall p99 %.2f ms cpu p99 %.2f ms mean %.2f ms",
-                  to_milliseconds(stage.wall.percentile(0.99)), to_milliseconds(stage.cpu.percentile(0.99)),
-                  to_milliseconds(stage.cpu.mean()));
-  for (const auto& task : report.tasks)
-    if (task.spec.name == "safety" || task.spec.name == "reference" || task.spec.name == "streams")
-      std::printf("  %s missed %llu", task.spec.name.c_str(), static_cast<unsigned long long>(task.stats.misses));
-  std::printf("\n");
-  std::fflush(stdout);
+  print(**result, latencies, with_clients ? "clients" : "alone");
   fs::remove_all(folder);
 }
 

@@ -80,6 +80,18 @@ void trace(std::size_t i, const OdometryUpdate& u, const SE3& true_step, const S
       total[0], total[1], total[2], 57.3 * total[5], ms);
 }
 
+/// One scan more: the motion since the one before, and where the robot is by then.
+void account(Figures& f, const OdometryUpdate& u, const SE3& true_step, const SE3& truth, double dt_s) {
+  f.way_m += true_step.translation().norm();
+  f.twist_off += 0.1 * (true_step.log() / dt_s - u.twist - f.twist_off);
+  const Vector6 e = (u.T_odom_base.mean.inverse() * truth).log();
+  f.nees += e.dot(u.T_odom_base.covariance.ldlt().solve(e)) / 6;
+  for (int k = 0; k < 3; ++k) f.inside[k] += std::abs(e[k]) < 3 * std::sqrt(u.T_odom_base.covariance(k, k));
+  f.end_m = (u.T_odom_base.mean.translation() - truth.translation()).norm();
+  f.end_deg = 57.3 * e.tail<3>().norm();
+  f.worst_m = std::max(f.worst_m, f.end_m);
+}
+
 Figures follow(const bench::RecordedDrive& drive, const Settings& settings, std::size_t first, std::size_t count) {
   Workers workers(1);
   LidarOdometry odometry(settings.odometry, drive.T_base_lidar, workers);
@@ -110,15 +122,7 @@ Figures follow(const bench::RecordedDrive& drive, const Settings& settings, std:
     if (i == first) continue;
     const SE3 step = drive.truth[i - 1].inverse() * drive.truth[i];
     if (settings.trace) trace(i, *u, step, truth, ms);
-    f.way_m += step.translation().norm();
-    const double dt_s = to_seconds(drive.scans[i].valid.end - drive.scans[i - 1].valid.end);
-    f.twist_off += 0.1 * (step.log() / dt_s - u->twist - f.twist_off);
-    const Vector6 e = (u->T_odom_base.mean.inverse() * truth).log();
-    f.nees += e.dot(u->T_odom_base.covariance.ldlt().solve(e)) / 6;
-    for (int k = 0; k < 3; ++k) f.inside[k] += std::abs(e[k]) < 3 * std::sqrt(u->T_odom_base.covariance(k, k));
-    f.end_m = (u->T_odom_base.mean.translation() - truth.translation()).norm();
-    f.end_deg = 57.3 * e.tail<3>().norm();
-    f.worst_m = std::max(f.worst_m, f.end_m);
+    account(f, *u, step, truth, to_seconds(drive.scans[i].valid.end - drive.scans[i - 1].valid.end));
   }
   f.ate_m = ate(ours, truths);
   if (!settings.icp) return f;

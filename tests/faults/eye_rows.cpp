@@ -11,9 +11,7 @@ Row eye_row(const char* id, const char* fault, const char* requirement, const ch
   return {id, fault, requirement, {}, {}, safety::Mode::kNormal, std::string("faults/CameraFaults.") + test};
 }
 
-}  // namespace
-
-std::vector<Row> eye_rows() {
+std::vector<Row> rows_of_two_cameras() {
   return {
       eye_row("L26", "colour camera silent or frozen while people are followed",
               "The thermal camera finds the people. A repeated picture counts neither for nor against anybody.",
@@ -34,6 +32,12 @@ std::vector<Row> eye_rows() {
               "AColourCameraThatIsTurnedByTwoDegrees"),
       eye_row("L32", "thermal camera turned by 2°", "As for L31, by the colour camera.",
               "AThermalCameraThatIsTurnedByTwoDegrees"),
+  };
+}
+
+/// A robot without a LiDAR.
+std::vector<Row> stereo_rows() {
+  return {
       {"L33",
        "a robot without a LiDAR: its stereo camera sees nothing for a fifth of a second",
        "Odometry says that it is lost. It goes on in the same map with the next good picture.",
@@ -56,6 +60,15 @@ std::vector<Row> eye_rows() {
        safety::Mode::kHold,
        "app/StereoRun.AFrozenCameraIsALostRobot"},
   };
+}
+
+}  // namespace
+
+std::vector<Row> eye_rows() {
+  std::vector<Row> rows = rows_of_two_cameras();
+  const std::vector<Row> stereo = stereo_rows();
+  rows.insert(rows.end(), stereo.begin(), stereo.end());
+  return rows;
 }
 
 }  // namespace cairn::faults

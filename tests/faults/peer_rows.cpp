@@ -152,9 +152,8 @@ Row shown_by(const char* id, const char* fault, const char* requirement, const c
   return {id, fault, requirement, 0ms, 0ms, safety::Mode::kNormal, test};
 }
 
-}  // namespace
-
-std::vector<Row> peer_rows() {
+/// Of peers that vanish or come again, and of what a network does to their datagrams.
+std::vector<Row> link_rows() {
   constexpr safety::Mode N = safety::Mode::kNormal;
   return {
       {"P1", "a peer vanishes", "It counts as lost after its lease. Its map and its pose are kept.", 3600ms, 2s, N, "",
@@ -182,6 +181,12 @@ std::vector<Row> peer_rows() {
       {"P12", "clocks that are hours apart and drift by 50 ppm",
        "No decision depends on clocks. Rows P1 to P5 and P9 to P11 use such clocks too.", 0ms, 10s, N, "",
        [] { return over(kGood); }},
+  };
+}
+
+/// Of the peer process, and of who is listened to.
+std::vector<Row> peer_process_rows() {
+  return {
       shown_by("P13", "a slow link", "Traffic at the interface stays below the cap in each second, discovery included.",
                "peer_process/UdpCap.NoSecondIsAboveTheCapAtTheInterface"),
       shown_by("P14", "more robots than the limit", "Further robots are refused. Memory stays bounded.",
@@ -203,6 +208,12 @@ std::vector<Row> peer_rows() {
       shown_by("P24", "SIGTERM to the peer process at a cap of 60 B/s, or in a flood of discovery",
                "It ends within 2 s, without waiting for the network's threads.",
                "peer_process/PeerProcess.EndsWhenItIsToldToThoughItsCapIsTiny"),
+  };
+}
+
+/// Of what is wrong in a map, or in where it lies.
+std::vector<Row> trust_rows() {
+  return {
       shown_by("P25", "a peer lies about occupancy: a phantom wall, or an erased one",
                "A planner's view never lets a peer overrule what the robot saw itself.",
                "client/PlannerViewTest.WhatTheRobotSawItselfIsNeverOverruled"),
@@ -217,6 +228,14 @@ std::vector<Row> peer_rows() {
                "They separate at once. Maps do not overrule it. They merge again where maps confirm it.",
                "team/FullTeamPlacedByPerson.SeparatesRobotsUntilTheMapsConfirmIt"),
   };
+}
+
+}  // namespace
+
+std::vector<Row> peer_rows() {
+  std::vector<Row> all = link_rows();
+  for (const auto& rows : {peer_process_rows(), trust_rows()}) all.insert(all.end(), rows.begin(), rows.end());
+  return all;
 }
 
 }  // namespace cairn::faults

@@ -99,9 +99,7 @@ Measured damaged_never_decodes_to_nonsense() {
   return m;
 }
 
-}  // namespace
-
-std::vector<Row> sensor_rows() {
+std::vector<Row> lidar_rows() {
   constexpr safety::Mode N = safety::Mode::kNormal, D = safety::Mode::kDegraded, H = safety::Mode::kHold;
   return {
       {"L1", "LiDAR silent for 0.3 s", "Degraded 150 ms after the last scan. Normal with the second new scan.", 260ms,
@@ -135,6 +133,12 @@ std::vector<Row> sensor_rows() {
        [] { return device_time_jump(30min); }},
       {"L14", "device time jumps back by 17 min", "As for L13.", 0ms, 0ms, N, "",
        [] { return device_time_jump(-17min); }},
+  };
+}
+
+std::vector<Row> camera_rows() {
+  constexpr safety::Mode N = safety::Mode::kNormal;
+  return {
       {"L15", "camera of 15 Hz silent for 1 s",
        "The fault is raised after three periods without a picture. Scans equal those of a run without the fault, to "
        "the bit.",
@@ -150,6 +154,15 @@ std::vector<Row> sensor_rows() {
       {"L25", "thermal camera of 9 Hz frozen for 1 s", "As for L24.", 700ms, 150ms, N, "",
        [] { return pictures_missing(recording::kThermal, 9, safety::Fault::kThermalSilent, Spell::kStuck); }},
   };
+}
+
+}  // namespace
+
+std::vector<Row> sensor_rows() {
+  std::vector<Row> rows = lidar_rows();
+  const std::vector<Row> cameras = camera_rows();
+  rows.insert(rows.end(), cameras.begin(), cameras.end());
+  return rows;
 }
 
 }  // namespace cairn::faults

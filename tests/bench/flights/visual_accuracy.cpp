@@ -148,15 +148,20 @@ struct Kept {
     keyframes.push_back(*odometry.new_keyframe());
     if (keyframes.size() > PlaceMemory::kPlaces) keyframes.pop_front();
   }
+  void give_to(StereoOdometry& odometry) const {
+    const std::vector<Keyframe> last(keyframes.begin(), keyframes.end());
+    odometry.resume(T_odom_base, twist, stamp, last);
+  }
 };
+
+std::unique_ptr<StereoOdometry> begin_anew(const flights::Eyes& eyes, const Settings& settings) {
+  return std::make_unique<StereoOdometry>(settings.odometry, eyes.rectifier.geometry(), eyes.T_base_eye);
+}
 
 void run(const fs::path& recording, const Settings& settings) {
   const auto eyes = flights::eyes_of(recording);
   if (!eyes) return (void)std::printf("%s\n", to_string(eyes.error()).c_str());
-  const auto begin_anew = [&] {
-    return std::make_unique<StereoOdometry>(settings.odometry, eyes->rectifier.geometry(), eyes->T_base_eye);
-  };
-  auto odometry = begin_anew();
+  auto odometry = begin_anew(*eyes, settings);
   Kept kept;
   bool restarted = settings.restart_at_s < 0;
   const flights::Truth truth = flights::load_truth(recording / "ground_truth.tum");
@@ -170,9 +175,8 @@ void run(const fs::path& recording, const Settings& settings) {
     const double s = static_cast<double>(ns - pictures.front().first) * 1e-9;
     if (s >= settings.restart_at_s && s < settings.restart_at_s + settings.restart_for_s) continue;
     if (!restarted && s >= settings.restart_at_s) {
-      odometry = begin_anew();
-      const std::vector<Keyframe> last(kept.keyframes.begin(), kept.keyframes.end());
-      odometry->resume(kept.T_odom_base, kept.twist, kept.stamp, last);
+      odometry = begin_anew(*eyes, settings);
+      kept.give_to(*odometry);
       restarted = true;
     }
     const bool dark = s >= settings.dark_from_s && s < settings.dark_from_s + settings.dark_for_s;

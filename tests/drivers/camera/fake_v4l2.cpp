@@ -45,13 +45,8 @@ int FakeV4l2::ioctl(int, unsigned long request, void* argument) {
 
 int FakeV4l2::answer(unsigned long request, void* argument) {
   switch (request) {
-    case VIDIOC_QUERYCAP: {
-      auto& c = *static_cast<v4l2_capability*>(argument);
-      std::memcpy(c.card, "Fake camera", 12);
-      c.capabilities = capabilities | V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
-      c.device_caps = device_caps;
-      return 0;
-    }
+    case VIDIOC_QUERYCAP:
+      return describe(*static_cast<v4l2_capability*>(argument));
     case VIDIOC_S_FMT:
     case VIDIOC_G_FMT:
       return set_format(*static_cast<v4l2_format*>(argument));
@@ -60,25 +55,14 @@ int FakeV4l2::answer(unsigned long request, void* argument) {
       static_cast<v4l2_streamparm*>(argument)->parm.capture.capability = has_rate ? V4L2_CAP_TIMEPERFRAME : 0;
       static_cast<v4l2_streamparm*>(argument)->parm.capture.timeperframe = period;
       return 0;
-    case VIDIOC_ENUM_FMT: {
-      auto& f = *static_cast<v4l2_fmtdesc*>(argument);
-      f.pixelformat = format;
-      return f.index == 0 ? 0 : -EINVAL;
-    }
-    case VIDIOC_ENUM_FRAMESIZES: {
-      auto& s = *static_cast<v4l2_frmsizeenum*>(argument);
-      s.type = V4L2_FRMSIZE_TYPE_DISCRETE;
-      s.discrete = {width, height};
-      return s.index == 0 ? 0 : -EINVAL;
-    }
+    case VIDIOC_ENUM_FMT:
+      return describe(*static_cast<v4l2_fmtdesc*>(argument));
+    case VIDIOC_ENUM_FRAMESIZES:
+      return describe(*static_cast<v4l2_frmsizeenum*>(argument));
     case VIDIOC_REQBUFS:
       return request_buffers(*static_cast<v4l2_requestbuffers*>(argument));
-    case VIDIOC_QUERYBUF: {
-      auto& b = *static_cast<v4l2_buffer*>(argument);
-      b.length = image_bytes() + 16;
-      b.m.offset = b.index * 4096;
-      return b.index < memory_.size() ? 0 : -EINVAL;
-    }
+    case VIDIOC_QUERYBUF:
+      return describe(*static_cast<v4l2_buffer*>(argument));
     case VIDIOC_QBUF:
       queued_.push_back(static_cast<v4l2_buffer*>(argument)->index);
       return 0;
@@ -87,6 +71,30 @@ int FakeV4l2::answer(unsigned long request, void* argument) {
     default:
       return stream(request == VIDIOC_STREAMON);
   }
+}
+
+int FakeV4l2::describe(v4l2_capability& c) const {
+  std::memcpy(c.card, "Fake camera", 12);
+  c.capabilities = capabilities | V4L2_CAP_VIDEO_CAPTURE | V4L2_CAP_STREAMING;
+  c.device_caps = device_caps;
+  return 0;
+}
+
+int FakeV4l2::describe(v4l2_fmtdesc& f) const {
+  f.pixelformat = format;
+  return f.index == 0 ? 0 : -EINVAL;
+}
+
+int FakeV4l2::describe(v4l2_frmsizeenum& s) const {
+  s.type = V4L2_FRMSIZE_TYPE_DISCRETE;
+  s.discrete = {width, height};
+  return s.index == 0 ? 0 : -EINVAL;
+}
+
+int FakeV4l2::describe(v4l2_buffer& b) const {
+  b.length = image_bytes() + 16;
+  b.m.offset = b.index * 4096;
+  return b.index < memory_.size() ? 0 : -EINVAL;
 }
 
 int FakeV4l2::set_format(v4l2_format& f) {

@@ -58,6 +58,10 @@ class FakeV4l2 final : public V4l2Calls {
 
  private:
   int answer(unsigned long request, void* argument);
+  int describe(v4l2_capability& c) const;
+  int describe(v4l2_fmtdesc& f) const;
+  int describe(v4l2_frmsizeenum& s) const;
+  int describe(v4l2_buffer& b) const;
   int set_format(v4l2_format& f);
   int request_buffers(v4l2_requestbuffers& r);
   int dequeue(v4l2_buffer& b);

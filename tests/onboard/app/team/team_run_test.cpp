@@ -10,11 +10,7 @@
 #include <functional>
 #include <optional>
 
-#include "drivers/peers/local_link.hpp"
 #include "drivers/recording/recording_writer.hpp"
-#include "fusion/peers/exchange.hpp"
-#include "fusion/peers/items/claim.hpp"
-#include "fusion/peers/items/tile_codec.hpp"
 #include "hal/workers.hpp"
 #include "onboard/app/live/live_view.hpp"
 #include "onboard/app/run.hpp"
@@ -22,6 +18,7 @@
 #include "onboard/client/robot_stream.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/figures/map_measures.hpp"
+#include "tests/onboard/app/team/pillar_peer.hpp"
 #include "tests/support/local_socket.hpp"
 #include "tests/support/scenes.hpp"
 #include "tests/support/temporary_folder.hpp"
@@ -36,7 +33,7 @@ using ::testing::HasSubstr;
 
 const Vector6 kPlayedMount = (Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished();
 constexpr double kSeconds = 1.6;
-constexpr std::size_t kLeastPlayed = 4, kLeastTiles = 50;
+constexpr std::size_t kLeastPlayed = 4;
 
 void record_drive(const fs::path& folder) {
   recording::Recording index;
@@ -48,65 +45,6 @@ void record_drive(const fs::path& folder) {
   for (const Packet& packet : drive.packets()) ASSERT_TRUE(writer.write(packet));
   ASSERT_TRUE(writer.close());
 }
-
-mapping::TileKey tile_at(double x, double y, double z, double resolution_m) {
-  const auto voxel = [&](double v) { return static_cast<std::uint16_t>(32768 + std::floor(v / resolution_m)); };
-  return mapping::TileKey::of_voxel(voxel(x), voxel(y), voxel(z));
-}
-
-/// A peer that knows one pillar, far from anything that the robot sees, and where the two are.
-class Peer {
- public:
-  explicit Peer(fs::path socket) : socket_(std::move(socket)), link_(peer_link::LocalLink::connect(socket_)) {
-    mapping::TileState pillar;
-    for (unsigned z = 0; z < 8; ++z) pillar.set(3, 4, z, 3.5F);
-    std::vector<std::byte> bytes;
-    peers::encode_tile(pillar, bytes);
-    exchange_.say(peers::ItemId::tile(0, tile_at(60, 60, 1, 0.1)), bytes);
-  }
-
-  /// Until `over` says true; the peer process between the two dies and comes back eight times a second.
-  void speak(const std::function<bool()>& over) {
-    const LiveClock clock;
-    for (int i = 0; !over(); ++i) {
-      LiveClock::wait_until(clock.now() + kTick);
-      hear(clock.now());
-      if (i % 3 == 0) link_.emplace(peer_link::LocalLink::connect(socket_));
-      (void)link_->join();
-      say_where_the_robot_is();
-      std::vector<peers::Outgoing> out;
-      exchange_.send(clock.now(), out);
-      for (const auto& datagram : out) link_->send({peer_link::LinkFrame::Kind::kReceived, 2, datagram.bytes});
-    }
-  }
-  /// Of the robot's map.
-  [[nodiscard]] std::size_t known_items() const {
-    const auto robot = exchange_.layers().find(1);
-    return robot == exchange_.layers().end() ? 0 : robot->second.holding.items().size();
-  }
-
- private:
-  static constexpr Duration kTick = std::chrono::milliseconds(40);
-
-  void hear(Time now) {
-    if (!link_->join()) return;
-    peer_link::LinkFrame frame;
-    while (link_->receive(memory_, frame)) (void)exchange_.receive(frame.bytes, now);
-  }
-  void say_where_the_robot_is() {
-    const auto robot = exchange_.links().find(1);
-    if (robot == exchange_.links().end()) return;
-    UncertainPose pose;
-    pose.covariance = 1e-4 * Matrix6::Identity();
-    const peers::Edge edge{0, 1, robot->second.epoch, 0, pose, 0.99F};
-    exchange_.say(peers::ItemId::edge(0), encode(edge));
-  }
-
-  fs::path socket_;
-  std::optional<peer_link::LocalLink> link_;
-  peers::Exchange exchange_{2, "second", std::uint64_t{7} << 32U, {.voxel_um = 100'000}};
-  std::vector<std::byte> memory_;
-};
 
 /// A run while it goes on, as those see it who do not know what it is about to find.
 class Observed {
@@ -212,66 +150,77 @@ void expect_placed(const report::RunReport& ran, const mapping::SemanticOcTree& 
   EXPECT_TRUE(fs::exists(out / "team_positions.ply"));
 }
 
+/// What a run left behind that was live, and its team's map as a client had it.
+struct Ran {
+  Result<std::unique_ptr<RunResult>> result = Error{Errc::kNotFound, "the run has not begun"};
+  std::optional<client::MapMirror> mirror;
+  std::optional<SE3> T_team_odom;
+};
+
+/// The run, while a peer speaks and a client mirrors the team's map.
+Ran run_beside(PillarPeer& peer, const RunOptions& options) {
+  Ran ran;
+  std::atomic<bool> over = false;
+  Workers three(3);
+  three.for_each(3, [&](std::size_t side) {
+    if (side == 0) {
+      ran.result = run(options);
+      over = true;
+    } else if (side == 2) {
+      mirror_team(options.sockets / "robot.sock", over, ran.mirror, ran.T_team_odom);
+    } else {
+      peer.speak([&] { return over.load(); });
+    }
+  });
+  return ran;
+}
+
+/// What was recorded of a run gives the same, to the bit.
+void expect_the_same_again(const RunOptions& first, Pace pace, const report::RunReport& ran) {
+  RunOptions again;
+  again.config = first.config;
+  again.recording = first.record;
+  again.out = first.out.parent_path() / "again";
+  again.pace = pace;
+  const auto repeated = run(again);
+  ASSERT_TRUE(repeated) << to_string(repeated.error());
+  ASSERT_TRUE((*repeated)->report.team);
+  EXPECT_EQ((*repeated)->report.team->sha256, ran.team->sha256);
+  EXPECT_EQ((*repeated)->report.output_sha256, ran.output_sha256);
+  for (const Event& e : (*repeated)->monitor.events()) EXPECT_NE(e.stage, "schedule") << e.what;
+}
+
 TEST_F(TeamRun, IsRepeatedToTheBitThoughThePeerProcessDies) {
   record_drive(folder_ / "drive");
   options_.record = folder_ / "recorded";
   options_.sockets = folder_ / "s";
-  Peer peer(folder_ / "p.sock");
-  std::atomic<bool> over = false, map_known = false;
+  PillarPeer peer(folder_ / "p.sock");
   Observed observed(options_, folder_ / "v.sock", [&](const Observed& run) {
     const LiveView::Peer* second = run.peer("second");
-    return run.located() >= kLeastPlayed && map_known && second != nullptr && second->merged && second->tiles > 0;
+    return run.located() >= kLeastPlayed && peer.knows_the_map() && second != nullptr && second->merged &&
+           second->tiles > 0;
   });
-  Result<std::unique_ptr<RunResult>> result = Error{Errc::kNotFound, "the run has not begun"};
-  std::optional<client::MapMirror> mirror;
-  std::optional<SE3> T_team_odom;
-  Workers three(3);
-  three.for_each(3, [&](std::size_t side) {
-    if (side == 0) {
-      result = run(options_);
-      over = true;
-    } else if (side == 2) {
-      mirror_team(options_.sockets / "robot.sock", over, mirror, T_team_odom);
-    } else {
-      peer.speak([&] {
-        map_known = peer.known_items() > kLeastTiles;
-        return over.load();
-      });
-    }
-  });
-  ASSERT_TRUE(result) << to_string(result.error());
-  const report::RunReport& ran = (*result)->report;
+  const Ran beside = run_beside(peer, options_);
+  ASSERT_TRUE(beside.result) << to_string(beside.result.error());
+  const report::RunReport& ran = (*beside.result)->report;
   EXPECT_GE(ran.scans, kLeastPlayed);
   EXPECT_GE(observed.scans(), 1U) << "of the live view, whose robot had merged by then";
   EXPECT_EQ(ran.control_thread_allocations.value_or(0), 0U);
   ASSERT_TRUE(ran.team);
   EXPECT_THAT(ran.team->merged_with, ElementsAre("second"));
   EXPECT_EQ(ran.team->anchor, 1U);
-  ASSERT_TRUE(T_team_odom) << "clients hear where the robot lies in its team";
-  EXPECT_LT(T_team_odom->log().norm(), 1e-9) << "the team's frame is that of its anchor: this robot";
+  ASSERT_TRUE(beside.T_team_odom) << "clients hear where the robot lies in its team";
+  EXPECT_LT(beside.T_team_odom->log().norm(), 1e-9) << "the team's frame is that of its anchor: this robot";
   EXPECT_GT(ran.team->tiles, kLeastTiles);
   EXPECT_TRUE(ran.peers.at("second").accepted);
   EXPECT_EQ(ran.peers.at("second").tiles, 1U);
-  EXPECT_GT(peer.known_items(), kLeastTiles) << "the peer knows the robot's map";
+  EXPECT_TRUE(peer.knows_the_map());
   const auto map = mapping::load_map(options_.out / "team.cairn").value();
   expect_pillar(*map);
   expect_placed(ran, *map, options_.out);
-  ASSERT_TRUE(mirror);
-  expect_mirrored(*map, *mirror);
-
-  for (const Pace pace : {Pace::kMaximum, Pace::kRecorded}) {
-    RunOptions again;
-    again.config = options_.config;
-    again.recording = options_.record;
-    again.out = folder_ / "again";
-    again.pace = pace;
-    const auto repeated = run(again);
-    ASSERT_TRUE(repeated) << to_string(repeated.error());
-    ASSERT_TRUE((*repeated)->report.team);
-    EXPECT_EQ((*repeated)->report.team->sha256, ran.team->sha256);
-    EXPECT_EQ((*repeated)->report.output_sha256, ran.output_sha256);
-    for (const Event& e : (*repeated)->monitor.events()) EXPECT_NE(e.stage, "schedule") << e.what;
-  }
+  ASSERT_TRUE(beside.mirror);
+  expect_mirrored(*map, *beside.mirror);
+  for (const Pace pace : {Pace::kMaximum, Pace::kRecorded}) expect_the_same_again(options_, pace, ran);
 }
 
 TEST_F(TeamRun, WithoutAPlaceInATeamSaysHowToGetOne) {
