@@ -15,7 +15,7 @@ end() {
 }
 trap end EXIT
 mkdir "$place"/{etc,run,var,units}
-domain=$((RANDOM % 90 + 100)) port=$((RANDOM % 20000 + 20000))
+domain=$((RANDOM % 90 + 100)) port=$((RANDOM % 12000 + 20000))  # below those that the system hands out
 
 # Paths of the machine become paths of the folder.
 for unit in cairn cairn-peers cairn-ros; do
@@ -66,9 +66,10 @@ until_there "$place/run/peers.sock"
 start cairn-peers
 start cairn-ros
 for ((i = 0; i < 600; ++i)); do
-  grep -q 'topics below /husky' "$place/cairn-ros.log" && break
+  ! grep -q 'topics below /husky' "$place/cairn-ros.log" || break
   sleep 0.1
 done
+((i < 600)) || { echo "cairn-ros named no topics in a minute" >&2; cat "$place"/*.log >&2; exit 1; }
 sleep 1
 for process in "${processes[@]}"; do
   kill -0 "$process" || { echo "a service ended by itself" >&2; cat "$place"/*.log >&2; exit 1; }

@@ -19,8 +19,6 @@
 namespace cairn::velodyne {
 namespace {
 
-constexpr Duration kRateWindow = std::chrono::milliseconds(100);
-
 Error io_error(std::string_view cause, int port) {
   const int why = errno;
   std::string detail = std::strerror(why);
@@ -63,10 +61,7 @@ Result<std::unique_ptr<UdpSource>> UdpSource::open(const Config& config, SourceI
 }
 
 UdpSource::UdpSource(const Config& config, SourceId source, const Clock& clock)
-    : clock_(clock),
-      source_(source),
-      model_(*find_model(config.model)),
-      max_per_window_(static_cast<std::uint64_t>(config.max_packets_per_s * to_seconds(kRateWindow))) {
+    : clock_(clock), source_(source), model_(*find_model(config.model)), rate_(config.max_packets_per_s) {
   if (!config.source_address.empty()) source_address_ = ntohl(address_of(config.source_address, 0).sin_addr.s_addr);
 }
 
@@ -138,7 +133,7 @@ Result<UdpSource::Received> UdpSource::receive(Socket& socket, Packet& packet) {
   const std::uint32_t from = ntohl(sender.sin_addr.s_addr);
   learn(from, packet);
   if (from != this->sender().value_or(from)) return ++counters_.foreign, Received::kUnwanted;
-  if (!within_rate(packet.arrival)) return ++counters_.flooded, Received::kUnwanted;
+  if (!rate_.take(packet.arrival)) return ++counters_.flooded, Received::kUnwanted;
   packet.source = source_;
   packet.channel = socket.port;
   packet.sequence = counters_.delivered++;
@@ -198,14 +193,6 @@ void UdpSource::read_stamps(msghdr& message, Packet& packet) {
     packet.arrival = now;
     ++counters_.unstamped;
   }
-}
-
-bool UdpSource::within_rate(Time arrival) {
-  if (arrival < window_start_ || arrival - window_start_ >= kRateWindow) {
-    window_start_ = arrival;
-    in_window_ = 0;
-  }
-  return ++in_window_ <= max_per_window_;
 }
 
 }  // namespace cairn::velodyne

@@ -9,6 +9,7 @@
 
 #include "drivers/velodyne/config.hpp"
 #include "drivers/velodyne/models.hpp"
+#include "drivers/velodyne/transport/rate_window.hpp"
 #include "drivers/velodyne/transport/udp_filter.hpp"
 #include "hal/clock.hpp"
 #include "hal/ports.hpp"
@@ -74,7 +75,6 @@ class UdpSource final : public Source {
   void learn(std::uint32_t sender, const Packet& packet);
   void hear_only(std::optional<std::uint32_t> sender);
   void count_drops();
-  bool within_rate(Time arrival);
 
   const Clock& clock_;
   SourceId source_;
@@ -82,9 +82,7 @@ class UdpSource final : public Source {
   std::optional<std::uint32_t> source_address_;  // of the configuration, host byte order
   SenderLearner learner_;                        // without it
   bool filters_ = false;                         // the kernel does
-  std::uint64_t max_per_window_;
-  Time window_start_{};
-  std::uint64_t in_window_ = 0;
+  RateWindow rate_;
   std::array<Socket, 2> sockets_;  // data, position
   std::size_t turn_ = 0;           // which socket is read first, so that none starves
   int until_count_ = 0;            // datagrams, until drops are counted again

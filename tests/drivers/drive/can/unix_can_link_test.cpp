@@ -89,9 +89,12 @@ TEST_F(UnixCanLinkTest, FramesCrossBothWays) {
   EXPECT_EQ(packet.channel, static_cast<std::uint16_t>(Direction::kReceived));
   EXPECT_EQ(packet.source, SourceId{4});
   EXPECT_GE(packet.arrival, before - 1ms);
-  EXPECT_LE(packet.arrival, clock.now());
+  const Time after = clock.now();
+  EXPECT_LE(packet.arrival, after);
   EXPECT_EQ(packet.arrival, std::chrono::floor<CandumpTick>(packet.arrival)) << "a recording must hold it";
-  EXPECT_EQ(link->counters().unstamped, 0U) << "the kernel stamps records of Unix sockets";
+  if (after - before < 500ms) {  // the link takes no stamp that is a second old: else the machine was held up
+    EXPECT_EQ(link->counters().unstamped, 0U) << "the kernel stamps records of Unix sockets";
+  }
   CanFrame longer;
   longer.id = 0x155;
   longer.fd = true;

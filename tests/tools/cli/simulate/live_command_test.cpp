@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "drivers/recording/formats/trajectory_file.hpp"
+#include "tests/support/own_address.hpp"
 #include "tests/tools/cli/run_command.hpp"
 #include "tools/cli/simulate/simulate_command.hpp"
 
@@ -47,9 +48,9 @@ TEST(LiveCommand, SenselessValuesAreRefused) {
 TEST(LiveCommand, PlaysForItsSecondsAndSaysWhatItDid) {
   const TemporaryFolder folder;
   const Outcome outcome =
-      live({"--seconds=0.1", "--json", "--to=127.0.0.1:40468", "--can=unix:" + (folder / "can").string(),
-            "--estop=" + (folder / "estop").string(), "--truth=" + (folder / "truth.tum").string(),
-            "--profile-out=" + (folder / "robot.yaml").string()});
+      live({"--seconds=0.1", "--json", "--to=" + support::own_address() + ":22468",
+            "--can=unix:" + (folder / "can").string(), "--estop=" + (folder / "estop").string(),
+            "--truth=" + (folder / "truth.tum").string(), "--profile-out=" + (folder / "robot.yaml").string()});
   ASSERT_EQ(outcome.exit_code, app::kDone) << outcome.err;
   const auto object = outcome.json();
   EXPECT_EQ(object["scene"], "corridor");

@@ -43,6 +43,7 @@ class ClientKills : public ::testing::Test {
     options_.out = folder_ / "live";
     options_.sockets = folder_ / "s";
     options_.pace = app::Pace::kLive;
+    options_.progress = [this](Time, std::size_t scans) { scans_ = scans; };
     options_.stop = [this] { return done_.load(); };
   }
 
@@ -54,11 +55,14 @@ class ClientKills : public ::testing::Test {
       if (side == 0) {
         result_ = app::run(options_);
         done_ = true;
+        serve();
       } else if (side == 1) {
+        serving_.wait(false);
         support::LoopbackLidar().send(drive.packets(), [this] { return done_.load(); });
       } else {
         kill_clients(kills);
         done_ = true;
+        serve();
       }
     });
   }
@@ -78,22 +82,32 @@ class ClientKills : public ::testing::Test {
     for (const LiveClock clock; !watcher && !done_; watcher = client::RobotStream::connect(socket, wants))
       LiveClock::wait_until(clock.now() + std::chrono::milliseconds(10));
     ASSERT_TRUE(watcher);
+    EXPECT_TRUE(speaks(*watcher));
+    serve();
     std::mt19937 random(7);
     for (int i = 0; i < kills && !done_; ++i) {
       kill_one(i, std::chrono::milliseconds(random() % 120));
-      if (i == kFirst) files_before_ = settled_files();
+      if (i == kFirst) files_before_ = open_files();
     }
-    // Each one that died has been noticed once a new client is served.
-    for (int i = 0; i < 3; ++i) {
-      const auto next = watcher->next(std::chrono::seconds(60));
-      EXPECT_TRUE(next && !std::holds_alternative<std::monostate>(*next)) << "the core still speaks";
-    }
-    files_after_ = settled_files();
+    for (int i = 0; i < 3; ++i) EXPECT_TRUE(speaks(*watcher)) << "after all of them died";
+    wait_for([&] { return scans_ > 0; });
+    wait_for([&] { return open_files() <= files_before_; });
+    files_after_ = open_files();
   }
-  /// Once the core has noticed who died.
-  static std::ptrdiff_t settled_files() {
-    LiveClock::wait_until(LiveClock().now() + std::chrono::milliseconds(500));
-    return open_files();
+  static bool speaks(client::RobotStream& watcher) {
+    const auto next = watcher.next(kHang);
+    return next && !std::holds_alternative<std::monostate>(*next);
+  }
+  template <class Condition>
+  static void wait_for(Condition met) {
+    const LiveClock clock;
+    for (const Time end = clock.now() + kHang; !met() && clock.now() < end;)
+      LiveClock::wait_until(clock.now() + std::chrono::milliseconds(10));
+  }
+  /// The core listens to the LiDAR, or will never do so.
+  void serve() {
+    serving_ = true;
+    serving_.notify_all();
   }
   void kill_one(int i, Duration after) {
     std::vector<std::string> words;
@@ -110,16 +124,16 @@ class ClientKills : public ::testing::Test {
     (void)client.end(SIGKILL);
   }
 
+  static constexpr Duration kHang = std::chrono::seconds(60);
+  std::atomic<bool> serving_ = false;
+  std::atomic<std::size_t> scans_ = 0;
   peer_link::DomainClaim claim_ = peer_link::DomainClaim::make().value();
 };
 
 void expect_nothing_noticed(const app::RunResult& ran) {
   EXPECT_EQ(ran.report.control_thread_allocations.value_or(0), 0U);
-  EXPECT_GT(ran.report.scans, 10U);
-  for (const Event& event : ran.monitor.events()) {
-    EXPECT_NE(event.stage, "clients") << event.what;
-    EXPECT_EQ(event.what.find("hang"), std::string::npos) << event.what;
-  }
+  EXPECT_GT(ran.report.scans, 0U);
+  for (const Event& event : ran.monitor.events()) EXPECT_NE(event.stage, "clients") << event.what;
 }
 
 TEST_F(ClientKills, TheCoreNoticesNothingButTheirAbsence) {

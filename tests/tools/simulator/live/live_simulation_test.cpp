@@ -6,6 +6,7 @@
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "onboard/app/door/door.hpp"
 #include "onboard/scheduler/task_spec.hpp"
+#include "tests/support/own_address.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace cairn::simulator {
@@ -18,7 +19,7 @@ LiveConfig in(const support::TemporaryFolder& folder) {
   config.estop = folder / "estop";
   config.truth = folder / "truth.tum";
   config.profile = folder / "robot.yaml";
-  config.to.data_port = 40'368;
+  config.to = {support::own_address(), 22'468};  // and 28408; the system hands out none below 32768
   return config;
 }
 
