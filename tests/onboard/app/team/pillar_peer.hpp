@@ -37,14 +37,17 @@ class PillarPeer {
     exchange_.say(peers::ItemId::tile(0, tile_at(60, 60, 1, 0.1)), bytes);
   }
 
-  /// Until `over` says true; the peer process between the two dies and comes back eight times a second.
+  /// Until `over` says true; the peer process between the two dies and comes back, with every third word.
   void speak(const std::function<bool()>& over) {
     const LiveClock clock;
     for (int i = 0; !over(); ++i) {
       LiveClock::wait_until(clock.now() + kTick);
       hear(clock.now());
       knows_the_map_ = known_items() > kLeastTiles;
-      if (i % 3 == 0) link_.emplace(peer_link::LocalLink::connect(socket_));
+      if (i % 3 == 0) {
+        link_.emplace(peer_link::LocalLink::connect(socket_));
+        ++deaths_;
+      }
       (void)link_->join();
       say_where_the_robot_is();
       std::vector<peers::Outgoing> out;
@@ -54,6 +57,8 @@ class PillarPeer {
   }
   /// The robot's map. May be asked while speak() goes on.
   [[nodiscard]] bool knows_the_map() const { return knows_the_map_; }
+  /// Of the peer process. May be asked while speak() goes on.
+  [[nodiscard]] int deaths() const { return deaths_; }
 
  private:
   static constexpr Duration kTick = std::chrono::milliseconds(40);
@@ -81,6 +86,7 @@ class PillarPeer {
   peers::Exchange exchange_{2, "second", std::uint64_t{7} << 32U, {.voxel_um = 100'000}};
   std::vector<std::byte> memory_;
   std::atomic<bool> knows_the_map_ = false;
+  std::atomic<int> deaths_ = 0;
 };
 
 }  // namespace cairn::app

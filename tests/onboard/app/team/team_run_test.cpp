@@ -34,6 +34,7 @@ using ::testing::HasSubstr;
 const Vector6 kPlayedMount = (Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished();
 constexpr double kSeconds = 1.6;
 constexpr std::size_t kLeastPlayed = 4;
+constexpr int kLeastDeaths = 10;
 
 void record_drive(const fs::path& folder) {
   recording::Recording index;
@@ -197,8 +198,8 @@ TEST_F(TeamRun, IsRepeatedToTheBitThoughThePeerProcessDies) {
   PillarPeer peer(folder_ / "p.sock");
   Observed observed(options_, folder_ / "v.sock", [&](const Observed& run) {
     const LiveView::Peer* second = run.peer("second");
-    return run.located() >= kLeastPlayed && peer.knows_the_map() && second != nullptr && second->merged &&
-           second->tiles > 0;
+    return run.located() >= kLeastPlayed && peer.deaths() >= kLeastDeaths && peer.knows_the_map() &&
+           second != nullptr && second->merged && second->tiles > 0;
   });
   const Ran beside = run_beside(peer, options_);
   ASSERT_TRUE(beside.result) << to_string(beside.result.error());
