@@ -84,7 +84,7 @@ void expect_agreement_soon(unsigned first, unsigned count) {
 }
 
 TEST(Fleet, AgreesSoonAfterAPartitionAndACrash) { expect_agreement_soon(1, 1); }
-TEST(FullFleet, AgreesSoonAfterAPartitionAndACrash) { expect_agreement_soon(first_seed(), seeds(3)); }
+TEST(FullFleet, AgreesSoonAfterAPartitionAndACrash) { expect_agreement_soon(first_seed(), seeds(10)); }
 
 TEST(Fleet, SameSeedSameBytes) {
   const auto run = [] {
