@@ -15,8 +15,8 @@ namespace cairn::drive {
 /// Flags in CanFrame::id, as Linux has them (linux/can.h).
 inline constexpr std::uint32_t kExtended = 0x80000000U, kRemote = 0x40000000U, kErrorFrame = 0x20000000U;
 inline constexpr std::uint32_t kStandardMask = 0x7FF, kExtendedMask = 0x1FFFFFFF;
-/// CanFrame::fd_flags: bit rate switch, error state indicator, "is a CAN FD frame".
-inline constexpr std::uint8_t kFdBitRateSwitch = 1, kFdErrorState = 2, kFdFormat = 4;
+/// CanFrame::fd_flags: bit rate switch, error state indicator.
+inline constexpr std::uint8_t kFdBitRateSwitch = 1, kFdErrorState = 2;
 
 /// One frame on a CAN bus, classic or FD.
 struct CanFrame {

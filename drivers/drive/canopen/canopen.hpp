@@ -14,7 +14,6 @@ namespace cairn::drive::canopen {
 /// Identifiers of the predefined connection set (CiA 301, 7.3.3); node identifiers 1 … 127 are added.
 inline constexpr std::uint32_t kNmt = 0x000, kSync = 0x080, kEmergency = 0x080, kTpdo1 = 0x180, kRpdo1 = 0x200,
                                kTpdo2 = 0x280, kSdoResponse = 0x580, kSdoRequest = 0x600, kHeartbeat = 0x700;
-inline constexpr std::uint8_t kMaxNode = 127;
 
 enum class NmtCommand : std::uint8_t {
   kStart = 0x01,

@@ -70,8 +70,4 @@ void MapFeatures::finish() {
 
 double book_map_entropy(std::span<const Voxel> voxels) { return mean_over(voxels, weighted_log); }
 
-double binary_map_entropy(std::span<const Voxel> voxels) {
-  return mean_over(voxels, [](double p) { return weighted_log(p) + weighted_log(1 - p); });
-}
-
 }  // namespace cairn::matching

@@ -58,7 +58,5 @@ class MapFeatures {
 /// The book's map entropy (3.10, 3.11), in bits: the mean of −p log2 p over occupied voxels.
 /// 0 for an empty map.
 [[nodiscard]] double book_map_entropy(std::span<const Voxel> voxels);
-/// The uncertainty that reports show, in bits: the mean binary entropy over occupied voxels.
-[[nodiscard]] double binary_map_entropy(std::span<const Voxel> voxels);
 
 }  // namespace cairn::matching

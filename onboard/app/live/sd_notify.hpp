@@ -24,7 +24,6 @@ class SdNotify {
 
   /// Lines such as "READY=1" or "WATCHDOG=1\nSTATUS=normal". Never blocks; a full queue is an error (kIo).
   Result<void> notify(std::string_view lines);
-  [[nodiscard]] bool listened_to() const { return fd_ >= 0; }
 
  private:
   SdNotify(int fd, std::string address) : fd_(fd), address_(std::move(address)) {}

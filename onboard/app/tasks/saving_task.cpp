@@ -77,9 +77,7 @@ void SavingTask::save_copy(Time now) {
 }
 
 void SavingTask::save_map(Time now, const mapping::SemanticOcTree& map, const TrackPoint& newest) {
-  const auto saved = generations_.save(map, state_at(newest));
-  note(now, saved);
-  if (saved) ++maps_saved_;
+  note(now, generations_.save(map, state_at(newest)));
 }
 
 }  // namespace cairn::app

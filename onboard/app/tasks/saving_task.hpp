@@ -34,7 +34,6 @@ class SavingTask final : public scheduler::Task {
 
   /// Any thread: the last write failed.
   [[nodiscard]] bool failing() const { return failing_.load(std::memory_order_relaxed); }
-  [[nodiscard]] std::uint64_t maps_saved() const { return maps_saved_; }
 
  private:
   void save_pose(Time now);
@@ -54,7 +53,6 @@ class SavingTask final : public scheduler::Task {
   std::uint32_t scans_epoch_ = 0;
   std::deque<visual_odometry::Keyframe> keyframes_;
   std::uint32_t keyframes_epoch_ = 0;
-  std::uint64_t maps_saved_ = 0;
   std::atomic<bool> failing_{false};
 };
 

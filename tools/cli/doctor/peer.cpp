@@ -75,7 +75,6 @@ Result<Peers> peers_of_recording(const fs::path& recording) {
   options.recording = recording;
   options.out = out;
   options.pace = app::Pace::kMaximum;
-  if (const fs::path profile = recording / "config.yaml"; fs::exists(profile)) options.config = profile;
   const auto ran = app::run(options);
   auto peers = ran ? peers_of_report(out) : Result<Peers>(ran.error());
   std::error_code ignored;

@@ -65,13 +65,6 @@ inline constexpr std::array kBookScenes{BookScene{"corridor",
 /// Of Fig. 4.10: from 45 % on, a metre at a time.
 inline constexpr std::array kOverlapPercents{45, 40, 35, 30, 25, 20, 15, 10};
 
-/// Entropy of the fused map (Table 3.2): average and relative-entropy filter.
-struct BookEntropy {
-  std::string_view place;
-  double average, relative_entropy;
-};
-inline constexpr std::array kBookEntropies{BookEntropy{"simulation", 0.16, 0.13}, BookEntropy{"WKW lobby", 0.24, 0.20}};
-
 /// RMS of matched voxels at the beginning, in the middle and at the end, m (Table 5.2).
 struct BookRms {
   std::string_view place;
@@ -116,9 +109,6 @@ inline constexpr std::array kBookLabels{
     BookLabels{"7.3", kRoad, .638, kCar, .973, kCar, .894},   BookLabels{"7.3", kRoad, .711, kCar, .985, kCar, .969},
     BookLabels{"7.3", kRoad, .834, kCar, .992, kCar, .977},   BookLabels{"7.4", kRoad, .695, kRoad, .773, kRoad, .784},
     BookLabels{"7.4", kRoad, .810, kRoad, .855, kRoad, .886}, BookLabels{"7.4", kRoad, .906, kRoad, .924, kRoad, .943}};
-
-/// Mean correspondences of a LiDAR voxel indoors (section 5.5.2): at the start and 20 s later.
-inline constexpr std::array kBookCorrespondences{3.57, 2.15};
 
 [[nodiscard]] inline std::optional<BookError> book_error(std::string_view scene, std::string_view method) {
   for (const BookScene& s : kBookScenes)

@@ -16,7 +16,6 @@ TEST(SdNotify, SendsDatagramsToAPathAndToAnAbstractName) {
   for (const std::string& name : {(folder / "notify").string(), "@cairn-test-" + std::to_string(::getpid())}) {
     support::DatagramListener manager(name);
     auto notify = SdNotify::open(name).value();
-    EXPECT_TRUE(notify.listened_to());
     ASSERT_TRUE(notify.notify("READY=1")) << name;
     ASSERT_TRUE(notify.notify("WATCHDOG=1\nSTATUS=normal"));
     EXPECT_EQ(manager.next(), "READY=1");
@@ -27,7 +26,6 @@ TEST(SdNotify, SendsDatagramsToAPathAndToAnAbstractName) {
 
 TEST(SdNotify, WithoutAManagerItSaysNothing) {
   auto notify = SdNotify::open("").value();
-  EXPECT_FALSE(notify.listened_to());
   EXPECT_TRUE(notify.notify("READY=1"));
 }
 
