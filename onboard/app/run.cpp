@@ -148,7 +148,8 @@ Result<std::unique_ptr<RunResult>> run(const RunOptions& options) {
   if (!ran) return ran.error();
   if (state) state->starts.end();
 
-  auto output = write_output({options, *profile, chosen->file, tasks, *door, result->monitor, *ran}, *results);
+  auto output = write_output(
+      {options, *profile, chosen->file, tasks, *door, result->monitor, *ran, live_run.lost_schedule()}, *results);
   if (!output) return output.error();
   result->report = std::move(output->report);
   result->folder = std::move(output->folder);

@@ -159,6 +159,7 @@ report::RunReport make_report(const RunFacts& facts, const std::vector<TrackPoin
   report.profile = facts.profile_file.string();
   report.live = facts.options.recording.empty();
   report.source = report.live ? "live" : facts.options.recording.string();
+  if (facts.lost_schedule) report.lost_schedule = to_string(*facts.lost_schedule);
   report.version = CAIRN_VERSION;
   report.interrupted = facts.end == RunEnd::kInterrupted;
   report.distance_m = length_m(track);

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 
 #include "hal/files/unfinished_folder.hpp"
 #include "hal/monitor.hpp"
@@ -23,6 +24,7 @@ struct RunFacts {
   const Door& door;  ///< where the packets came from
   const Monitor& monitor;
   RunEnd end;
+  const std::optional<Error>& lost_schedule;  ///< live: why schedule.log is not complete; none: it is
 };
 
 /// Makes the folder `out` and in it the folder where the results grow. It finds out before the run whether they can be

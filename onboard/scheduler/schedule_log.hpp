@@ -62,6 +62,8 @@ class ScheduleLogWriter {
   void tick(std::size_t task, const TickRecord& record);
   void end(std::size_t task, std::uint64_t index);
   void flush() { out_.flush(); }
+  /// A part of it could not be written: the log stays without its end.
+  [[nodiscard]] bool failed() const { return out_.fail(); }
   [[nodiscard]] Result<void> close();
 
  private:

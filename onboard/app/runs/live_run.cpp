@@ -55,7 +55,7 @@ Result<RunEnd> LiveRun::run(Generations* generations) {
   report_unlogged_ticks();
   if (labels_) labels_->write_waiting(clock_.now());
   if (boxes_) boxes_->close(clock_.now());
-  if (const auto closed = housekeeping_->close(clock_.now()); !closed) return closed.error();
+  close_log();
   return end();
 }
 
@@ -116,6 +116,14 @@ Result<void> LiveRun::open_streams() {
   tasks_.team->team().serve(outlets_->team, outlets_->T_team_odom);
   tasks_.team->team().tell_people(outlets_->team_people);
   return {};
+}
+
+/// A disk that cannot keep the schedule costs the exact replay, not the results.
+void LiveRun::close_log() {
+  const auto closed = housekeeping_->close(clock_.now());
+  if (closed) return;
+  lost_schedule_ = closed.error();
+  context_.monitor.event(clock_.now(), "schedule", to_string(closed.error()));
 }
 
 /// The last tiles go out before the clients are left alone.
@@ -228,7 +236,7 @@ void LiveRun::publish_state() {
 
 safety::FaultSet LiveRun::faults_of_machine() const {
   safety::FaultSet faults = watch_->faults();
-  if (saving_ && saving_->failing()) faults.set(safety::Fault::kDiskFailing);
+  if (housekeeping_->failing() || (saving_ && saving_->failing())) faults.set(safety::Fault::kDiskFailing);
   faults.set(safety::Fault::kBestEffort, best_effort_);
   faults.set(safety::Fault::kCrashLoop, context_.previous.crash_loop);
   faults.set(safety::Fault::kStateLost, context_.previous.state_lost);

@@ -30,9 +30,11 @@ class LiveRun {
 
   /// Until the options' `stop`, their seconds are over, or a played recording has ended. Leaves schedule.log and, where
   /// it is asked for, a recording. A stop is an interruption only while a recording is played. `generations`: where the
-  /// map is saved; null: nowhere. Errors: an input cannot be connected; a socket cannot be served; the recording or the
-  /// log cannot be written.
+  /// map is saved; null: nowhere. Errors: an input cannot be connected; a socket cannot be served; the recording cannot
+  /// be begun. A disk that fails later is an event.
   Result<RunEnd> run(Generations* generations);
+  /// After run(): why schedule.log is not complete; none: it is.
+  [[nodiscard]] const std::optional<Error>& lost_schedule() const { return lost_schedule_; }
 
  private:
   Result<void> open_recorder();
@@ -51,6 +53,7 @@ class LiveRun {
   void publish_people();
   void publish_state();
   void close_streams();
+  void close_log();
   [[nodiscard]] safety::FaultSet faults_of_machine() const;
   void report_unlogged_ticks();
 
@@ -70,6 +73,7 @@ class LiveRun {
   std::optional<StreamOutlets> outlets_;
   std::optional<StreamsTask> streams_;
   bool best_effort_ = false;
+  std::optional<Error> lost_schedule_;
 };
 
 }  // namespace cairn::app

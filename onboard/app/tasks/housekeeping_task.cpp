@@ -24,6 +24,7 @@ void HousekeepingTask::write_log() {
     ++number;
   }
   log_.flush();
+  if (log_.failed()) ++failures_;
 }
 
 Result<void> HousekeepingTask::close(Time now) {

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "hal/relaxed_counter.hpp"
 #include "onboard/app/tasks/recorder.hpp"
 #include "onboard/scheduler/schedule_log.hpp"
 #include "onboard/scheduler/task_graph.hpp"
@@ -26,6 +27,8 @@ class HousekeepingTask final : public scheduler::Task {
   void tick(scheduler::Tick& tick) override;
   /// After the last tick of all tasks: writes what is still in the queues, and the ends of the log.
   Result<void> close(Time now);
+  /// Any thread: the schedule log could not be written.
+  [[nodiscard]] bool failing() const { return failures_ > 0; }
 
  private:
   void write_log();
@@ -33,6 +36,7 @@ class HousekeepingTask final : public scheduler::Task {
   scheduler::TaskGraph& graph_;
   scheduler::ScheduleLogWriter log_;
   bool begun_ = false;
+  RelaxedCounter failures_;
   Recorder* recorder_;
   std::vector<Chore> chores_;
 };

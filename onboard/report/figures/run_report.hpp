@@ -139,6 +139,7 @@ struct RunReport {
   std::string version;  ///< of the program
   std::string started;  ///< UTC of the first packet as ISO 8601; metadata only. Empty: not known
 
+  std::string lost_schedule;  ///< live: why schedule.log is not complete; empty: it is
   bool interrupted = false;  ///< asked to end before the recording's end: all is of the part that was played
 
   std::optional<double> distance_m;  ///< length of the estimated trajectory; none without a pose

@@ -46,6 +46,9 @@ void note_schedule(NoteList& notes, const RunReport& report) {
       notes.error(fmt::format("Task {} kept overrunning its hard budget and was demoted {} times.", task.spec.name,
                               task.stats.demotions.get()),
                   "docs/tuning-budgets.md says how to make it faster");
+  if (!report.lost_schedule.empty())
+    notes.warning(fmt::format("A replay cannot repeat this run to the bit. {}", report.lost_schedule),
+                  "free space on that disk before the next run");
   note_mode(notes, report);
   note_shed(notes, report);
   if (report.control_thread_allocations.value_or(0) > 0)

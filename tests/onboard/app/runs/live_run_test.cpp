@@ -133,3 +133,24 @@ TEST(LiveRun, AStartAfterAnotherGoesOnInItsMapAndIsRepeatedToTheBit) {
 
 }  // namespace
 }  // namespace cairn::app
+TEST(LiveRun, KeepsItsResultsWhereTheDiskOfTheRecordingIsFull) {
+  const support::TemporaryFolder folder;
+  std::ofstream(folder / "robot.yaml") << support::LoopbackLidar::profile("[0.2, 0, 0.6, 0, 0, 0]");
+  const support::Vlp16Drive drive(support::lobby(), SE3::from_xyz_rpy(kMountOfLidar), kLiveSeconds, 1);
+  RunOptions live;
+  live.config = folder / "robot.yaml";
+  live.out = folder / "live";
+  live.record = folder / "recording";
+  live.pace = Pace::kLive;
+  std::filesystem::create_directory(live.record);
+  std::filesystem::create_symlink("/dev/full", live.record / "schedule.log");
+  const auto result = run_while(drive.packets(), live);
+  ASSERT_TRUE(result) << to_string(result.error());
+  const report::RunReport& ran = (*result)->report;
+  EXPECT_GE(ran.scans, kLeastScans);
+  EXPECT_THAT(ran.lost_schedule, ::testing::HasSubstr("schedule.log"));
+  EXPECT_TRUE(std::ranges::any_of((*result)->monitor.events(), [](const Event& e) { return e.stage == "schedule"; }));
+  for (const char* name : {"trajectory.tum", "map.cairn", "map.ot", "report.json"})
+    EXPECT_TRUE(std::filesystem::exists(live.out / name)) << name;
+}
+

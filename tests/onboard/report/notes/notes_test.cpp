@@ -74,6 +74,13 @@ TEST(Notes, SayWhatWasHeldBackFromTheTeam) {
   EXPECT_EQ(to_json(report)["team"]["held_back"]["tiles"], 30);
 }
 
+TEST(Notes, SayThatALostScheduleCannotBeReplayed) {
+  RunReport report = uneventful();
+  report.lost_schedule = "rec/schedule.log: the schedule log could not be written";
+  EXPECT_THAT(lines(report), ElementsAre("warning: A replay cannot repeat this run to the bit. rec/schedule.log: the "
+                                         "schedule log could not be written"));
+}
+
 TEST(Notes, SayHowLongOdometryWasLost) {
   RunReport report = uneventful();
   report.trajectory.resize(40);
