@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <utility>
 
 #include "hal/files/unfinished_folder.hpp"
 #include "hal/result.hpp"
@@ -24,6 +25,8 @@ class NewRecording {
   /// the system refuses, or there is a file of the same name and `overwrite` is kNo. Then the folder stays under its
   /// name.
   [[nodiscard]] Result<void> finish();
+  /// The error of writing the recording, with what becomes of it where it can be made again.
+  [[nodiscard]] Error nothing_kept(Error error) const { return folder_.nothing_kept(std::move(error)); }
   /// The folder stays under its name: for what cannot be made again. Without this and finish() it is removed.
   void leave() { folder_.leave(); }
 

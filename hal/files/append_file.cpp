@@ -53,8 +53,7 @@ Result<AppendFile> AppendFile::create(const std::filesystem::path& path) {
 
 Error AppendFile::fail(int error) {
   error_ = error;
-  return Error{Errc::kIo, "cannot write the file", path_.string(), file_bytes_,
-               std::generic_category().message(error) + "; what is before this offset is kept"};
+  return Error{Errc::kIo, "cannot write the file", path_.string(), file_bytes_, std::generic_category().message(error)};
 }
 
 Error AppendFile::cut_back(std::size_t done, int error) {

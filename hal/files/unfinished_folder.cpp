@@ -136,6 +136,13 @@ Result<void> UnfinishedFolder::become(const fs::path& target) {
 }
 
 Result<void> UnfinishedFolder::swap_with(const fs::path& target) {
+Error UnfinishedFolder::nothing_kept(Error error) const {
+  if (error.code != Errc::kIo || error.where.empty() || !lies_in(error.where, path_)) return error;
+  error.detail += (error.detail.empty() ? "" : "; ") +
+                  std::string("nothing was kept: free space on the disk, or name another --out, and run it again");
+  return error;
+}
+
   const fs::path real = real_path(target);
   if (::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, real.c_str(), RENAME_EXCHANGE) == 0) return {};
   if (errno != EINVAL && errno != ENOSYS) return refused("cannot put the result into its place", real, last_error());

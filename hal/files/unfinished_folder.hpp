@@ -50,6 +50,9 @@ class UnfinishedFolder {
  private:
   UnfinishedFolder(std::filesystem::path path, int lock) : path_(std::move(path)), lock_(lock) {}
 
+  /// For what can be made again: the error of writing in this folder, with what becomes of it and the remedy. Other
+  /// errors stay as they are.
+  [[nodiscard]] Error nothing_kept(Error error) const;
   std::filesystem::path path_;  // empty: nothing to remove
   int lock_ = -1;
 };

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <fstream>
-#include <set>
 
 #include "drivers/recording/formats/recording.hpp"
 #include "drivers/recording/formats/trajectory_file.hpp"
@@ -14,6 +13,7 @@
 #include "onboard/app/door/fitted.hpp"
 #include "onboard/app/people_figures.hpp"
 #include "onboard/app/rejoin/joined_track.hpp"
+#include "onboard/app/results_folder.hpp"
 #include "onboard/app/run.hpp"
 #include "onboard/app/runs/connect_inputs.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
@@ -25,8 +25,6 @@ namespace cairn::app {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr const char* kMap = "map.cairn";
 
 /// See Recording::time_shift_ns.
 Duration shift_of(const RunFacts& facts) { return Duration{facts.door.recording.time_shift_ns}; }
@@ -159,9 +157,9 @@ report::RunReport make_report(const RunFacts& facts, const std::vector<TrackPoin
   report.profile = facts.profile_file.string();
   report.live = facts.options.recording.empty();
   report.source = report.live ? "live" : facts.options.recording.string();
-  if (facts.lost_schedule) report.lost_schedule = to_string(*facts.lost_schedule);
   report.version = CAIRN_VERSION;
   report.interrupted = facts.end == RunEnd::kInterrupted;
+  if (facts.lost_schedule) report.lost_schedule = to_string(*facts.lost_schedule);
   report.distance_m = length_m(track);
   add_input(facts, report);
   report.odometry = odometry_stats(track);
@@ -228,9 +226,12 @@ Result<report::RunReport> write_results(const RunFacts& facts, const fs::path& f
   const std::vector<TrackPoint> track = joined_track(facts.tasks.robot);
   report::RunReport report = make_report(facts, track);
   add_ground_truth(facts, report);
-  std::vector<fs::path> hashed{folder / "trajectory.tum", folder / kMap};
-  if (const auto r = write_file_atomic(folder / "config.yaml", report.effective_config); !r) return r.error();
+  std::vector<fs::path> hashed{folder / "trajectory.tum", folder / kResultMap};
   if (const auto r = write_trajectory(hashed[0], track, shift_of(facts)); !r) return r.error();
+  if (const auto r = write_file_atomic(folder / "config.yaml", report.effective_config); !r) return r.error();
+  // A full disk takes small files first, and their report says by itself that the rest is missing.
+  report.incomplete = true;
+  if (const auto r = report::write_report(report, folder); !r) return r.error();
   if (const auto r = mapping::save_cairn(facts.tasks.robot.map(), hashed[1]); !r) return r.error();
   if (const auto r = mapping::save_ot(facts.tasks.robot.map(), folder / "map.ot"); !r) return r.error();
   const auto people = write_people(facts.tasks, facts.profile.perception.people, shift_of(facts), folder);
@@ -243,43 +244,9 @@ Result<report::RunReport> write_results(const RunFacts& facts, const fs::path& f
   report.output_sha256 = *hash;
   std::error_code ignored;
   report.map_file_bytes = fs::file_size(hashed[1], ignored);
+  report.incomplete = false;
   if (const auto r = report::write_report(report, folder); !r) return r.error();
   return report;
-}
-
-std::set<fs::path> names_in(const fs::path& folder) {
-  std::set<fs::path> names;
-  std::error_code ignored;
-  for (const auto& entry : fs::directory_iterator(folder, ignored)) names.insert(entry.path().filename());
-  return names;
-}
-
-/// What an earlier run left in the same folder, and this one has not.
-void remove_stale(const fs::path& out, const std::set<fs::path>& fresh) {
-  std::error_code ignored;
-  if (fs::exists(out / recording::kIndexFile, ignored)) return;  // a recording's schedule.log is its own
-  for (const fs::path& name : names_in(out)) {
-    const bool not_in_every_run = name == kFailedRun || name == "schedule.log" ||
-                                  std::ranges::find(kPeopleFiles, name.string()) != kPeopleFiles.end() ||
-                                  std::ranges::find(kTeamFiles, name.string()) != kTeamFiles.end() ||
-                                  name.string().starts_with("map-epoch-");
-    if (not_in_every_run && !fresh.contains(name)) fs::remove_all(out / name, ignored);
-  }
-}
-
-/// Returns where the results are.
-Result<fs::path> put_in_place(const RunFacts& facts, UnfinishedFolder& unfinished, std::uint64_t scans) {
-  const fs::path &out = facts.options.out, failed = out / kFailedRun;
-  std::error_code error;
-  if (scans == 0 && fs::exists(out / kMap, error)) {
-    fs::remove_all(failed, error);
-    if (const auto done = unfinished.become(failed); !done) return done.error();
-    return failed;
-  }
-  const auto fresh = names_in(unfinished.path());
-  if (const auto moved = unfinished.move_files_into(out, "report.json"); !moved) return moved.error();
-  remove_stale(out, fresh);
-  return out;
 }
 
 }  // namespace
@@ -288,9 +255,9 @@ Result<UnfinishedFolder> prepare_output(const fs::path& out) { return Unfinished
 
 Result<RunOutput> write_output(const RunFacts& facts, UnfinishedFolder& unfinished) {
   auto report = write_results(facts, unfinished.path());
-  if (!report) return report.error();
-  auto folder = put_in_place(facts, unfinished, report->scans);
-  if (!folder) return folder.error();
+  if (!report) return keep_incomplete(unfinished, report.error());
+  auto folder = put_in_place(facts.options.out, unfinished, report->scans);
+  if (!folder) return keep_incomplete(unfinished, folder.error());
   return RunOutput{std::move(*report), std::move(*folder)};
 }
 

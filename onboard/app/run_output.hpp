@@ -37,12 +37,9 @@ struct RunOutput {
   std::filesystem::path folder;
 };
 
-/// The folder in the output folder that gets the results of a run without a scan, where there are earlier ones.
-inline constexpr const char* kFailedRun = "failed-run";
-
 /// Writes trajectory, maps, reports and configuration into `unfinished` and then moves them into options.out, over the
 /// results of an earlier run. Results without a scan replace no map: they go into the folder kFailedRun. Error kIo;
-/// then the earlier results are still there.
+/// then the earlier results are still there, and `unfinished` stays with what was written.
 Result<RunOutput> write_output(const RunFacts& facts, UnfinishedFolder& unfinished);
 
 }  // namespace cairn::app

@@ -129,7 +129,7 @@ Result<std::vector<RobotSummary>> simulate(const SimulationConfig& config, const
       if (progress) progress((static_cast<double>(robot) + done) / config.robots);
     };
     auto summary = record_robot(config, *stage, robot, workers, dir, share);
-    if (!summary) return summary.error();
+    if (!summary) return folder->nothing_kept(summary.error());
     summaries.push_back(std::move(*summary));
   }
   if (auto finished = folder->become(config.out); !finished) return finished.error();

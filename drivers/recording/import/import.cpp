@@ -36,7 +36,7 @@ Result<ImportReport> import(std::string_view kind, const ImportOptions& options)
   ImportOptions inside = options;
   inside.out = recording->folder();
   auto report = import_into(kind, inside);
-  if (!report) return report;
+  if (!report) return recording->nothing_kept(report.error());
   if (auto finished = recording->finish(); !finished) return finished.error();
   return report;
 }

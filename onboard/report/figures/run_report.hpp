@@ -140,7 +140,8 @@ struct RunReport {
   std::string started;  ///< UTC of the first packet as ISO 8601; metadata only. Empty: not known
 
   std::string lost_schedule;  ///< live: why schedule.log is not complete; empty: it is
-  bool interrupted = false;  ///< asked to end before the recording's end: all is of the part that was played
+  bool interrupted = false;   ///< asked to end before the recording's end: all is of the part that was played
+  bool incomplete = false;    ///< maps and what comes with them are not written yet, or could not be
 
   std::optional<double> distance_m;  ///< length of the estimated trajectory; none without a pose
   std::optional<double> duration_s;  ///< on the robot's time line; none without a packet

@@ -215,6 +215,7 @@ Json to_json(const RunReport& report) {
           {"source", report.source},
           {"version", report.version},
           {"interrupted", report.interrupted},
+          {"incomplete", report.incomplete},
           {"started", report.started.empty() ? Json(nullptr) : Json(report.started)},
           {"notes", notes_json(report)},
           {"distance_m", or_null(report.distance_m)},

@@ -16,6 +16,9 @@ std::vector<Note> notes_of(const RunReport& report) {
   if (report.interrupted)
     list.error("The run was interrupted. All of this is of the part of the recording that was played.",
                "Run it again for all of it.");
+  if (report.incomplete)
+    list.error("The results are not complete. This report was written before the maps, which could not be written.",
+               "Free space on the disk, then run it again.");
   note_inputs(list, report);
   note_odometry(list, report);
   note_accuracy(list, report);

@@ -125,5 +125,15 @@ TEST_F(UnfinishedFolderTest, AnOutputThatWouldDestroyItsInputIsRefused) {
     EXPECT_TRUE(keep_input(rec, output)) << output;
 }
 
+TEST_F(UnfinishedFolderTest, AnErrorOfWritingSaysThatNothingIsKept) {
+  const auto made = UnfinishedFolder::beside(folder / "out").value();
+  const Error inside{Errc::kIo, "cannot write the file", (made.path() / "a" / "b").string(), 9, "full"};
+  EXPECT_EQ(made.nothing_kept(inside).detail,
+            "full; nothing was kept: free space on the disk, or name another --out, and run it again");
+  const Error input{Errc::kIo, "cannot be read", (folder / "in").string(), {}, "broken"};
+  EXPECT_EQ(made.nothing_kept(input).detail, "broken");
+  EXPECT_EQ(made.nothing_kept({Errc::kTruncated, "interrupted", made.path().string(), {}, "x"}).detail, "x");
+}
+
 }  // namespace
 }  // namespace cairn

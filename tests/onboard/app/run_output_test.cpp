@@ -34,6 +34,27 @@ TEST_F(RunOutputTest, ARunWithoutAScanKeepsTheEarlierResults) {
   EXPECT_FALSE(std::filesystem::exists(o.out / "failed-run")) << "it was about an earlier run";
 }
 
+/// A folder that is in the way of map.ot, as a full disk would be.
+TEST_F(RunOutputTest, WhatWasWrittenBeforeAMapThatDoesNotFitIsKept) {
+  RunOptions o = options("too_small");
+  o.progress = [&](Time, std::size_t) {
+    std::filesystem::create_directories(o.out / "unfinished" / "map.ot" / "full");
+  };
+  const auto result = run(o);
+  ASSERT_FALSE(result);
+  const std::filesystem::path left = o.out / "unfinished";
+  EXPECT_THAT(to_string(result.error()), ::testing::HasSubstr(left.string() + ": config.yaml, map.cairn, report.html, "
+                                                                              "report.json, trajectory.tum"));
+  EXPECT_EQ(recording::read_tum(left / "trajectory.tum")->size(), static_cast<std::size_t>(test::kScans));
+  EXPECT_FALSE(std::filesystem::exists(o.out / "report.json"));
+  std::ifstream in(left / "report.json");
+  const auto report = nlohmann::json::parse(in);
+  EXPECT_EQ(report["incomplete"], true);
+  EXPECT_EQ(report["notes"][0]["severity"], "error");
+  std::ifstream whole(run(options("whole")).value()->folder / "report.json");
+  EXPECT_EQ(nlohmann::json::parse(whole)["incomplete"], false);
+}
+
 TEST_F(RunOutputTest, AnInterruptedRunLeavesItsFilesAndSaysSo) {
   RunOptions o = options("interrupted");
   std::size_t scans = 0;

@@ -128,7 +128,7 @@ int inject(const FaultArguments& options) {
   if (!place) return app::fail(place.error());
   app::catch_stop_signals();
   const auto copied = write_faulty(**reader, options, *faults, recording, place->folder());
-  if (!copied) return app::fail(copied.error());
+  if (!copied) return app::fail(place->nothing_kept(copied.error()));
   if (const auto finished = place->finish(); !finished) return app::fail(finished.error());
   if (options.json) return app::print(to_json(options, *copied));
   print_table(to_json(options, *copied));
