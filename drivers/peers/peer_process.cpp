@@ -16,6 +16,7 @@
 #include "drivers/peers/dds_team.hpp"
 #include "drivers/peers/local_link.hpp"
 #include "drivers/peers/udp_limiter.hpp"
+#include "hal/files/standard_output.hpp"
 
 namespace cairn::peer_link {
 namespace {
@@ -113,8 +114,8 @@ int main(int argc, char** argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
-    return app.exit(error) == 0 ? 0 : 2;
+    return cairn::end_of_program("cairn-peers", app.exit(error) == 0 ? 0 : 2);
   }
   catch_end_signals();
-  return run(options);
+  return cairn::end_of_program("cairn-peers", run(options));
 }

@@ -14,6 +14,7 @@
 #include "drivers/peers/bounded_end.hpp"
 #include "drivers/peers/dds_log.hpp"
 #include "hal/clock.hpp"
+#include "hal/files/standard_output.hpp"
 #include "onboard/client/robot_stream.hpp"
 #include "tools/ros/bridge/robot_commands.hpp"
 #include "tools/ros/bridge/robot_topics.hpp"
@@ -173,7 +174,7 @@ int run(Options options) {
 
 int main(int argc, char** argv) {
   cairn::ros::Options options;
-  if (const auto code = cairn::ros::parse(argc, argv, options)) return *code;
+  if (const auto code = cairn::ros::parse(argc, argv, options)) return cairn::end_of_program("cairn-ros", *code);
   cairn::peer_link::catch_end_signals();
-  return cairn::ros::run(std::move(options));
+  return cairn::end_of_program("cairn-ros", cairn::ros::run(std::move(options)));
 }

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <iostream>
 
+#include "hal/files/standard_output.hpp"
 #include "onboard/app/cli/refusal.hpp"
 #include "onboard/report/json/report_json.hpp"
 
 namespace cairn::app {
+namespace {
 
-int run_program(Commands& commands, int argc, char** argv) {
+int parse_and_run(Commands& commands, int argc, char** argv) {
   try {
     commands.app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -20,6 +22,12 @@ int run_program(Commands& commands, int argc, char** argv) {
     return kWrongArguments;
   }
   return commands.job();
+}
+
+}  // namespace
+
+int run_program(Commands& commands, int argc, char** argv) {
+  return end_of_program("cairn", parse_and_run(commands, argc, argv));
 }
 
 std::string above_zero(const std::string& text) {

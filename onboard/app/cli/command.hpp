@@ -28,7 +28,8 @@ struct Commands {
   std::function<int()> job;
 };
 
-/// Parses the command line and runs the job that it asks for. Returns the program's exit code.
+/// Parses the command line and runs the job that it asks for. Returns the program's exit code, which is not 0 where
+/// stdout did not take what was printed.
 int run_program(Commands& commands, int argc, char** argv);
 
 /// For CLI11's check(): what is wrong with a number that has to be above 0; empty: nothing.

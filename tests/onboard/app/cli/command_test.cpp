@@ -3,6 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <CLI/CLI.hpp>
+#include <array>
+#include <cstdio>
+#include <cstdlib>
 #include <nlohmann/json.hpp>
 
 namespace cairn::app {
@@ -30,6 +34,21 @@ TEST(Command, OnlyAFaultyConfigurationCountsAsWrongArguments) {
   const std::string text = testing::internal::GetCapturedStderr();
   EXPECT_NE(text.find("robot.yaml"), std::string::npos);
   EXPECT_NE(text.find("map.cairn"), std::string::npos);
+}
+
+/// Ends a child that prints its help where nothing can be written.
+[[noreturn]] void print_help_to_full_device() {
+  if (std::freopen("/dev/full", "w", stdout) == nullptr) std::_Exit(99);
+  CLI::App app("", "tool");
+  Commands commands{app, {}};
+  std::array<char, 5> name{"tool"};
+  std::array<char, 7> help{"--help"};
+  std::array<char*, 3> words{name.data(), help.data(), nullptr};
+  std::_Exit(run_program(commands, 2, words.data()));
+}
+
+TEST(Command, WhatStdoutDoesNotTakeIsAFailure) {
+  EXPECT_EXIT(print_help_to_full_device(), testing::ExitedWithCode(kFailed), "cairn: standard output: .*No space left");
 }
 
 }  // namespace
