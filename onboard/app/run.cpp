@@ -52,6 +52,7 @@ Result<Door> open_door(const RunOptions& options, RobotProfile& profile, const C
                                         : open_recording(options.recording, profile, monitor);
   if (!door) return door;
   if (const auto taken = take_schedule(options, *door); !taken) return taken.error();
+  if (options.recording.empty()) door->recording.profile = options.config.filename().string();
   if (options.live() && !options.recording.empty()) forget_recorded(recording::kCommands, *door);
   if (const auto made = make_socket_folder(options.sockets); !made) return made.error();
   if (options.live() && !options.sockets.empty())

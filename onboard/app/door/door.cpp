@@ -117,6 +117,7 @@ Result<Door> open_devices(const RobotProfile& profile, const Devices& which, con
   const Duration utc_offset = std::chrono::floor<drive::CandumpTick>(LiveClock::realtime_offset());
   door.recording.robot = profile.name;
   door.recording.realtime_offset_ns = utc_offset.count();
+  door.recording.start_utc_ns = door.recording.utc_ns(clock.now());
   for (const SourceEntry& entry : devices_of(profile)) {
     if (!is_used(entry, which)) continue;
     const auto id = static_cast<SourceId>(door.inputs.size());

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <semaphore>
 
+#include "drivers/recording/formats/recording.hpp"
 #include "drivers/recording/formats/utc.hpp"
 #include "hal/workers.hpp"
 #include "onboard/app/run.hpp"
@@ -24,6 +25,7 @@ namespace {
 const Vector6 kMountOfLidar = (Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished();
 constexpr double kLiveSeconds = 1.6;
 constexpr std::size_t kLeastScans = 4;
+constexpr Duration kDay = std::chrono::hours(24);
 
 /// Runs live from before the first of these packets until after the last, and until some scans have been located,
 /// however long the machine takes for them.
@@ -68,7 +70,13 @@ TEST(LiveRun, IsRepeatedToTheBitFromWhatItRecorded) {
   ASSERT_EQ(ran.losses.size(), 1U);
   EXPECT_EQ(ran.losses[0].first, "lidar");
   EXPECT_EQ(ran.losses[0].second.front().first, "kernel_drops");
-  EXPECT_TRUE(recording::parse_iso_utc(ran.started)) << ran.started;
+  const auto started = recording::parse_iso_utc(ran.started);
+  ASSERT_TRUE(started) << ran.started;
+  const auto recorded = recording::load_recording(live.record);
+  ASSERT_TRUE(recorded) << to_string(recorded.error());
+  EXPECT_EQ(recorded->profile, "robot.yaml");
+  EXPECT_LE(recorded->start_utc_ns, *started) << "the devices are open before the first packet comes";
+  EXPECT_GT(recorded->start_utc_ns, *started - kDay.count());
 
   for (const int threads : {1, 2, 4}) {
     RunOptions again = live;
@@ -131,8 +139,6 @@ TEST(LiveRun, AStartAfterAnotherGoesOnInItsMapAndIsRepeatedToTheBit) {
   EXPECT_EQ((*repeated)->report.output_sha256, hash);
 }
 
-}  // namespace
-}  // namespace cairn::app
 TEST(LiveRun, KeepsItsResultsWhereTheDiskOfTheRecordingIsFull) {
   const support::TemporaryFolder folder;
   std::ofstream(folder / "robot.yaml") << support::LoopbackLidar::profile("[0.2, 0, 0.6, 0, 0, 0]");
@@ -154,3 +160,5 @@ TEST(LiveRun, KeepsItsResultsWhereTheDiskOfTheRecordingIsFull) {
     EXPECT_TRUE(std::filesystem::exists(live.out / name)) << name;
 }
 
+}  // namespace
+}  // namespace cairn::app
