@@ -24,6 +24,20 @@ Error in_the_way(const fs::path& file) {
   return {Errc::kIo, "there is a recording already", file.string(), {}, "choose another folder or allow overwriting"};
 }
 
+/// A recording among others would make a recording of their folder.
+Result<void> refuse_folder_of_recordings(const fs::path& place) {
+  std::error_code error;
+  if (fs::exists(place / kIndexFile, error)) return {};
+  for (const auto& entry : fs::directory_iterator(place, error))
+    if (fs::exists(entry.path() / kIndexFile, error))
+      return Error{Errc::kIo,
+                   "the folder holds recordings",
+                   place.string(),
+                   {},
+                   "name a new folder in it, such as " + (place / "new").string()};
+  return {};
+}
+
 /// The sources that the index names, though their files may be missing.
 std::vector<SourceEntry> sources_of(const fs::path& old) {
   constexpr std::uint64_t kMaxIndexBytes = 256 * 1024;
@@ -56,6 +70,7 @@ Result<NewRecording> NewRecording::begin(const fs::path& place, Overwrite overwr
   std::error_code ignored;
   if (overwrite == Overwrite::kNo && fs::exists(fs::symlink_status(place / kIndexFile, ignored)))
     return in_the_way(place / kIndexFile);
+  if (const auto fit = refuse_folder_of_recordings(place); !fit) return fit.error();
   auto folder = UnfinishedFolder::beside(place);
   if (!folder) return folder.error();
   return NewRecording(std::move(*folder), place, overwrite);

@@ -15,8 +15,8 @@ enum class Overwrite : bool { kNo, kYes };
 /// A recording that appears in its place when it is whole. Until then it grows in a folder PLACE.unfinished.
 class NewRecording {
  public:
-  /// Nothing at `place` changes yet. Errors: those of UnfinishedFolder::beside(); kIo: there is a recording already,
-  /// and `overwrite` is kNo.
+  /// Nothing at `place` changes yet. Errors: those of UnfinishedFolder::beside(); kIo: there is a recording already
+  /// and `overwrite` is kNo, or the folder holds recordings without being one.
   [[nodiscard]] static Result<NewRecording> begin(const std::filesystem::path& place, Overwrite overwrite);
 
   /// Where to write it.

@@ -91,6 +91,13 @@ Result<void> keep_input(const fs::path& input, const fs::path& output) {
                "name another, outside " + input.string()};
 }
 
+Result<void> require_new_folder(const fs::path& folder, std::string remedy) {
+  std::error_code error;
+  if (!fs::exists(fs::symlink_status(folder, error))) return {};
+  if (fs::is_directory(folder, error) && fs::is_empty(folder, error)) return {};
+  return Error{Errc::kIo, "already exists and is not an empty folder", folder.string(), {}, std::move(remedy)};
+}
+
 Result<UnfinishedFolder> UnfinishedFolder::beside(const fs::path& target) {
   const fs::path real = real_path(target);
   if (auto sound = check_replaceable(real); !sound) return sound.error();
@@ -129,13 +136,6 @@ UnfinishedFolder::~UnfinishedFolder() {
 
 void UnfinishedFolder::leave() { path_.clear(); }
 
-Result<void> UnfinishedFolder::become(const fs::path& target) {
-  if (auto renamed = rename_over(path_, real_path(target)); !renamed) return renamed;
-  path_.clear();
-  return {};
-}
-
-Result<void> UnfinishedFolder::swap_with(const fs::path& target) {
 Error UnfinishedFolder::nothing_kept(Error error) const {
   if (error.code != Errc::kIo || error.where.empty() || !lies_in(error.where, path_)) return error;
   error.detail += (error.detail.empty() ? "" : "; ") +
@@ -143,6 +143,13 @@ Error UnfinishedFolder::nothing_kept(Error error) const {
   return error;
 }
 
+Result<void> UnfinishedFolder::become(const fs::path& target) {
+  if (auto renamed = rename_over(path_, real_path(target)); !renamed) return renamed;
+  path_.clear();
+  return {};
+}
+
+Result<void> UnfinishedFolder::swap_with(const fs::path& target) {
   const fs::path real = real_path(target);
   if (::renameat2(AT_FDCWD, path_.c_str(), AT_FDCWD, real.c_str(), RENAME_EXCHANGE) == 0) return {};
   if (errno != EINVAL && errno != ENOSYS) return refused("cannot put the result into its place", real, last_error());

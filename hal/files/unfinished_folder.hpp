@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "hal/result.hpp"
 
@@ -13,6 +14,9 @@ namespace cairn {
 /// Error kInvalidConfig: writing to `output` would destroy `input`, because one is the other or lies in it. Both may be
 /// files or folders.
 [[nodiscard]] Result<void> keep_input(const std::filesystem::path& input, const std::filesystem::path& output);
+
+/// Error kIo: `folder` exists and is not an empty folder; `remedy` is its detail.
+[[nodiscard]] Result<void> require_new_folder(const std::filesystem::path& folder, std::string remedy);
 
 /// A folder that appears whole or not at all. It is written under another name and takes its place at the end. If its
 /// program is killed, its name says what it is.
@@ -46,13 +50,13 @@ class UnfinishedFolder {
   [[nodiscard]] Result<void> move_files_into(const std::filesystem::path& target, const std::filesystem::path& last);
   /// Stays where it is, under its name.
   void leave();
+  /// For what can be made again: the error of writing in this folder, with what becomes of it and the remedy. Other
+  /// errors stay as they are.
+  [[nodiscard]] Error nothing_kept(Error error) const;
 
  private:
   UnfinishedFolder(std::filesystem::path path, int lock) : path_(std::move(path)), lock_(lock) {}
 
-  /// For what can be made again: the error of writing in this folder, with what becomes of it and the remedy. Other
-  /// errors stay as they are.
-  [[nodiscard]] Error nothing_kept(Error error) const;
   std::filesystem::path path_;  // empty: nothing to remove
   int lock_ = -1;
 };

@@ -5,6 +5,7 @@
 #include <system_error>
 #include <thread>
 
+#include "hal/files/unfinished_folder.hpp"
 #include "onboard/app/commands/serve_commands.hpp"
 #include "onboard/app/perception/open_sight.hpp"
 #include "onboard/app/profile/recorded_profile.hpp"
@@ -51,8 +52,8 @@ Result<Door> open_door(const RunOptions& options, RobotProfile& profile, const C
               : options.peers           ? play_recording(options.recording, profile, clock, monitor)
                                         : open_recording(options.recording, profile, monitor);
   if (!door) return door;
-  if (const auto taken = take_schedule(options, *door); !taken) return taken.error();
   if (options.recording.empty()) door->recording.profile = options.config.filename().string();
+  if (const auto taken = take_schedule(options, *door); !taken) return taken.error();
   if (options.live() && !options.recording.empty()) forget_recorded(recording::kCommands, *door);
   if (const auto made = make_socket_folder(options.sockets); !made) return made.error();
   if (options.live() && !options.sockets.empty())
@@ -105,9 +106,20 @@ PreviousRun recorded_previous_run(const std::filesystem::path& recording, Monito
   return previous;
 }
 
+/// The results of a replay have names that a recording has, too.
+Result<void> check_output(const RunOptions& options) {
+  if (options.recording.empty() || !lies_in(options.out, options.recording)) return {};
+  return Error{Errc::kInvalidConfig,
+               "the results would lie in the recording",
+               options.out.string(),
+               {},
+               "name another --out, outside " + options.recording.string()};
+}
+
 /// The profile for these options, if they fit together.
 Result<ChosenProfile> checked_profile(const RunOptions& options) {
   if (const auto fits = check(options); !fits) return fits.error();
+  if (const auto fits = check_output(options); !fits) return fits.error();
   auto chosen = choose_profile(options.config, options.recording);
   if (!chosen) return chosen.error();
   if (options.threads) chosen->profile.threads = *options.threads;

@@ -38,14 +38,6 @@ Result<void> check(const SimulationConfig& config) {
   return {};
 }
 
-Result<void> refuse_used(const fs::path& out) {
-  std::error_code code;
-  if (fs::exists(out, code) && !(fs::is_directory(out, code) && fs::is_empty(out, code))) {
-    return Error{Errc::kIo, "already exists and is not an empty folder", out.string(), {}, "choose another --out"};
-  }
-  return {};
-}
-
 /// Half a metre above the ground where each robot starts: certainly free.
 std::string true_map(const World& world, const Tracer& tracer, const std::vector<Path>& paths) {
   std::vector<Eigen::Vector3d> seeds;
@@ -116,7 +108,7 @@ void make_uav(SimulationConfig& config) {
 
 Result<std::vector<RobotSummary>> simulate(const SimulationConfig& config, const Progress& progress) {
   if (auto checked = check(config); !checked) return checked.error();
-  if (auto unused = refuse_used(config.out); !unused) return unused.error();
+  if (auto unused = require_new_folder(config.out, "choose another --out"); !unused) return unused.error();
   const auto stage = set_up(config);
   if (!stage) return stage.error();
   auto folder = UnfinishedFolder::beside(config.out);

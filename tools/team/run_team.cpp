@@ -10,6 +10,7 @@
 #include "drivers/recording/formats/recording.hpp"
 #include "hal/clock.hpp"
 #include "hal/files/file.hpp"
+#include "hal/files/unfinished_folder.hpp"
 #include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/json/report_json.hpp"
@@ -32,12 +33,16 @@ struct Plan {
   double seconds = 0;
 };
 
+Result<void> refuse_recording(const fs::path& folder) {
+  std::error_code error;
+  if (!fs::exists(folder / recording::kIndexFile, error)) return {};
+  return Error{
+      Errc::kInvalidConfig, "the folder for the robot is a recording", folder.string(), {}, "choose another --out"};
+}
+
 /// A robot's folder, without what an earlier run left there: it must not be taken for this one's.
 Result<void> make_folder(const fs::path& folder) {
   std::error_code error;
-  if (fs::exists(folder / recording::kIndexFile, error))
-    return Error{
-        Errc::kInvalidConfig, "the folder for the robot is a recording", folder.string(), {}, "choose another --out"};
   fs::create_directories(folder, error);
   if (error) return Error{Errc::kIo, "cannot make the folder", folder.string(), {}, error.message()};
   for (const char* name : {"report.json", "trajectory.tum", "team.cairn", "core.log", "cairn-peers.log"})
@@ -67,8 +72,13 @@ Result<Plan> prepare(const TeamOptions& options) {
   for (const TeamRecording& recording : plan.recordings) {
     plan.seconds = std::max(plan.seconds, to_seconds(recording.length) + options.settle_s);
     plan.folders.push_back(fs::absolute(options.out) / recording.name);
-    if (const auto made = make_folder(plan.folders.back()); !made) return made.error();
+    if (const auto fit = refuse_recording(plan.folders.back()); !fit) return fit.error();
   }
+  if (!options.overwrite)
+    if (const auto fit = require_new_folder(options.out, "choose another --out, or add --overwrite"); !fit)
+      return fit.error();
+  for (const fs::path& folder : plan.folders)
+    if (const auto made = make_folder(folder); !made) return made.error();
   if (const auto written = write_profiles(options, plan); !written) return written.error();
   return plan;
 }

@@ -16,6 +16,7 @@ struct TeamOptions {
   std::vector<std::filesystem::path> recordings;
   std::filesystem::path config;  ///< profile of every robot; without one: those of the recordings, or the defaults
   std::filesystem::path out;     ///< gets a folder for each robot, team.json and team.png
+  bool overwrite = false;        ///< `out` may hold the results of an earlier run
   LinkConfig link;
   double resolution_m = 0;            ///< of the maps; 0: the profile's
   double settle_s = 60;               ///< the run goes on so long after the end of the longest recording
@@ -34,8 +35,8 @@ struct TeamOutcome {
 };
 
 /// Runs the robots of `recordings`, each with its own processes. Then it compares their results and writes the
-/// comparison to `out`. Errors: those of recordings and profile (kInvalidConfig), those of the system, and kIo if a
-/// robot failed or the run was ended early; the error names the log.
+/// comparison to `out`. Errors: those of recordings and profile (kInvalidConfig), those of the system, and kIo if
+/// `out` is in use, or a robot failed, or the run was ended early; the error names the log.
 Result<TeamOutcome> run_team(const TeamOptions& options);
 
 }  // namespace cairn::team_run

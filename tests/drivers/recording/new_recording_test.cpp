@@ -102,6 +102,16 @@ TEST_F(NewRecordingTest, WhatIsNotOfTheRecordingStays) {
 }
 
 TEST_F(NewRecordingTest, ALinkToAFolderOutsideIsNotFollowed) {
+TEST_F(NewRecordingTest, AFolderOfRecordingsDoesNotBecomeOne) {
+  write_into(place / "robot_1", "inner");
+  for (const Overwrite overwrite : {Overwrite::kNo, Overwrite::kYes}) {
+    const auto refused = NewRecording::begin(place, overwrite);
+    ASSERT_FALSE(refused);
+    EXPECT_THAT(to_string(refused.error()), HasSubstr("the folder holds recordings"));
+  }
+  EXPECT_FALSE(fs::exists(folder / "r.unfinished"));
+}
+
   make("old");
   test::spit(folder / "outside/data.csv", "mine");
   fs::create_directory_symlink(folder / "outside", place / "camera");

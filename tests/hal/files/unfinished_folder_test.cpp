@@ -135,5 +135,17 @@ TEST_F(UnfinishedFolderTest, AnErrorOfWritingSaysThatNothingIsKept) {
   EXPECT_EQ(made.nothing_kept({Errc::kTruncated, "interrupted", made.path().string(), {}, "x"}).detail, "x");
 }
 
+TEST_F(UnfinishedFolderTest, ANewFolderIsMissingOrEmpty) {
+  EXPECT_TRUE(require_new_folder(folder / "out", "x"));
+  fs::create_directory(folder / "out");
+  EXPECT_TRUE(require_new_folder(folder / "out", "x"));
+  put(folder / "out" / "file", "mine");
+  for (const fs::path& used : {folder / "out", folder / "out" / "file"}) {
+    const auto refused = require_new_folder(used, "choose another");
+    ASSERT_FALSE(refused) << used;
+    EXPECT_EQ(refused.error().detail, "choose another");
+  }
+}
+
 }  // namespace
 }  // namespace cairn

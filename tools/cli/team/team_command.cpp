@@ -88,6 +88,7 @@ void add_team_command(app::Commands& commands) {
   sub->add_flag("--loopback", team.loopback, "use no network namespaces, even where they are allowed");
   sub->add_option("--core", team.core, "another program than this one as the robots' cores")->group("");
   sub->add_option("--peers", team.peers, "another program than the cairn-peers beside this one")->group("");
+  sub->add_flag("--overwrite", team.overwrite, "replace the results of an earlier run in --out; other files stay");
   sub->add_flag("--json", options->json, "one JSON object on stdout");
   sub->callback([&commands, options] { commands.job = [options] { return run(*options); }; });
 }

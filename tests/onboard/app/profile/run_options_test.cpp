@@ -45,6 +45,21 @@ TEST(RunOptions, ARunThatIsRefusedLeavesNothing) {
   EXPECT_FALSE(std::filesystem::exists(folder / "out"));
 }
 
+TEST(RunOptions, ResultsDoNotGoIntoTheRecording) {
+  const support::TemporaryFolder folder;
+  RunOptions options;
+  options.recording = folder / "rec";
+  std::filesystem::create_directory(options.recording);
+  for (const std::filesystem::path& out : {options.recording, options.recording / "out"}) {
+    options.out = out;
+    const auto ran = run(options);
+    ASSERT_FALSE(ran);
+    EXPECT_EQ(ran.error().code, Errc::kInvalidConfig);
+    EXPECT_THAT(to_string(ran.error()), HasSubstr("the results would lie in the recording"));
+    EXPECT_TRUE(std::filesystem::is_empty(options.recording));
+  }
+}
+
 TEST(RunOptions, AStateFolderThatAnotherCoreUsesIsRefused) {
   const support::TemporaryFolder folder;
   const auto other = StateLock::take(folder / "state");

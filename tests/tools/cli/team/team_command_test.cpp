@@ -101,7 +101,7 @@ TEST_F(TeamCommand, WithoutTruthItSaysWhatItDoesNotKnow) {
   const auto json = team({"--json"}).json();
   for (const char* field : {"wrong_merges", "iou_world"}) EXPECT_TRUE(json[field].is_null()) << field;
   EXPECT_TRUE(json["robots"][0]["pose_error_m"][0].is_null());
-  const Outcome table = team();
+  const Outcome table = team({"--overwrite"});
   EXPECT_EQ(table.exit_code, app::kDone);
   EXPECT_THAT(table.out, HasSubstr("no truth"));
 }
@@ -147,7 +147,19 @@ TEST_F(TeamCommand, WhatAnEarlierRunLeftIsNotTakenForThisOnes) {
   prepare({});
   ASSERT_EQ(team().exit_code, app::kDone);
   script("core", "exit 0");
-  EXPECT_EQ(team().exit_code, app::kFailed);
+  EXPECT_EQ(team({"--overwrite"}).exit_code, app::kFailed);
+}
+
+TEST_F(TeamCommand, AFolderThatIsInUseIsRefusedOrReplaced) {
+  prepare({});
+  ASSERT_EQ(team().exit_code, app::kDone);
+  std::ofstream(folder / "out" / "notes.txt") << "mine";
+  const Outcome refused = team();
+  EXPECT_EQ(refused.exit_code, app::kFailed);
+  EXPECT_THAT(refused.err, HasSubstr("already exists and is not an empty folder"));
+  EXPECT_THAT(refused.err, HasSubstr("--overwrite"));
+  EXPECT_EQ(team({"--overwrite"}).exit_code, app::kDone);
+  EXPECT_EQ(text_of("out/notes.txt"), "mine");
 }
 
 TEST_F(TeamCommand, RefusesToWriteIntoRecordings) {
