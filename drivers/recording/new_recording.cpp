@@ -21,7 +21,11 @@ constexpr std::array kOwnNames{kIndexFile,  "ground_truth.tum", kProfileFile, "s
                                "boxes.csv", "lidar_labels.bin", "people.csv", "true_boxes.csv", "world.ot"};
 
 Error in_the_way(const fs::path& file) {
-  return {Errc::kIo, "there is a recording already", file.string(), {}, "choose another folder or allow overwriting"};
+  return {Errc::kIo,
+          "there is a recording already",
+          file.string(),
+          {},
+          "choose another folder, or replace it with --overwrite"};
 }
 
 /// A recording among others would make a recording of their folder.

@@ -13,6 +13,7 @@ namespace cairn::recording {
 namespace {
 
 namespace fs = std::filesystem;
+using ::testing::AllOf;
 using ::testing::HasSubstr;
 
 struct NewRecordingTest : ::testing::Test {
@@ -68,7 +69,7 @@ TEST_F(NewRecordingTest, AnOldOneIsRefusedOrReplacedWhole) {
   test::spit(place / "notes.txt", "mine");
   const auto refused = NewRecording::begin(place, Overwrite::kNo);
   ASSERT_FALSE(refused);
-  EXPECT_THAT(to_string(refused.error()), HasSubstr("there is a recording already"));
+  EXPECT_THAT(to_string(refused.error()), AllOf(HasSubstr("there is a recording already"), HasSubstr("--overwrite")));
   make("new", Overwrite::kYes);
   EXPECT_EQ(notes(), "new");
   EXPECT_EQ(test::slurp(place / "notes.txt"), "mine");
@@ -101,7 +102,6 @@ TEST_F(NewRecordingTest, WhatIsNotOfTheRecordingStays) {
   EXPECT_EQ(test::slurp(place / "mine/notes.txt"), "mine");
 }
 
-TEST_F(NewRecordingTest, ALinkToAFolderOutsideIsNotFollowed) {
 TEST_F(NewRecordingTest, AFolderOfRecordingsDoesNotBecomeOne) {
   write_into(place / "robot_1", "inner");
   for (const Overwrite overwrite : {Overwrite::kNo, Overwrite::kYes}) {
@@ -112,6 +112,7 @@ TEST_F(NewRecordingTest, AFolderOfRecordingsDoesNotBecomeOne) {
   EXPECT_FALSE(fs::exists(folder / "r.unfinished"));
 }
 
+TEST_F(NewRecordingTest, ALinkToAFolderOutsideIsNotFollowed) {
   make("old");
   test::spit(folder / "outside/data.csv", "mine");
   fs::create_directory_symlink(folder / "outside", place / "camera");

@@ -91,17 +91,21 @@ void add_doctor_command(app::Commands& commands) {
   auto* sub = commands.app.add_subcommand(
       "doctor", "says what is wrong with machine, devices, recording or team, and the remedy");
   auto o = std::make_shared<DoctorArguments>();
-  sub->add_option("--config", o->config, "robot profile: open each of its devices and listen to it");
+  auto* config = sub->add_option("--config", o->config, "robot profile: open each of its devices and listen to it");
   sub->add_option("--recording", o->recording, "recording: look for damage, losses and silent sensors");
-  sub->add_option(
+  auto* peer = sub->add_option(
       "--peer", o->peer,
       "name of a robot of the team, or all: say why it is not merged. Asks the running core, or reads --run or "
       "--recording");
-  sub->add_option("--run", o->run, "with --peer: folder of a finished run");
+  sub->add_option("--run", o->run, "with --peer: folder of a finished run")->needs(peer);
   sub->add_option("--live-view", o->live_view, "with --peer: socket of the running core, its --live-view")
-      ->default_val("/run/cairn/live.sock");
-  sub->add_option("--seconds", o->seconds, "how long to listen to each device")->check(CLI::Range(0.01, 3600.0));
-  sub->add_option("--root", o->root, "folder with proc, sys and dev to examine instead of /, such as a mounted disk");
+      ->default_val("/run/cairn/live.sock")
+      ->needs(peer);
+  auto* seconds = sub->add_option("--seconds", o->seconds, "how long to listen to each device");
+  seconds->check(CLI::Range(0.01, 3600.0));
+  auto* root = sub->add_option("--root", o->root,
+                               "folder with proc, sys and dev to examine instead of /, such as a mounted disk");
+  for (CLI::Option* of_machine : {config, seconds, root}) peer->excludes(of_machine);
   sub->add_flag("--json", o->json, "one JSON object on stdout");
   sub->callback([&commands, o] { commands.job = [o] { return diagnose(*o); }; });
 }

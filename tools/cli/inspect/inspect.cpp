@@ -269,6 +269,10 @@ Result<report::Json> inspect(const InspectOptions& options) {
   const bool folder = fs::is_directory(options.path, error);
   if (!options.out.empty() && (!folder || fs::exists(options.out, error)))  // a new file in the folder harms nothing
     if (const auto kept = keep_input(options.path, options.out); !kept) return kept.error();
+  const std::string extension = options.path.extension().string();
+  const bool calibration = !folder && (extension == ".yaml" || extension == ".yml");
+  if (!options.out.empty() && !calibration && options.out.extension() != ".pcd")
+    return Error{Errc::kInvalidConfig, "the name must end in .pcd", "--out " + options.out.string(), {}, {}};
   if (folder) return inspect_folder(options);
   if (!fs::exists(options.path, error))
     return Error{Errc::kNotFound, "there is no such file or folder", options.path.string(), {}, {}};
@@ -277,14 +281,12 @@ Result<report::Json> inspect(const InspectOptions& options) {
   if (is_capture(*input)) return inspect_capture(options);
   if (is_picture(options.path)) return inspect_picture(options.path);
   if (auto file = recognise_native_file(options.path)) return inspect_native_file(options, std::move(*file));
-  const std::string extension = options.path.extension().string();
   if (extension == ".pcd") return inspect_cloud(options);
   if (extension == ".npy") return inspect_array(options);
   if (extension == ".bin") return inspect_bin(options);
   if (extension == ".cairn" || extension == ".ot" || extension == ".bt") return inspect_map(options);
   if (extension == ".tum" || extension == ".txt") return inspect_trajectory(options.path);
-  if (extension == ".yaml" || extension == ".yml")
-    return inspect_calibration(options.path, options.out, options.as, options.camera);
+  if (calibration) return inspect_calibration(options.path, options.out, options.as, options.camera);
   return not_known(options.path);
 }
 

@@ -208,5 +208,20 @@ TEST(DoctorCommand, AClockThatDiffersIsANote) {
   EXPECT_THAT(findings[1].what, HasSubstr("clock differs by -7.5 s"));
 }
 
+TEST(DoctorCommand, OptionsThatWouldBeIgnoredAreRefused) {
+  const TemporaryFolder folder;
+  for (const char* option : {"--run", "--live-view"}) {
+    const Outcome o = doctor({option, folder / "none"});
+    EXPECT_EQ(o.exit_code, app::kWrongArguments) << option;
+    EXPECT_THAT(o.err, HasSubstr(std::string(option) + " requires --peer"));
+  }
+  for (const std::vector<std::string>& option :
+       {std::vector<std::string>{"--config", folder / "robot.yaml"}, {"--seconds", "2"}, {"--root", folder / ""}}) {
+    const Outcome o = doctor({"--peer", "all", "--run", folder / "", option[0], option[1]});
+    EXPECT_EQ(o.exit_code, app::kWrongArguments) << option[0];
+    EXPECT_THAT(o.err, HasSubstr(option[0]));
+  }
+}
+
 }  // namespace
 }  // namespace cairn::cli

@@ -122,6 +122,10 @@ TEST(InspectCommand, AScanReplacesNothingOfWhatItIsFrom) {
   const Outcome o = inspect({folder / "r", "--out", folder / "r/data.csv"});
   EXPECT_EQ(o.exit_code, app::kWrongArguments);
   EXPECT_THAT(o.err, HasSubstr("would replace its own input"));
+  const Outcome text = inspect({folder / "r", "--out", folder / "s.txt"});
+  EXPECT_EQ(text.exit_code, app::kWrongArguments);
+  EXPECT_THAT(text.err, HasSubstr("the name must end in .pcd"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "s.txt"));
   EXPECT_EQ(inspect({folder / "r", "--out", folder / "r/scan.pcd"}).exit_code, app::kDone);
   EXPECT_EQ(inspect({folder / "r/scan.pcd", "--out", folder / "r/scan.pcd"}).exit_code, app::kWrongArguments);
 }
