@@ -2,7 +2,6 @@
 #include "drivers/gpio/estop.hpp"
 
 #include <array>
-#include <string>
 
 namespace cairn::gpio {
 
@@ -67,12 +66,13 @@ bool EStop::stopped(Time now) {
 }
 
 Result<void> EStop::rearm(Time now) {
-  const auto refuse = [](std::string_view why) {
-    return Error{Errc::kLinkDown, "cannot leave the emergency stop", {}, {}, std::string(why)};
-  };
-  if (!read_at_ || now - *read_at_ > kSilence) return refuse("the level was not read in time");
-  if (!released(now)) return refuse("the contact is open: release the button, check the wire");
-  if (now - *closed_since_ < rearm_) return refuse("the contact has not been closed for long enough");
+  const auto refuse = [](std::string_view cause) { return Error{Errc::kLinkDown, cause, {}, {}, {}}; };
+  if (!read_at_ || now - *read_at_ > kSilence)
+    return refuse("cannot leave the emergency stop: the level was not read in time");
+  if (!released(now))
+    return refuse("cannot leave the emergency stop: the contact is open: release the button, check the wire");
+  if (now - *closed_since_ < rearm_)
+    return refuse("cannot leave the emergency stop: the contact has not been closed for long enough");
   latched_ = false;
   return {};
 }

@@ -41,7 +41,8 @@ class EStop {
   void lost(Time now);
   /// True while the robot must not move. Also stops when no level was read for kSilence.
   bool stopped(Time now);
-  /// Ends a stop. Error kLinkDown with the cause: the contact must have been closed for Config::estop_rearm_ms.
+  /// Ends a stop. Error kLinkDown with the cause: the contact must have been closed for Config::estop_rearm_ms. Nothing
+  /// is allocated.
   Result<void> rearm(Time now);
 
   [[nodiscard]] bool released(Time now) const;  ///< closed for Config::estop_release_ms

@@ -13,29 +13,29 @@
 namespace cairn::gpio {
 namespace {
 
-Error file_error(std::string_view cause, const std::string& path) {
-  const int why = errno;
-  const bool missing = why == ENOENT || why == ENOTDIR;
-  std::string detail = std::strerror(why);
-  if (missing) detail += "; start the program that plays the robot first: cairn simulate --live";
-  return {missing ? Errc::kNotFound : Errc::kIo, cause, path, {}, std::move(detail)};
+/// With the path and the remedy for the present errno, for whoever opens the lines.
+Error explained(Error error, const std::string& path) {
+  error.where = path;
+  if (error.code == Errc::kMalformed) return error;
+  error.detail = std::strerror(errno);
+  if (error.code == Errc::kNotFound)
+    error.detail += "; start the program that plays the robot first: cairn simulate --live";
+  return error;
 }
 
 /// The level in the file; null: it is empty. O_NONBLOCK: what is no plain file must not hold the caller.
-Result<std::optional<bool>> read_level(const std::string& path) {
+Result<std::optional<bool>> read_level(const std::string& path, Line line) {
   const int fd = ::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK);
-  if (fd < 0) return file_error("cannot read the GPIO line", path);
+  if (fd < 0) return line_lost("cannot read the GPIO line", line);
   char text = 0;
   const ssize_t size = ::read(fd, &text, 1);
-  if (size < 0) {
-    const Error error = file_error("cannot read the GPIO line", path);
-    ::close(fd);
-    return error;
-  }
+  const int why = errno;
   ::close(fd);
+  errno = why;
+  if (size < 0) return line_lost("cannot read the GPIO line", line);
   if (size == 0) return std::optional<bool>();
   if (text == '0' || text == '1') return std::optional(text == '1');
-  return Error{Errc::kMalformed, "a GPIO line's file holds 0 or 1", path, {}, {}};
+  return Error{Errc::kMalformed, "a GPIO line's file holds 0 or 1", std::string(name_of(line)), {}, {}};
 }
 
 void wait(Duration time) {
@@ -62,11 +62,11 @@ Result<std::unique_ptr<FileLines>> FileLines::open(const Config& config, SourceI
     File& file = made->files_.at(i);
     if (file.path.empty()) continue;
     if (file.output) {
-      if (auto low = made->set(static_cast<Line>(i), false); !low) return low.error();
+      if (auto low = made->set(static_cast<Line>(i), false); !low) return explained(low.error(), file.path);
       continue;
     }
     const auto level = made->level(static_cast<Line>(i));
-    if (!level) return level.error();
+    if (!level) return explained(level.error(), file.path);
     file.level = *level;
   }
   return made;
@@ -96,24 +96,23 @@ bool FileLines::look(Packet& packet) {
 
 Result<bool> FileLines::level(Line line) {
   const File& file = files_.at(static_cast<std::size_t>(line));
-  if (file.path.empty())
-    return Error{Errc::kNotFound, "the GPIO line is not configured", std::string(name_of(line)), {}, {}};
-  const auto high = read_level(file.path);
+  if (file.path.empty()) return line_unused(line);
+  const auto high = read_level(file.path, line);
   if (!high) return high.error();
   return *high && **high != file.active_low;
 }
 
 Result<void> FileLines::set(Line line, bool level) {
   const File& file = files_.at(static_cast<std::size_t>(line));
-  if (file.path.empty())
-    return Error{Errc::kNotFound, "the GPIO line is not configured", std::string(name_of(line)), {}, {}};
+  if (file.path.empty()) return line_unused(line);
   const int fd = ::open(file.path.c_str(), O_WRONLY | O_CREAT | O_CLOEXEC | O_NONBLOCK, 0644);
-  if (fd < 0) return file_error("cannot set the GPIO line", file.path);
+  if (fd < 0) return line_lost("cannot set the GPIO line", line);
   const char text = level != file.active_low ? '1' : '0';
   const bool written = ::write(fd, &text, 1) == 1;
-  Error error = file_error("cannot set the GPIO line", file.path);
+  const int why = errno;
   ::close(fd);
-  if (!written) return error;
+  errno = why;
+  if (!written) return line_lost("cannot set the GPIO line", line);
   return {};
 }
 

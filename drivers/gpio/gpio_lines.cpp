@@ -31,6 +31,15 @@ Time plausible_stamp(std::int64_t ns, Time now, std::uint64_t& unstamped) {
   return now;
 }
 
+Error line_lost(std::string_view cause, Line line) {
+  const bool missing = errno == ENOENT || errno == ENOTDIR || errno == ENODEV;
+  return {missing ? Errc::kNotFound : Errc::kIo, cause, std::string(name_of(line)), {}, {}};
+}
+
+Error line_unused(Line line) {
+  return {Errc::kNotFound, "the GPIO line is not configured", std::string(name_of(line)), {}, {}};
+}
+
 Error line_error(std::string_view cause, const Config& config, std::string_view line) {
   const int why = errno;
   std::string where = config.chip;

@@ -23,7 +23,8 @@ class GpioLines : public Source {
   struct Counters {
     std::uint64_t events = 0, unstamped = 0;
   };
-  /// Reads an input's level now. Errors: kNotFound (not configured), kIo (the chip is gone; open it again).
+  /// Reads an input's level now. Errors: kNotFound (not configured), kIo (the chip is gone; open it again). The safety
+  /// task calls this, set() and next() in every tick: an error allocates nothing, as line_lost() makes it.
   virtual Result<bool> level(Line line) = 0;
   /// Sets an output. Errors as level().
   virtual Result<void> set(Line line, bool level) = 0;
@@ -72,7 +73,11 @@ struct LineUse {
 /// The kernel's stamp as a Time. If it cannot be monotonic time (kernels before 5.7 use the time of day), `now` is
 /// taken and `unstamped` is counted.
 [[nodiscard]] Time plausible_stamp(std::int64_t ns, Time now, std::uint64_t& unstamped);
-/// An Error for the line, with the remedy for the present errno.
+/// An Error for a line that is in use, for the present errno. It allocates nothing.
+[[nodiscard]] Error line_lost(std::string_view cause, Line line);
+/// The Error for a line that is not used. It allocates nothing.
+[[nodiscard]] Error line_unused(Line line);
+/// An Error for the line while it is opened, with the remedy for the present errno.
 [[nodiscard]] Error line_error(std::string_view cause, const Config& config, std::string_view line);
 
 }  // namespace cairn::gpio

@@ -67,19 +67,16 @@ class Libgpiod1Lines final : public GpioLines {
 
   Result<bool> level(Line line) override {
     gpiod_line* found = lines_[static_cast<std::size_t>(line)];
-    if (found == nullptr)
-      return Error{Errc::kNotFound, "the GPIO line is not configured", std::string(name_of(line)), {}, {}};
+    if (found == nullptr) return line_unused(line);
     const int value = gpiod_line_get_value(found);
-    if (value < 0) return line_error("cannot read the GPIO line", config_, name_of(line));
+    if (value < 0) return line_lost("cannot read the GPIO line", line);
     return value != 0;
   }
 
   Result<void> set(Line line, bool level) override {
     gpiod_line* found = lines_[static_cast<std::size_t>(line)];
-    if (found == nullptr)
-      return Error{Errc::kNotFound, "the GPIO line is not configured", std::string(name_of(line)), {}, {}};
-    if (gpiod_line_set_value(found, level ? 1 : 0) != 0)
-      return line_error("cannot set the GPIO line", config_, name_of(line));
+    if (found == nullptr) return line_unused(line);
+    if (gpiod_line_set_value(found, level ? 1 : 0) != 0) return line_lost("cannot set the GPIO line", line);
     return {};
   }
 
@@ -87,7 +84,7 @@ class Libgpiod1Lines final : public GpioLines {
   Result<Poll> read(Line line, Packet& packet) {
     gpiod_line_event event{};
     if (gpiod_line_event_read(lines_[static_cast<std::size_t>(line)], &event) != 0)
-      return line_error("cannot read an event of the GPIO line", config_, name_of(line));
+      return line_lost("cannot read an event of the GPIO line", line);
     fill(packet, {line, event.event_type == GPIOD_LINE_EVENT_RISING_EDGE, false, 0},
          plausible_stamp(event.ts.tv_sec * 1'000'000'000 + event.ts.tv_nsec, clock_.now(), counters_.unstamped));
     return Poll::kPacket;

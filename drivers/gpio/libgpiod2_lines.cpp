@@ -109,10 +109,10 @@ class Libgpiod2Lines final : public GpioLines {
     if (take_pulse(packet)) return Poll::kPacket;
     if (!request_) return Poll::kTimeout;
     const int ready = gpiod_line_request_wait_edge_events(request_.get(), std::max<std::int64_t>(0, timeout.count()));
-    if (ready < 0 && errno != EINTR) return line_error("cannot wait for events", config_, {});
+    if (ready < 0 && errno != EINTR) return Error{Errc::kIo, "cannot wait for events of the GPIO lines", {}, {}, {}};
     if (ready <= 0) return Poll::kTimeout;
     if (gpiod_line_request_read_edge_events(request_.get(), buffer_.get(), 1) != 1)
-      return line_error("cannot read an event", config_, {});
+      return Error{Errc::kIo, "cannot read an event of the GPIO lines", {}, {}, {}};
     gpiod_edge_event* event = gpiod_edge_event_buffer_get_event(buffer_.get(), 0);
     const auto offset = static_cast<int>(gpiod_edge_event_get_line_offset(event));
     const auto line = static_cast<std::size_t>(std::find(offsets_.begin(), offsets_.end(), offset) - offsets_.begin());
@@ -127,20 +127,18 @@ class Libgpiod2Lines final : public GpioLines {
 
   Result<bool> level(Line line) override {
     const int offset = offsets_[static_cast<std::size_t>(line)];
-    if (offset < 0)
-      return Error{Errc::kNotFound, "the GPIO line is not configured", std::string(name_of(line)), {}, {}};
+    if (offset < 0) return line_unused(line);
     const auto value = gpiod_line_request_get_value(request_.get(), static_cast<unsigned>(offset));
-    if (value == GPIOD_LINE_VALUE_ERROR) return line_error("cannot read the GPIO line", config_, name_of(line));
+    if (value == GPIOD_LINE_VALUE_ERROR) return line_lost("cannot read the GPIO line", line);
     return value == GPIOD_LINE_VALUE_ACTIVE;
   }
 
   Result<void> set(Line line, bool level) override {
     const int offset = offsets_[static_cast<std::size_t>(line)];
-    if (offset < 0)
-      return Error{Errc::kNotFound, "the GPIO line is not configured", std::string(name_of(line)), {}, {}};
+    if (offset < 0) return line_unused(line);
     const auto value = level ? GPIOD_LINE_VALUE_ACTIVE : GPIOD_LINE_VALUE_INACTIVE;
     if (gpiod_line_request_set_value(request_.get(), static_cast<unsigned>(offset), value) != 0)
-      return line_error("cannot set the GPIO line", config_, name_of(line));
+      return line_lost("cannot set the GPIO line", line);
     return {};
   }
 

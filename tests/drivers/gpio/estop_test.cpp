@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <random>
+#include <string>
+
+#include "tests/support/allocation_count.hpp"
 
 namespace cairn::gpio {
 namespace {
@@ -28,6 +31,20 @@ class EStopTest : public testing::Test {
   Time now{1s};
   bool stopped = true;
 };
+
+TEST_F(EStopTest, ARefusalAllocatesNothingAndSaysWhy) {
+  const auto refused = [this](std::string_view why) {
+    const std::size_t before = support::allocation_count();
+    const auto done = stop.rearm(now);
+    EXPECT_EQ(support::allocation_count() - before, 0U) << why;
+    EXPECT_NE(to_string(done.error()).find(why), std::string::npos) << to_string(done.error());
+  };
+  refused("not read in time");
+  read(false, 10ms);
+  refused("release the button");
+  read(true, 100ms);
+  refused("not been closed for long enough");
+}
 
 TEST_F(EStopTest, StartsStopped) {
   EXPECT_TRUE(stop.stopped(now));

@@ -7,6 +7,7 @@
 #include <fstream>
 #include <string>
 
+#include "tests/support/allocation_count.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace cairn::gpio {
@@ -78,6 +79,26 @@ TEST_F(FileLinesTest, ALineThatIsGoneOrSenselessHasNoLevelAndNoEdge) {
   std::filesystem::create_directory(folder / "estop");
   EXPECT_EQ(lines->level(Line::kEStop).error().code, Errc::kIo);
   EXPECT_EQ(lines->next(packet, 0s).value(), Poll::kTimeout);
+}
+
+/// The safety task asks 500 times a second, whatever became of the line.
+TEST_F(FileLinesTest, ALineThatIsGoneCostsNoAllocation) {
+  config.trigger_line = "trigger";
+  config.pps_line.clear();
+  const auto lines = open();
+  packet.bytes.reserve(256);
+  const auto allocations = [&] {
+    const std::size_t before = support::allocation_count();
+    for (const bool level : {true, false}) (void)lines->pulse(Line::kTrigger, level);
+    for (int i = 0; i < 3; ++i) (void)lines->level(Line::kEStop), (void)lines->next(packet, 0s);
+    (void)lines->level(Line::kPps);
+    return support::allocation_count() - before;
+  };
+  EXPECT_EQ(allocations(), 0U);
+  write("estop", "x");
+  EXPECT_EQ(allocations(), 0U) << "senseless";
+  std::filesystem::remove_all(folder.path());
+  EXPECT_EQ(allocations(), 0U) << "gone";
 }
 
 /// `echo 0 > estop` empties the file before it writes. An e-stop that is read just then is open, and not lost.
