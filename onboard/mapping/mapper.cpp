@@ -28,6 +28,7 @@ Mapper::Mapper(const MappingConfig& config, Workers& workers)
       footprints_(workers.threads(), Footprint(megabytes(config.max_scan_mb) / sizeof(BrickBits) / 2)),
       labels_(config.label_trust) {
   set_up();
+  tree_->reserve_bytes(megabytes(config_.reserve_mb));
 }
 
 Mapper::Mapper(const MappingConfig& config, Workers& workers, const SemanticOcTree& saved)
@@ -39,6 +40,7 @@ Mapper::Mapper(const MappingConfig& config, Workers& workers, const SemanticOcTr
       labels_(config.label_trust) {
   if (saved.getResolution() != config.resolution_m) std::abort();
   set_up();
+  tree_->reserve_bytes(megabytes(config_.reserve_mb));
 }
 
 void Mapper::set_up() {
@@ -46,12 +48,14 @@ void Mapper::set_up() {
   tree_->setProbMiss(config_.prob_miss);
   tree_->setClampingThresMin(config_.clamping_min);
   tree_->setClampingThresMax(config_.clamping_max);
-  tree_->reserve_bytes(megabytes(config_.reserve_mb));
   for (std::vector<TileKey>* tiles : {&changed_, &changed_now_, &merged_}) tiles->reserve(kTiles);
 }
 
 std::unique_ptr<SemanticOcTree> Mapper::begin_anew() {
-  auto before = std::exchange(tree_, std::make_unique<SemanticOcTree>(config_.resolution_m));
+  auto before = std::make_unique<SemanticOcTree>(config_.resolution_m);
+  // The first scan of a run begins a map, too: what was reserved stays. A later map gets no reserve of its own, because
+  // touching it would hold up the mapping task.
+  if (tree_->size() > 0) std::swap(tree_, before);
   set_up();
   changed_.clear();
   entered_.forget();

@@ -227,20 +227,6 @@ TEST(Mapper, DoesNotAllocateWhenWarm) {
   EXPECT_EQ(mapper.tree().memoryUsage(), memory);
 }
 
-TEST(Mapper, NewGroundWithinTheReserveIsMappedWithoutAllocating) {
-  Workers workers(2);
-  MappingConfig config = config_of(0.2, 20);
-  config.reserve_mb = 32;
-  Mapper mapper(config, workers);
-  const ScanYard yard(support::rounds(900, 150));
-  std::vector<MapScan> scans;
-  for (int i = 0; i < 12; ++i) scans.push_back(yard.scan(6 * i));
-  for (std::size_t i = 0; i < 2; ++i) ASSERT_TRUE(mapper.insert(scans[i].points, scans[i].origin));
-  const std::size_t before = support::allocation_count();
-  for (std::size_t i = 2; i < scans.size(); ++i) ASSERT_TRUE(mapper.insert(scans[i].points, scans[i].origin));
-  EXPECT_EQ(support::allocation_count() - before, 0U);
-}
-
 /// Unknown, free or occupied.
 int state_of(const SemanticOcTree& tree, const octomap::OcTreeKey& key) {
   const SemanticNode* node = tree.search(key);
