@@ -3,12 +3,10 @@
 
 #include <optional>
 #include <system_error>
-#include <thread>
 
-#include "hal/files/unfinished_folder.hpp"
+#include "onboard/app/checked_profile.hpp"
 #include "onboard/app/commands/serve_commands.hpp"
 #include "onboard/app/perception/open_sight.hpp"
-#include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/app/restart/restart.hpp"
 #include "onboard/app/restart/start_log.hpp"
 #include "onboard/app/restart/state_lock.hpp"
@@ -63,16 +61,6 @@ Result<Door> open_door(const RunOptions& options, RobotProfile& profile, const C
   return door;
 }
 
-Result<void> check_schedule(const RunOptions& options, const RobotProfile& profile) {
-  const auto tasks = profile.schedule.tasks({.team = profile.team.id != 0,
-                                             .perception = wants_camera(options, profile),
-                                             .depth = profile.depth.exists() && profile.depth.map.rate_hz > 0,
-                                             .detection = wants_eye(people::Eye::kVisible, options, profile),
-                                             .thermal_detection = wants_eye(people::Eye::kThermal, options, profile),
-                                             .stereo = profile.sees_its_way()});
-  return scheduler::validate(tasks, static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
-}
-
 /// Keeps other cores out of the state folder. A folder that cannot be locked is an event, and does not keep the robot
 /// from starting; another core in it does (kLimit).
 Result<std::optional<StateLock>> lock_state(const RunOptions& options, Time now, Monitor& monitor) {
@@ -104,28 +92,6 @@ PreviousRun recorded_previous_run(const std::filesystem::path& recording, Monito
   PreviousRun previous;
   previous.resumed = resumed_in_recording(recording, monitor);
   return previous;
-}
-
-/// The results of a replay have names that a recording has, too.
-Result<void> check_output(const RunOptions& options) {
-  if (options.recording.empty() || !lies_in(options.out, options.recording)) return {};
-  return Error{Errc::kInvalidConfig,
-               "the results would lie in the recording",
-               options.out.string(),
-               {},
-               "name another --out, outside " + options.recording.string()};
-}
-
-/// The profile for these options, if they fit together.
-Result<ChosenProfile> checked_profile(const RunOptions& options) {
-  if (const auto fits = check(options); !fits) return fits.error();
-  if (const auto fits = check_output(options); !fits) return fits.error();
-  auto chosen = choose_profile(options.config, options.recording);
-  if (!chosen) return chosen.error();
-  if (options.threads) chosen->profile.threads = *options.threads;
-  if (options.live())
-    if (const auto fits = check_schedule(options, chosen->profile); !fits) return fits.error();
-  return chosen;
 }
 
 }  // namespace

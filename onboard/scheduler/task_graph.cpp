@@ -4,23 +4,9 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <string_view>
 
 namespace cairn::scheduler {
 namespace {
-
-std::string_view to_string(TaskRole role) {
-  switch (role) {
-    case TaskRole::kStage:
-    case TaskRole::kNewStage:
-      return "stage";
-    case TaskRole::kInput:
-      return "input";
-    case TaskRole::kLiveOnly:
-      return "live only";
-  }
-  return "";
-}
 
 /// A number, or a dash where none is declared.
 std::string or_dash(const char* pattern, double value, bool declared) {
@@ -49,6 +35,19 @@ auto& find(Tasks& tasks, const Task& task) {
 
 }  // namespace
 
+std::string_view to_string(TaskRole role) {
+  switch (role) {
+    case TaskRole::kStage:
+    case TaskRole::kNewStage:
+      return "stage";
+    case TaskRole::kInput:
+      return "input";
+    case TaskRole::kLiveOnly:
+      return "live only";
+  }
+  return "";
+}
+
 ScheduledTask& TaskGraph::add(TaskSpec spec, Task& task, TaskRole role) {
   return tasks_.emplace_back(std::move(spec), task, role);
 }
@@ -60,15 +59,20 @@ std::string TaskGraph::name_of(const Port& port) const {
   return scheduled(port.task()).spec.name + "." + std::string(port.name());
 }
 
+std::vector<TaskGraph::Connection> TaskGraph::connections() const {
+  std::vector<Connection> all;
+  for (const Link& link : links_) all.push_back({name_of(*link.from), name_of(*link.to), link.channel->options()});
+  return all;
+}
+
 std::string TaskGraph::to_text() const {
   std::string text = "task           rate Hz  priority  core  soft ms  hard ms  deadline ms  role\n";
   for (const ScheduledTask& task : tasks_) text += row_of(task);
   text += "\nfrom                 to                   capacity   lag ms\n";
-  for (const Link& link : links_) {
-    const ChannelOptions& options = link.channel->options();
+  for (const Connection& c : connections()) {
     std::array<char, 200> line{};
-    std::snprintf(line.data(), line.size(), "%-20s %-20s %8zu %8g\n", name_of(*link.from).c_str(),
-                  name_of(*link.to).c_str(), options.capacity, to_milliseconds(options.lag));
+    std::snprintf(line.data(), line.size(), "%-20s %-20s %8zu %8g\n", c.from.c_str(), c.to.c_str(), c.options.capacity,
+                  to_milliseconds(c.options.lag));
     text += line.data();
   }
   return text;

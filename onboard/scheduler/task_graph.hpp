@@ -4,11 +4,14 @@
 #include <deque>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "onboard/scheduler/scheduled_task.hpp"
 
 namespace cairn::scheduler {
+
+[[nodiscard]] std::string_view to_string(TaskRole role);
 
 /// The tasks of one robot and the channels between them. Everything is added before a run.
 class TaskGraph {
@@ -40,6 +43,13 @@ class TaskGraph {
   [[nodiscard]] const std::deque<ScheduledTask>& tasks() const { return tasks_; }
   [[nodiscard]] std::deque<ScheduledTask>& tasks() { return tasks_; }
 
+  /// A channel: its ports as "task.port".
+  struct Connection {
+    std::string from, to;
+    ChannelOptions options;
+  };
+  /// In the order in which they were made.
+  [[nodiscard]] std::vector<Connection> connections() const;
   /// Tasks with rate, priority and budget, then the channels between them: two tables in plain text.
   [[nodiscard]] std::string to_text() const;
 

@@ -3,12 +3,15 @@
 
 #include <array>
 #include <cstdio>
+#include <string_view>
 
 namespace cairn::scheduler {
 namespace {
 
 // Not a promise that 0.7 of a core is 70.0000001 % of it.
 constexpr double kRounding = 1e-9;
+
+constexpr std::string_view kRemedy = "lower soft_ms, busy_hz or rate_hz of the largest share, or use more cores\n";
 
 template <class... Values>
 std::string format(const char* pattern, Values... values) {
@@ -31,7 +34,7 @@ double promised(std::span<const TaskSpec> tasks, int core, Counted counted = Cou
 std::string faults_of(const TaskSpec& t, int cores) {
   std::string faults;
   const auto add = [&](const std::string& what) { faults += t.name + ": " + what + "\n"; };
-  if (t.core >= cores) add(format("core %d, but this machine has %d, counted from 0", t.core, cores));
+  if (t.core >= cores) add(format("core %d, but this machine has %d, counted from 0; -1 is any", t.core, cores));
   if (t.hard_ms > 0 && t.soft_ms > t.hard_ms) add("soft_ms is above hard_ms");
   if (t.hard() > t.deadline()) add("hard_ms is above the deadline");
   return faults;
@@ -46,12 +49,14 @@ std::string overloads(std::span<const TaskSpec> tasks, int cores, Counted counte
     const double share = promised(tasks, core, counted);
     all += share;
     if (share > most + kRounding)
-      faults += format("core %d%s: %.1f %% are promised; %.0f %% may be\n", core, whose, 100 * share, 100 * most);
+      faults +=
+          format("core %d%s: %.1f %% of it are planned, and %.0f %% may be\n", core, whose, 100 * share, 100 * most);
   }
   all += promised(tasks, -1, counted);
   if (all > most * cores + kRounding)
-    faults +=
-        format("all %d cores%s: %.1f %% are promised; %.0f %% may be\n", cores, whose, 100 * all, 100 * most * cores);
+    faults += format("all %d cores%s: %.1f %% of one are planned, and %.0f %% may be, %.0f %% of each\n", cores, whose,
+                     100 * all, 100 * most * cores, 100 * most);
+  if (!faults.empty()) faults += kRemedy;
   return faults;
 }
 

@@ -85,6 +85,13 @@ std::vector<std::string> probe_privileges(int highest_priority) {
   return missing;
 }
 
+bool may_run_on(int core) {
+  cpu_set_t cores;
+  CPU_ZERO(&cores);
+  return core >= 0 && core < CPU_SETSIZE && sched_getaffinity(0, sizeof cores, &cores) == 0 &&
+         CPU_ISSET(static_cast<unsigned>(core), &cores);
+}
+
 bool lock_memory() { return may_lock_memory() && ::mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0; }
 
 ThreadUsage thread_usage() {

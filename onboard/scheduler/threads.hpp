@@ -46,6 +46,9 @@ void become(const ThreadPlan& plan);
 /// What real-time operation needs and this process lacks, each with its remedy. Empty: nothing is missing.
 [[nodiscard]] std::vector<std::string> probe_privileges(int highest_priority);
 
+/// Whether this process may bind a thread to the core: taskset and cpusets of containers withhold some.
+[[nodiscard]] bool may_run_on(int core);
+
 /// Keeps the process's memory from being paged out, as it is touched (mlockall, on fault). False: not allowed.
 bool lock_memory();
 

@@ -164,6 +164,18 @@ Result<void> check_devices(const RobotProfile& profile) {
   return {};
 }
 
+Result<void> check_drivers(const RobotProfile& profile) {
+  if (profile.lidar.enabled)
+    if (auto sound = check(profile.lidar.driver); !sound) return at("lidar", sound.error());
+  if (profile.sees_its_way() && profile.camera.exists())
+    if (auto sound = check(profile.camera.driver); !sound) return at("camera", sound.error());
+  if (profile.drive.exists())
+    if (auto sound = check(profile.drive.driver); !sound) return at("drive", sound.error());
+  if (profile.gpio.exists())
+    if (auto sound = check(profile.gpio.driver); !sound) return at("gpio", sound.error());
+  return {};
+}
+
 std::vector<SourceEntry> devices_of(const RobotProfile& profile) {
   std::vector<SourceEntry> entries;
   for (const DeviceRow& row : kDevices)

@@ -35,6 +35,11 @@ struct Device {
 /// robot can be recorded only.
 [[nodiscard]] Result<void> check_devices(const RobotProfile& profile);
 
+/// Whether the settings of LiDAR, drive and GPIO lines, and of the camera whose eyes tell the motion, fit to
+/// themselves: a run without one of these does not start. Errors kInvalidConfig: those of the drivers, with the
+/// device's id.
+[[nodiscard]] Result<void> check_drivers(const RobotProfile& profile);
+
 /// Opens the device of `entry`, which is one of devices_of(). `clock` must outlive it. No frame is sent to a drive.
 /// Errors: those of the driver, each with its remedy; kInvalidConfig: no device is of this kind.
 [[nodiscard]] Result<Device> open_device(const RobotProfile& profile, const recording::SourceEntry& entry, SourceId id,

@@ -139,6 +139,7 @@ Result<RobotProfile> load_profile(const std::filesystem::path& path, RobotProfil
   if (const auto loaded = config::load(path, section); !loaded)
     return loaded.error().code == Errc::kNotFound ? no_such_profile(path) : loaded.error();
   if (auto sound = check(profile.failsafe); !sound) return at(path.string(), sound.error());
+  if (auto sound = check(profile.schedule); !sound) return at(path.string(), sound.error());
   if (auto sound = check(profile.perception); !sound) return at(path.string(), sound.error());
   if (auto sound = check(profile.team); !sound) return at(path.string(), sound.error());
   if (auto sound = check_trigger(profile); !sound) return at(path.string(), sound.error());

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/profile/schedule_profile.hpp"
 
+#include <string>
+
 namespace cairn::app {
 
 void declare(config::Section& s, ScheduleProfile& p) {
@@ -25,14 +27,26 @@ void declare(config::Section& s, ScheduleProfile& p) {
   s.group("saving", p.saving, "map, pose, scans and keyframes for a restart, where --state says so");
 }
 
+Result<void> check(const ScheduleProfile& p) {
+  constexpr double kSlowest_hz = 50;  // an e-stop takes up to four periods
+  std::string faults;
+  for (const scheduler::TaskSpec* task : {&p.safety, &p.drive})
+    if (task->rate_hz < kSlowest_hz)
+      faults += "\nschedule." + task->name +
+                ".rate_hz is below 50 Hz: this task stops the robot, and an emergency stop would take tenths of a "
+                "second; leave it out (500 Hz)";
+  if (faults.empty()) return {};
+  return Error{Errc::kInvalidConfig, "faults in the profile", {}, {}, faults};
+}
+
 std::vector<scheduler::TaskSpec> ScheduleProfile::tasks(const Parts& parts) const {
   std::vector<scheduler::TaskSpec> all{safety, drive, receive};
   if (parts.stereo)
     all.insert(all.end(), {visual_odometry, stereo});
   else
     all.push_back(odometry);
-  all.insert(all.end(), {mapping, watch, housekeeping, saving});
-  if (parts.team) all.push_back(team);
+  all.insert(all.end(), {mapping, rejoin, watch, streams, housekeeping, saving});
+  if (parts.team) all.insert(all.end(), {team, matching});
   if (parts.perception) all.push_back(perception);
   if (parts.depth) all.push_back(depth);
   if (parts.detection) all.push_back(detection);

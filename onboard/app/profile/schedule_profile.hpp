@@ -68,11 +68,14 @@ struct ScheduleProfile {
     bool team = false, perception = false, depth = false, detection = false, thermal_detection = false;
     bool stereo = false;  ///< both eyes tell the motion, and no LiDAR
   };
-  /// The tasks that declare a budget.
+  /// All tasks that a live run may have.
   [[nodiscard]] std::vector<scheduler::TaskSpec> tasks(const Parts& parts) const;
 };
 
 void declare(config::Section& section, ScheduleProfile& profile);
+
+/// Error kInvalidConfig: a task that stops the robot is released less than 50 times a second.
+[[nodiscard]] Result<void> check(const ScheduleProfile& profile);
 
 /// Gives the stages of a run the budgets of their tasks: execution of odometry and mapping `soft_ms`, the latencies
 /// from a scan's last byte their deadline. `by_eyes`: both eyes of the camera tell the motion. To be called before the

@@ -4,8 +4,11 @@
 #include <gmock/gmock.h>
 
 #include <fstream>
+#include <nlohmann/json.hpp>
+#include <set>
 
 #include "drivers/recording/formats/recording.hpp"
+#include "onboard/app/profile/schedule_profile.hpp"
 #include "tests/support/temporary_folder.hpp"
 
 namespace cairn::app {
@@ -68,6 +71,63 @@ TEST(PrintTasks, AReplayHasNoneThatIsLiveOnly) {
   EXPECT_THAT(*text, Not(HasSubstr("live only")));
   options.recording = folder / "nowhere";
   EXPECT_FALSE(print_tasks(options));
+}
+
+class PrintTasksOf : public testing::Test {
+ protected:
+  Result<std::string> printed(const std::string& profile) {
+    std::ofstream(folder / "robot.yaml") << profile << "\n";
+    options.config = folder / "robot.yaml";
+    return print_tasks(options);
+  }
+  support::TemporaryFolder folder;
+  RunOptions options;
+};
+
+/// The schedule is checked before the tasks exist.
+TEST_F(PrintTasksOf, EveryTaskOfALiveRunIsInTheScheduleThatIsChecked) {
+  options.state = options.sockets = "somewhere";
+  options.peers = true;
+  ASSERT_TRUE(printed("team: {id: 1}"));
+  std::set<std::string> checked, run;
+  for (const scheduler::TaskSpec& task : ScheduleProfile().tasks({.team = true})) checked.insert(task.name);
+  const auto json = tasks_as_json(options);
+  for (const auto& task : (*json)["tasks"]) run.insert(task["name"].get<std::string>());
+  EXPECT_EQ(checked, run);
+  for (const std::string& name : run) {
+    const auto refused = printed("team: {id: 1}\nschedule: {" + name + ": {core: 1023}}");
+    ASSERT_FALSE(refused) << name;
+    EXPECT_THAT(refused.error().detail, HasSubstr(name + ": core 1023, but this machine has"));
+  }
+}
+
+TEST_F(PrintTasksOf, WhatARunRefusesBeforeItOpensADeviceIsRefused) {
+  for (const char* profile :
+       {"schedule: {odometry: {busy_hz: 100}}", "schedule: {odometry: {soft_ms: 60, hard_ms: 50}}",
+        "lidar: {source_address: 192.168.1.300}", "lidar: {data_port: 2368, position_port: 2368}"}) {
+    const auto refused = printed(profile);
+    ASSERT_FALSE(refused) << profile;
+    EXPECT_EQ(refused.error().code, Errc::kInvalidConfig) << profile;
+  }
+  EXPECT_TRUE(printed("name: husky"));
+  options.schedule = "schedule.log";
+  EXPECT_EQ(printed("name: husky").error().cause, "options that do not fit to this run");
+}
+
+TEST_F(PrintTasksOf, AsJsonTheyAreTheSame) {
+  std::ofstream(folder / "robot.yaml") << "schedule: {mapping: {core: 0}}\n";
+  options.config = folder / "robot.yaml";
+  options.sockets = "somewhere";
+  const auto json = tasks_as_json(options);
+  ASSERT_TRUE(json) << to_string(json.error());
+  const auto& mapping = (*json)["tasks"][4];
+  EXPECT_EQ(mapping["name"], "mapping");
+  EXPECT_EQ(mapping["core"], 0);
+  EXPECT_EQ(mapping["soft_ms"], 30);
+  EXPECT_EQ((*json)["tasks"].back()["name"], "streams");
+  EXPECT_TRUE((*json)["tasks"].back()["soft_ms"].is_null());
+  EXPECT_EQ((*json)["channels"][0].dump(),
+            R"({"from":"receive.seen","to":"safety.sensors","capacity":64,"lag_ms":20.0})");
 }
 
 TEST(PrintTasks, ATeamHasTwoTasksMoreWhereTheProfileNamesAPlaceInIt) {

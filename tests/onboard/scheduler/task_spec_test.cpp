@@ -25,12 +25,16 @@ TEST(TaskSpec, SeventyPercentOfACoreMayBePromisedAndNotMore) {
   const auto refused = validate(std::vector{task("a", 100, 3, 0), task("b", 10, 41, 0)}, 2);
   ASSERT_FALSE(refused);
   EXPECT_EQ(refused.error().code, Errc::kInvalidConfig);
-  EXPECT_THAT(refused.error().detail, HasSubstr("core 0: 71.0 % are promised"));
+  EXPECT_THAT(refused.error().detail, HasSubstr("core 0: 71.0 % of it are planned, and 70 % may be"));
   EXPECT_THAT(refused.error().detail, HasSubstr("b                 10.0"));
 }
 
 TEST(TaskSpec, UnboundTasksShareAllCores) {
   EXPECT_TRUE(validate(std::vector{task("a", 10, 70), task("b", 10, 70)}, 2));
+  const auto refused = validate(std::vector{task("a", 10, 70), task("b", 10, 75)}, 2);
+  EXPECT_THAT(refused.error().detail,
+              HasSubstr("all 2 cores: 145.0 % of one are planned, and 140 % may be, 70 % of each\n"
+                        "lower soft_ms, busy_hz or rate_hz of the largest share, or use more cores\n"));
   EXPECT_FALSE(validate(std::vector{task("a", 10, 70), task("b", 10, 70)}, 1));
   EXPECT_FALSE(validate(std::vector{task("a", 10, 70, 0), task("b", 10, 71)}, 2));
 }

@@ -10,6 +10,7 @@
 #include <string>
 #include <utility>
 
+#include "onboard/app/checked_profile.hpp"
 #include "onboard/app/door/devices.hpp"
 #include "tools/cli/doctor/networks.hpp"
 #include "tools/cli/inspect/inspect.hpp"
@@ -86,12 +87,21 @@ Finding examine_source(const report::Json& source) {
           "look for a full receive buffer or a bad cable: cairn doctor"};
 }
 
+/// What cairn run checks before it opens a device. The faults of devices are told as they are opened.
+Findings examine_for_run(const app::RobotProfile& profile, const std::filesystem::path& path) {
+  Findings findings;
+  if (const auto fits = app::check_schedule({}, profile); !fits) findings.push_back(problem("profile", fits.error()));
+  if (findings.empty() && app::check_drivers(profile))
+    findings.push_back({Level::kOk, "profile: " + path.string() + " is in order", {}});
+  return findings;
+}
+
 }  // namespace
 
 Findings examine_profile(const std::filesystem::path& path, Duration listen) {
   const auto profile = app::load_profile(path);
   if (!profile) return {problem("profile", profile.error())};
-  Findings findings{{Level::kOk, "profile: " + path.string() + " is in order", {}}};
+  Findings findings = examine_for_run(*profile, path);
   const auto entries = app::devices_of(*profile);
   if (entries.empty())
     findings.push_back(

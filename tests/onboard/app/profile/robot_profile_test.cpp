@@ -62,6 +62,18 @@ Result<RobotProfile> loaded(const std::string& yaml) {
   return load_profile(folder / "robot.yaml");
 }
 
+TEST(RobotProfile, ATaskThatStopsTheRobotIsReleasedFiftyTimesASecondAtLeast) {
+  EXPECT_TRUE(loaded("schedule: {safety: {rate_hz: 50}, drive: {rate_hz: 50}}"));
+  for (const std::string task : {"safety", "drive"}) {
+    const auto slow = loaded("schedule: {" + task + ": {rate_hz: 49}}");
+    ASSERT_FALSE(slow) << task;
+    EXPECT_EQ(slow.error().code, Errc::kInvalidConfig);
+    EXPECT_NE(slow.error().detail.find("schedule." + task + ".rate_hz is below 50 Hz: this task stops the robot"),
+              std::string::npos)
+        << to_string(slow.error());
+  }
+}
+
 TEST(RobotProfile, ADeploymentIsAPoseWithItsUncertainty) {
   EXPECT_FALSE(loaded("team: {id: 1}")->team.deployment.T_site_odom());
   const auto profile = loaded("team: {id: 1, deployment: {x_m: 3, yaw_deg: 90, sigma_m: 0.5, sigma_deg: 10}}");

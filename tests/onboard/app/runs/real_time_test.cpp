@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "onboard/scheduler/idle_task.hpp"
 #include "onboard/scheduler/threads.hpp"
 
@@ -19,6 +21,18 @@ TEST(RealTime, EverythingThatTheMachineRefusesIsAnEvent) {
   EXPECT_EQ(become_real_time(graph, monitor), missing == 0);
   EXPECT_GE(monitor.events().size(), missing);
   for (const Event& event : monitor.events()) EXPECT_EQ(event.stage, "best effort");
+}
+
+TEST(RealTime, ACoreThatTheProcessMayNotUseIsAnEvent) {
+  scheduler::IdleTask idle;
+  scheduler::TaskGraph graph;
+  graph.add({.name = "slow", .core = 1023}, idle);
+  Monitor monitor;
+  EXPECT_FALSE(become_real_time(graph, monitor));
+  const bool told = std::ranges::any_of(monitor.events(), [](const Event& event) {
+    return event.what.starts_with("missing: core 1023 for the task slow");
+  });
+  EXPECT_TRUE(told);
 }
 
 }  // namespace

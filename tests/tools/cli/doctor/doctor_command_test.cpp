@@ -85,6 +85,18 @@ TEST(DoctorCommand, DevicesOfAProfileAreOpenedAndListenedTo) {
   for (const std::size_t i : {1U, 2U}) EXPECT_NE(json["findings"][i]["remedy"], "");
 }
 
+TEST(DoctorCommand, AScheduleThatARunRefusesIsNotInOrder) {
+  const TemporaryFolder folder;
+  for (const char* schedule :
+       {"odometry: {busy_hz: 100}", "odometry: {soft_ms: 60, hard_ms: 50}", "rejoin: {core: 99}"}) {
+    put(folder / "robot.yaml", "lidar: {bind_address: 127.88.0.1}\nschedule: {" + std::string(schedule) + "}");
+    const Outcome o = doctor({"--config", folder / "robot.yaml", "--root", folder / "", "--seconds", "0.01"});
+    EXPECT_EQ(o.exit_code, app::kFailed) << schedule;
+    EXPECT_THAT(o.out, HasSubstr("problem: profile: schedule: the schedule does not fit this machine")) << schedule;
+    EXPECT_THAT(o.out, Not(HasSubstr("is in order"))) << schedule;
+  }
+}
+
 TEST(DoctorCommand, AProfileThatWouldNotRunIsNoted) {
   const TemporaryFolder folder;
   put(folder / "robot.yaml", "lidar: {enabled: false}\ndrive: {interface: nocan7}");
