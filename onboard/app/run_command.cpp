@@ -8,7 +8,9 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
+#include "onboard/app/budget_fields.hpp"
 #include "onboard/app/live/stop_signal.hpp"
 #include "onboard/app/print_tasks.hpp"
 #include "onboard/app/run.hpp"
@@ -39,13 +41,18 @@ void print_summary(const report::RunReport& r, const std::filesystem::path& out)
 /// Prints the table; the exit code says whether everything was kept.
 int judge(const std::vector<report::BudgetLimit>& limits, const report::RunReport& report) {
   const auto verdicts = report::check_budgets(limits, report::to_json(report));
-  if (!verdicts) return fail(verdicts.error());
+  if (!verdicts) return fail(at(limits.front().file, verdicts.error()));
   std::fprintf(stderr, "%s", report::to_table(*verdicts).c_str());
   const auto kept = report::all_kept(*verdicts);
-  return kept ? kDone : fail(at(report.robot, kept.error()));
+  return kept ? kDone : fail(at(limits.front().file + ", " + report.robot, kept.error()));
 }
 
-int show_tasks(const RunOptions& options) {
+int show_tasks(const RunOptions& options, bool json) {
+  if (json) {
+    const auto tasks = tasks_as_json(options);
+    if (!tasks) return fail(tasks.error());
+    return print(*tasks);
+  }
   const auto text = cairn::app::print_tasks(options);
   if (!text) return fail(text.error());
   std::printf("%s", text->c_str());
@@ -62,29 +69,41 @@ NetworkUse network_use(const std::string& word) {
   return word == "off" ? NetworkUse::kOff : word == "recorded" ? NetworkUse::kRecorded : NetworkUse::kRun;
 }
 
-int run_robot(Arguments a) {
-  a.run.networks = network_use(a.networks);
-  if (a.print_tasks) return show_tasks(a.run);
-  std::vector<report::BudgetLimit> limits;
-  if (!a.budgets.empty()) {
-    auto loaded = report::load_budgets(a.budgets);
-    if (!loaded) return fail(loaded.error());
-    limits = std::move(*loaded);
-    a.run.reference = true;
-  }
-  if (a.run.peers && a.speed == "max")
-    return fail({Errc::kInvalidConfig,
+/// A pace that the kind of run cannot have.
+Result<void> check_speed(const Arguments& a) {
+  if (a.speed != "max") return {};
+  if (a.run.peers)
+    return Error{Errc::kInvalidConfig,
                  "peers are spoken to in real time",
                  "--speed max",
                  {},
-                 "leave out --peers: what peers said then is in the recording"});
-  if (a.run.recording.empty() && a.speed == "max")
-    return fail({Errc::kInvalidConfig,
+                 "leave out --peers: what peers said then is in the recording"};
+  if (a.run.recording.empty())
+    return Error{Errc::kInvalidConfig,
                  "a live run has the speed of time",
                  "--speed max",
                  {},
-                 "name a --recording, or leave it out"});
+                 "name a --recording, or leave it out"};
+  return {};
+}
+
+/// Nothing without --assert.
+Result<std::vector<report::BudgetLimit>> limits_of(const Arguments& a) {
+  if (a.budgets.empty()) return std::vector<report::BudgetLimit>();
+  auto limits = report::load_budgets(a.budgets);
+  if (!limits) return limits;
+  if (const auto fits = check_budget_fields(*limits, a.run); !fits) return at(a.budgets.string(), fits.error());
+  return limits;
+}
+
+int run_robot(Arguments a) {
+  a.run.networks = network_use(a.networks);
+  if (const auto fits = check_speed(a); !fits) return fail(fits.error());
+  const auto limits = limits_of(a);
+  if (!limits) return fail(limits.error());
+  a.run.reference = !limits->empty();
   a.run.pace = a.run.live() ? Pace::kLive : a.speed == "max" ? Pace::kMaximum : Pace::kRecorded;
+  if (a.print_tasks) return show_tasks(a.run, a.json);
   if (::isatty(STDERR_FILENO) != 0) a.run.progress = show_progress;
   catch_stop_signals();
   a.run.stop = stop_requested;
@@ -97,7 +116,7 @@ int run_robot(Arguments a) {
   else
     print_summary(report, (*result)->folder);
   if (report.interrupted) return fail(interrupted(report.source, "run it again for all of it"));
-  if (report.scans != 0) return limits.empty() ? kDone : judge(limits, report);
+  if (report.scans != 0) return limits->empty() ? kDone : judge(*limits, report);
   const std::string remedy = report.live ? "see the events; `cairn doctor --config PROFILE` listens to the devices"
                                          : "see the events; `cairn inspect` says what a recording holds";
   const char* const nothing = report.visual_odometry ? "not one stereo picture came in" : "not one scan came in";
@@ -145,7 +164,7 @@ void add_run_options(CLI::App& app, Commands& commands) {
                  "threads of a stage, instead of the profile's; the result does not depend on them")
       ->check(CLI::Range(1, 64));
   app.add_option("--seconds", a->run.seconds, "end after so many seconds of the robot's time")->check(above_zero);
-  app.add_flag("--json", a->json, "print report.json on stdout");
+  app.add_flag("--json", a->json, "print report.json on stdout; with --print-tasks: the tasks as JSON");
   app.add_flag("--print-tasks", a->print_tasks,
                "print the tasks of the run (rate, priority, budget) and the channels between them, and end");
   app.callback([&commands, a] { commands.job = [a] { return run_robot(*a); }; });

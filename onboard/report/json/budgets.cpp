@@ -46,7 +46,7 @@ class BudgetReader {
       return fault(node, path, "a limit must be a number");
     if (std::any_of(limits.begin(), limits.end(), [&](const BudgetLimit& l) { return l.field == path; }))
       return fault(node, path, "is given twice");
-    limits.push_back({path, value, node.Mark().line + 1});
+    limits.push_back({path, value, node.Mark().line + 1, std::string(file_)});
   }
   void fault(const YAML::Node& node, const std::string& path, const char* what) {
     faults += fmt::format("{}:{}: {}: {}\n", file_, node.Mark().line + 1, path, what);
@@ -67,6 +67,27 @@ const nlohmann::ordered_json* find(const nlohmann::ordered_json& report, std::st
     path.remove_prefix(std::min(dot + 1, path.size()));
   }
   return at;
+}
+
+std::string names_in(const nlohmann::ordered_json& object) {
+  std::string names;
+  for (const auto& [name, value] : object.items()) names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
+/// Why a report like `expected` cannot have a number at `path`; empty: it can.
+std::string why_never(const nlohmann::ordered_json& expected, std::string_view path) {
+  const nlohmann::ordered_json* at = &expected;
+  while (!path.empty()) {
+    if (at->is_null() || (at->is_object() && at->empty())) return {};
+    if (!at->is_object()) return "no such number in report.json";
+    const std::string key(path.substr(0, path.find('.')));
+    const auto found = at->find(key);
+    if (found == at->end()) return fmt::format("report.json has no {} there; it has {}", key, names_in(*at));
+    at = &*found;
+    path.remove_prefix(std::min(key.size() + 1, path.size()));
+  }
+  return at->is_number() || at->is_null() ? "" : "is no number in report.json";
 }
 
 std::string row(const BudgetVerdict& v, std::size_t width) {
@@ -98,6 +119,15 @@ Result<std::vector<BudgetLimit>> load_budgets(const std::filesystem::path& file)
   return parse_budgets({reinterpret_cast<const char*>(bytes->data()), bytes->size()}, file.string());
 }
 
+Result<void> check_fields(const std::vector<BudgetLimit>& limits, const nlohmann::ordered_json& expected) {
+  std::string faults;
+  for (const BudgetLimit& limit : limits)
+    if (const std::string why = why_never(expected, limit.field); !why.empty())
+      faults += fmt::format("{}:{}: {}: {}\n", limit.file, limit.line, limit.field, why);
+  if (faults.empty()) return {};
+  return Error{Errc::kInvalidConfig, "the budgets name what no report has", {}, {}, "\n" + faults};
+}
+
 Result<std::vector<BudgetVerdict>> check_budgets(const std::vector<BudgetLimit>& limits,
                                                  const nlohmann::ordered_json& report) {
   std::vector<BudgetVerdict> verdicts;
@@ -109,7 +139,7 @@ Result<std::vector<BudgetVerdict>> check_budgets(const std::vector<BudgetLimit>&
     else if (figure != nullptr && figure->is_null())
       verdicts.push_back({limit, std::nullopt});
     else
-      faults += fmt::format("line {}: {}: no such number in report.json\n", limit.line, limit.field);
+      faults += fmt::format("{}:{}: {}: no such number in report.json\n", limit.file, limit.line, limit.field);
   }
   if (!faults.empty())
     return Error{Errc::kInvalidConfig, "budgets that cannot be checked on this run", {}, {}, "\n" + faults};

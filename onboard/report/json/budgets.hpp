@@ -16,7 +16,8 @@ namespace cairn::report {
 struct BudgetLimit {
   std::string field;  ///< "tasks.safety.response_p999_ms"
   double at_most = 0;
-  int line = 0;  ///< in the file, from 1
+  int line = 0;      ///< in the file, from 1
+  std::string file;  ///< as it was named
 };
 
 /// A limit and the value that the run measured; none where the run did not measure it, as one in virtual time does not
@@ -31,6 +32,11 @@ struct BudgetVerdict {
 /// one class of machines, as its name says. Errors: all faults at once, with file and line (kInvalidConfig).
 [[nodiscard]] Result<std::vector<BudgetLimit>> parse_budgets(std::string_view yaml, std::string_view file_name);
 [[nodiscard]] Result<std::vector<BudgetLimit>> load_budgets(const std::filesystem::path& file);
+
+/// Before a run: whether its report can have these fields. `expected` is a report with all that is known to be in it.
+/// An empty object or null stands for anything. Error kInvalidConfig: all others at once, with file, line and the names
+/// that would do.
+[[nodiscard]] Result<void> check_fields(const std::vector<BudgetLimit>& limits, const nlohmann::ordered_json& expected);
 
 /// Compares limits with a report. Error kInvalidConfig: fields that are missing in the report or are neither number nor
 /// null, all at once. A limit that cannot be checked must not count as kept.

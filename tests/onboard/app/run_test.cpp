@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -15,6 +16,7 @@
 #include "drivers/recording/formats/scan_file.hpp"
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "drivers/recording/recording_writer.hpp"
+#include "onboard/app/budget_fields.hpp"
 #include "onboard/app/profile/schedule_profile.hpp"
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/json/budgets.hpp"
@@ -79,6 +81,8 @@ TEST_F(RunTest, TheReportHoldsTheFieldsThatScriptsRelyOn) {
   EXPECT_EQ(report["shed"], (nlohmann::json{{"nothing", kScans}, {"map_density", 0}, {"scan_decimation", 0}}));
   EXPECT_TRUE(report["losses"].empty()) << "a replay has no devices";
   EXPECT_GT(report["map"]["occupied"], 100);
+  for (const auto& [stage, figures] : report["stages"].items())
+    EXPECT_EQ(std::ranges::count(known_stages(), stage), 1) << stage << ": a budget of it would be refused";
   for (const char* file : {"map.ot", "report.html", "config.yaml"}) EXPECT_TRUE(fs::exists(*folder_ / "fields" / file));
 }
 

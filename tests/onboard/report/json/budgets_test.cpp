@@ -51,8 +51,27 @@ TEST(Budgets, ALimitThatCannotBeCheckedIsAnErrorAndNotKept) {
   ASSERT_TRUE(limits);
   const auto verdicts = check_budgets(*limits, kReport);
   ASSERT_FALSE(verdicts);
-  EXPECT_THAT(verdicts.error().detail, HasSubstr("line 3: tasks.safty.missed"));
-  EXPECT_THAT(verdicts.error().detail, HasSubstr("line 4: robot"));
+  EXPECT_THAT(verdicts.error().detail, HasSubstr("b.yaml:3: tasks.safty.missed"));
+  EXPECT_THAT(verdicts.error().detail, HasSubstr("b.yaml:4: robot"));
+}
+
+TEST(Budgets, AMisspeltFieldIsFoundBeforeTheRun) {
+  const auto limits = parse_budgets(
+      "tasks:\n  safty: {missed: 2}\n  safety: {mised: 2, missed: 1}\nrobot: 3\nmemory: {peak_rss_mb: 1}\n"
+      "losses: {lidar: {kernel_drops: 0}}\nteam: {held_back: {s: 1}}\ntaks: {safety: {missed: 2}}\n",
+      "b.yaml");
+  ASSERT_TRUE(limits) << to_string(limits.error());
+  auto expected = kReport;
+  expected["losses"] = nlohmann::ordered_json::object();
+  expected["team"] = nullptr;
+  const auto fits = check_fields(*limits, expected);
+  ASSERT_FALSE(fits);
+  EXPECT_EQ(fits.error().code, Errc::kInvalidConfig);
+  EXPECT_EQ(fits.error().detail,
+            "\nb.yaml:2: tasks.safty.missed: report.json has no safty there; it has safety\n"
+            "b.yaml:3: tasks.safety.mised: report.json has no mised there; it has missed, response_p99_ms\n"
+            "b.yaml:4: robot: is no number in report.json\n"
+            "b.yaml:8: taks.safety.missed: report.json has no taks there; it has tasks, memory, robot, losses, team\n");
 }
 
 TEST(Budgets, AllFaultsOfAFileAreNamedAtOnce) {
