@@ -55,6 +55,20 @@ template <class T>
 /// Python's whole numbers have no bound, so stamps keep their nanoseconds.
 [[nodiscard]] inline std::int64_t nanoseconds(Time time) { return time.time_since_epoch().count(); }
 
+/// What repr() of a message shows: its class and these of its properties, numbers of arrays to a thousandth.
+[[nodiscard]] inline auto repr_of(std::vector<const char*> properties) {
+  return [properties = std::move(properties)](const py::object& self) {
+    std::string text = "cairn." + py::str(py::type::of(self).attr("__name__")).cast<std::string>() + "(";
+    for (const char* property : properties) {
+      py::object value = self.attr(property);
+      if (py::isinstance<py::array>(value)) value = value.attr("round")(3).attr("tolist")();
+      if (property != properties.front()) text += ", ";
+      text += property + ("=" + py::repr(value).cast<std::string>());
+    }
+    return text + ")";
+  };
+}
+
 // One function for each file of the module: adds its classes and functions.
 void add_maps(py::module_& module);
 void add_recordings(py::module_& module);

@@ -41,7 +41,8 @@ void add_hello(py::module_& module) {
             for (const auto& sensor : m.sensors) poses[py::str(sensor.name)] = sensor.T_base_sensor.matrix();
             return poses;
           },
-          "pose of each sensor in base_link by name, shape (4, 4), m");
+          "pose of each sensor in base_link by name, shape (4, 4), m")
+      .def("__repr__", repr_of({"robot", "robot_id", "resolution_m"}));
 }
 
 void add_pose(py::module_& module) {
@@ -63,7 +64,8 @@ void add_pose(py::module_& module) {
       .def_readonly("epoch", &PoseMessage::epoch, kEpoch)
       .def_readonly("predicted", &PoseMessage::predicted, "not of a scan: the last one, moved on")
       .def_readonly("lost", &PoseMessage::lost, "the last scan did not fit: the pose says little")
-      .def_readonly("degenerate_directions", &PoseMessage::degenerate_directions, "that the last scan left open");
+      .def_readonly("degenerate_directions", &PoseMessage::degenerate_directions, "that the last scan left open")
+      .def("__repr__", repr_of({"stamp_ns", "xyz", "epoch", "predicted", "lost"}));
 }
 
 void add_state(py::module_& module) {
@@ -82,7 +84,8 @@ void add_state(py::module_& module) {
             if (!m.T_team_odom) return std::nullopt;
             return m.T_team_odom->matrix();
           },
-          "where odom lies in the frame of the team, shape (4, 4); None: not known");
+          "where odom lies in the frame of the team, shape (4, 4); None: not known")
+      .def("__repr__", repr_of({"stamp_ns", "mode", "cause", "faults", "scans"}));
 }
 
 void add_scan(py::module_& module) {
@@ -94,7 +97,8 @@ void add_scan(py::module_& module) {
           "xyz", [](const ScanMessage& m) { return to_array(m.points_base); },
           "deskewed points in base_link, m; float32, shape (N, 3)")
       .def_readonly("epoch", &ScanMessage::epoch, kEpoch)
-      .def_readonly("lost", &ScanMessage::lost, "the pose is only a prediction");
+      .def_readonly("lost", &ScanMessage::lost, "the pose is only a prediction")
+      .def("__repr__", repr_of({"stamp_ns", "epoch", "lost"}));
 }
 
 void add_people(py::module_& module) {
@@ -107,12 +111,14 @@ void add_people(py::module_& module) {
       .def_property_readonly(
           "velocity", [](const Person& p) { return p.velocity_odom; }, "x and y in odom, m/s")
       .def_property_readonly(
-          "covariance", [](const Person& p) { return p.covariance; }, "of x and y, m^2");
+          "covariance", [](const Person& p) { return p.covariance; }, "of x and y, m^2")
+      .def("__repr__", repr_of({"id", "xyz", "velocity", "seen"}));
   py::class_<PeopleMessage>(module, "People", "The people around a robot, as one scan shows them.")
       .def_property_readonly("stamp_ns", &stamp_of<PeopleMessage>, kStamp)
       .def_readonly("robot", &PeopleMessage::robot, "the teammate who follows them; 0: this robot")
       .def_readonly("epoch", &PeopleMessage::epoch, kEpoch)
-      .def_readonly("people", &PeopleMessage::people, "list of Person");
+      .def_readonly("people", &PeopleMessage::people, "list of Person")
+      .def("__repr__", repr_of({"stamp_ns", "robot", "people"}));
 }
 
 const char* lens_of(const CameraMessage& camera) {
@@ -135,7 +141,8 @@ void add_camera(py::module_& module) {
       .def_property_readonly("lens", &lens_of, "radtan, equidistant, or unknown: not calibrated")
       .def_property_readonly("K", &matrix_of, "of the left eye, pixels, shape (3, 3); zeros: not calibrated")
       .def_readonly("distortion", &CameraMessage::k, "eight numbers in OpenCV's order")
-      .def_readonly("baseline_m", &CameraMessage::baseline_m, "from the left to the right eye; 0: not known");
+      .def_readonly("baseline_m", &CameraMessage::baseline_m, "from the left to the right eye; 0: not known")
+      .def("__repr__", repr_of({"name", "width", "height", "lens"}));
 }
 
 void add_wheels(py::module_& module) {
@@ -144,7 +151,8 @@ void add_wheels(py::module_& module) {
       .def_property_readonly(
           "place", [](const Wheel& w) { return std::string(to_string(w.place)); }, "left, right, front_left and so on")
       .def_readonly("travel_m", &Wheel::travel_m, "of its rim since the core began, forward")
-      .def_readonly("speed_m_s", &Wheel::speed_m_s, "of its rim");
+      .def_readonly("speed_m_s", &Wheel::speed_m_s, "of its rim")
+      .def("__repr__", repr_of({"place", "travel_m", "speed_m_s"}));
   py::class_<WheelsMessage>(module, "Wheels", "What the wheels measured.")
       .def_property_readonly("stamp_ns", &stamp_of<WheelsMessage>, kStamp)
       .def_readonly("v", &WheelsMessage::v, "of the robot by its wheels alone, m/s")
@@ -153,7 +161,8 @@ void add_wheels(py::module_& module) {
           "covariance", [](const WheelsMessage& m) { return m.covariance; }, "of v and w")
       .def_readonly("slipping", &WheelsMessage::slipping, "the wheels contradict each other, or physics")
       .def_readonly("radius_m", &WheelsMessage::radius_m, "of a wheel; 0: the profile does not say it")
-      .def_readonly("wheels", &WheelsMessage::wheels, "list of Wheel");
+      .def_readonly("wheels", &WheelsMessage::wheels, "list of Wheel")
+      .def("__repr__", repr_of({"stamp_ns", "v", "w", "slipping", "wheels"}));
 }
 
 void add_news(py::module_& module) {
@@ -161,12 +170,15 @@ void add_news(py::module_& module) {
       .def_property_readonly("stamp_ns", &stamp_of<EventMessage>, kStamp)
       .def_readonly("count", &EventMessage::count)
       .def_readonly("stage", &EventMessage::stage)
-      .def_readonly("what", &EventMessage::what);
+      .def_readonly("what", &EventMessage::what)
+      .def("__repr__", repr_of({"stamp_ns", "stage", "what", "count"}));
   py::class_<MapChanged>(module, "MapChanged", "A part of a map has come; Robot.own_map or Robot.team_map has it.")
       .def_readonly("map", &MapChanged::map, "own or team")
       .def_readonly("tiles", &MapChanged::tiles, "how many tiles came")
-      .def_readonly("caught_up", &MapChanged::caught_up, "there is nothing newer");
-  py::class_<client::CoreGone>(module, "CoreGone", "The core has ended. The next message is of the core that follows.");
+      .def_readonly("caught_up", &MapChanged::caught_up, "there is nothing newer")
+      .def("__repr__", repr_of({"map", "tiles", "caught_up"}));
+  py::class_<client::CoreGone>(module, "CoreGone", "The core has ended. The next message is of the core that follows.")
+      .def("__repr__", repr_of({}));
 }
 
 }  // namespace

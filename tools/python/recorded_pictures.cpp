@@ -57,7 +57,8 @@ void add_recorded_pictures(py::module_& module) {
       .def_readonly("stamp_ns", &PyPicture::stamp_ns, "of a recording: on its time line; of a running core: robot time")
       .def_readonly("pixels", &PyPicture::pixels,
                     "row 0 is the top. Colour: uint8, (H, W, 3), blue green red as OpenCV has it; grey: uint8, (H, W); "
-                    "depth and raw counts: uint16, (H, W); temperatures: float32, (H, W), degrees Celsius");
+                    "depth and raw counts: uint16, (H, W); temperatures: float32, (H, W), degrees Celsius")
+      .def("__repr__", repr_of({"sensor", "stamp_ns"}));
   py::class_<RecordedPictures>(module, "RecordedPictures", "Iterates over Picture.")
       .def("__iter__", [](py::object self) { return self; })
       .def("__next__", &RecordedPictures::next)

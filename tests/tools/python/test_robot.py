@@ -62,6 +62,22 @@ class RobotTest(unittest.TestCase):
         self.assertEqual((messages["Event"].what, messages["Event"].count), ("lost", 2))
         self.assertEqual(robot.lost, 0)
 
+    def test_messages_say_what_they_hold(self):
+        _, messages = self.read_all()
+        told = {name: repr(message) for name, message in messages.items()}
+        self.assertEqual(told["Pose"], "cairn.Pose(stamp_ns=1000000000, xyz=[1.0, 2.0, 3.0], epoch=2, predicted=False, "
+                                       "lost=False)")
+        self.assertEqual(told["MapChanged"], "cairn.MapChanged(map='own', tiles=1, caught_up=True)")
+        self.assertIn("people=[cairn.Person(id=7, ", told["People"])
+        for name, text in told.items():
+            self.assertTrue(text.startswith(f"cairn.{name}("), text)
+            self.assertNotIn(" at 0x", text)
+
+    def test_a_costmap_needs_a_pose(self):
+        robot = cairn.connect(self.socket, ALL)
+        with self.assertRaisesRegex(cairn.Error, "no map or no pose yet"):
+            robot.costmap(size_m=4)
+
     def test_mirrors_the_map(self):
         robot, messages = self.read_all()
         self.assertEqual((messages["MapChanged"].map, messages["MapChanged"].tiles), ("own", 1))
