@@ -20,7 +20,7 @@ void declare(config::Section& s, Config& c) {
            "sensor model, kept in the recording for cairn inspect; plain: any 16-bit camera without telemetry");
   s.choice("units", c.units, {"auto", "counts", "centikelvin", "decikelvin", "optris"},
            "what a count is; auto: what the telemetry says, counts without it; optris: only frames that Optris's own "
-           "library calibrated; this and the keys below are not used by cairn run yet");
+           "library calibrated");
   s.numbers("stretch_percent", c.stretch_percent, {0, 100}, "%",
             "shares of the pixels that become black at most and not white at least in the 8-bit picture");
   s.number("min_span_c", c.min_span_c, {0.01, 1000}, "°C", "the 8-bit picture spans at least so much");

@@ -61,8 +61,9 @@ Result<void> check(const Config& c) {
   if (c.body_box_m.size() != 6) {
     fault("body_box_m takes 6 numbers");
   } else {
-    for (std::size_t i = 0; i < 3; ++i)
-      if (c.body_box_m[i] > c.body_box_m[i + 3]) fault("body_box_m: the lower corner is above the upper one");
+    bool upside_down = false;
+    for (std::size_t i = 0; i < 3; ++i) upside_down = upside_down || c.body_box_m[i] > c.body_box_m[i + 3];
+    if (upside_down) fault("body_box_m: the lower corner is above the upper one");
   }
   if (!is_address(c.bind_address)) fault("bind_address: \"" + c.bind_address + "\" is no IPv4 address");
   if (!is_address(c.source_address)) fault("source_address: \"" + c.source_address + "\" is no IPv4 address");

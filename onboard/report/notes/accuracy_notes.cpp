@@ -15,8 +15,8 @@ void note_error(NoteList& notes, const TrajectoryError& e) {
   if (!e.final_error_percent) return;
   const double percent = 100 * e.ate_rmse_m / e.length_m;
   if (std::max(percent, *e.final_error_percent) <= kLargeError_percent) return;
-  notes.error(fmt::format("The trajectory is off: {:.3g} m RMS and {:.3g} m at the end of {:.3g} m.", e.ate_rmse_m,
-                          e.final_error_m, e.length_m),
+  notes.error(fmt::format("The trajectory is off: {} m RMS and {} m at the end of {} m.", plain(e.ate_rmse_m),
+                          plain(e.final_error_m), plain(e.length_m)),
               "check that the ground truth is of this drive, and the mount and model of the LiDAR in the profile");
 }
 

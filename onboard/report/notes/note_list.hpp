@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <string>
 #include <utility>
 
 #include "onboard/report/notes/notes.hpp"
@@ -19,6 +20,9 @@ class NoteList {
 
   std::vector<Note> notes;
 };
+
+/// Three digits, or all before the point: 1030, not 1.03e+03.
+[[nodiscard]] std::string plain(double number);
 
 // The parts of notes_of(), by what they look at.
 void note_inputs(NoteList& notes, const RunReport& report);    ///< packets, scans and wheels

@@ -4,12 +4,17 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "onboard/report/notes/note_list.hpp"
 
 namespace cairn::report {
 
 std::string_view to_string(Severity severity) { return severity == Severity::kError ? "error" : "warning"; }
+
+std::string plain(double number) {
+  return std::abs(number) < 99.95 ? fmt::format("{:.3g}", number) : fmt::format("{:.0f}", number);
+}
 
 std::vector<Note> notes_of(const RunReport& report) {
   NoteList list;

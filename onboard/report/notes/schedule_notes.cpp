@@ -11,9 +11,9 @@ constexpr const char* kMachine = "`cairn doctor` checks the machine's real-time 
 void note_stages(NoteList& notes, const Monitor& monitor) {
   for (const StageStats& s : monitor.stages()) {
     if (s.overruns == 0) continue;
-    std::string text =
-        fmt::format("Stage {} went over its budget of {:.3g} ms in {} of {} runs; the longest took {:.3g} ms.", s.name,
-                    to_milliseconds(s.budget), s.overruns.get(), s.wall.count(), to_milliseconds(s.wall.max()));
+    std::string text = fmt::format("Stage {} went over its budget of {} ms in {} of {} runs; the longest took {} ms.",
+                                   s.name, plain(to_milliseconds(s.budget)), s.overruns.get(), s.wall.count(),
+                                   plain(to_milliseconds(s.wall.max())));
     const char* remedy = "docs/tuning-budgets.md says how to make it faster";
     over_budget(s) ? notes.error(std::move(text), remedy) : notes.warning(std::move(text), remedy);
   }

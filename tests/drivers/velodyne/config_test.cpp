@@ -40,6 +40,12 @@ TEST(Config, EveryModelNameIsAccepted) {
   EXPECT_FALSE(config::parse("model: VLP-64", "f", section));
 }
 
+TEST(Config, ABoxThatIsUpsideDownIsOneFault) {
+  Config c;
+  c.body_box_m = {1, 1, 1, 0, 0, 0};
+  EXPECT_EQ(check(c).error().detail, "body_box_m: the lower corner is above the upper one");
+}
+
 TEST(Config, AllFaultsAreReportedAtOnce) {
   Config c;
   c.model = "VLP-64";

@@ -164,6 +164,14 @@ TEST(Notes, AStageIsAnErrorWhereMoreThanOneInAHundredIsTooSlow) {
   EXPECT_THAT(lines(report), ElementsAre(HasSubstr("error: Stage odometry went over")));
 }
 
+TEST(Notes, NumbersArePlain) {
+  RunReport report = uneventful();
+  Monitor monitor;
+  report.monitor = &monitor;
+  monitor.stage("mapping", std::chrono::milliseconds(30)).record(std::chrono::microseconds(1030400));
+  EXPECT_THAT(lines(report), ElementsAre(HasSubstr("budget of 30 ms in 1 of 1 runs; the longest took 1030 ms.")));
+}
+
 TEST(Notes, PeersThatWereNotMergedAreNamedWithTheirReason) {
   RunReport report = uneventful();
   report.peers["robot_2"].reason = "too little overlap";

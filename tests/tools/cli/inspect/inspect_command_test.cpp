@@ -13,6 +13,7 @@
 #include "onboard/mapping/files/map_file.hpp"
 #include "tests/support/recorded_data.hpp"
 #include "tests/tools/cli/run_command.hpp"
+#include "tools/cli/inspect/plain_text.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -48,6 +49,14 @@ void write_sweeps(const std::string& dir) {
     ASSERT_TRUE(writer->write(p));
   }
   ASSERT_TRUE(writer->close());
+}
+
+TEST(InspectCommand, NumbersForPeopleAreRounded) {
+  EXPECT_EQ(
+      to_plain_text({{"a", 0.38750500000000004}, {"b", 10.0}, {"c", 41.38399969341373}, {"d", -0.0}, {"e", 1e-7}}),
+      "a: 0.387505\nb: 10\nc: 41.384\nd: 0\ne: 1e-07\n");
+  EXPECT_EQ(to_plain_text({{"utc", 1780298591.123456}, {"count", 12345678}}),
+            "utc: 1780298591.123456\ncount: 12345678\n");
 }
 
 TEST(InspectCommand, ARecordingOfSweeps) {
