@@ -22,7 +22,7 @@ using Level = Finding::Level;
 
 constexpr const char* kRules =
     "sudo cp config/udev/60-cairn.rules /etc/udev/rules.d/ && sudo udevadm control --reload && sudo udevadm trigger";
-constexpr int kShortQueue = 16;                // frames; see drivers/drive/socketcan_link.hpp
+constexpr int kShortQueue = 16;                // frames; see drivers/drive/can/socketcan_link.hpp
 constexpr long long kReceiveBuffer = 4 << 20;  // bytes, as the LiDAR's profile asks for
 
 /// The first line of a small file of sysfs or proc.
