@@ -22,7 +22,7 @@ void declare(config::Section& s, Config& c) {
            "what a count is; auto: what the telemetry says, counts without it; optris: only frames that Optris's own "
            "library calibrated");
   s.numbers("stretch_percent", c.stretch_percent, {0, 100}, "%",
-            "shares of the pixels that become black at most and not white at least in the 8-bit picture");
+            "two percentiles: in the 8-bit picture, pixels below the first are black, above the second white");
   s.number("min_span_c", c.min_span_c, {0.01, 1000}, "°C", "the 8-bit picture spans at least so much");
   s.number("min_span_counts", c.min_span_counts, {1, 65535}, "", "the same for frames in counts");
   s.number("latency_ms", c.latency_ms, {0, 1000}, "ms",

@@ -26,7 +26,7 @@ struct MappingConfig {
 struct SensorTrust {
   double prob_hit = 0.7;
   double prob_miss = 0.4;
-  double max_range_m = 30.0;  ///< from here on, a beam is free space alone
+  double max_range_m = 30.0;  ///< farther points only mark free space, up to here
 };
 
 /// Names, units and bounds of every key (config section `mapping`).

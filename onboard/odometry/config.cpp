@@ -62,8 +62,9 @@ void declare_tracking(config::Section& s, OdometryConfig& c) {
   s.number("min_facing_points", c.min_facing_points, {1.0, 1000.0}, "",
            "a direction is degenerate if fewer points look at a surface that faces it");
   s.integer("reinitialise_after", c.reinitialise_after, {1, 1000}, "",
-            "lost scans in a row before a new map is begun, where wheels tell the motion");
-  s.integer("give_up_after", c.give_up_after, {1, 10000}, "", "the same, where nothing tells it");
+            "lost scans in a row before a new map begins, on a robot with wheel odometry");
+  s.integer("give_up_after", c.give_up_after, {1, 10000}, "",
+            "lost scans in a row before a new map begins, on a robot without wheel odometry");
 }
 
 }  // namespace
@@ -110,11 +111,13 @@ void declare(config::Section& s, SecondLookConfig& c) {
            "a scan is not added to the map if fewer points fit than this share of what is usual");
   s.number("unsure_after_s", c.unsure_after_s, {0.0, 60.0}, "s",
            "after a longer time without a scan that fits, only a fit nearly as good as usual is believed");
-  s.number("sure_share", c.sure_share, {0.0, 1.0}, "", "of the usual share of points that fit, for that");
+  s.number("sure_share", c.sure_share, {0.0, 1.0}, "",
+           "after unsure_after_s, a scan must reach this part of the usual share of fitting points");
   s.number("blind_after_s", c.blind_after_s, {0.0, 3600}, "s",
-           "without scans and wheels, after which only a place near the last one is believed");
-  s.number("stood_m", c.stood_m, {0.0, 1000}, "m", "how near");
-  s.integer("blind_patience", c.blind_patience, {1, 1000}, "", "then so many lost scans in a row begin a new map");
+           "after so long without scans and wheels, only a fit at rest within stood_m of the last pose is believed");
+  s.number("stood_m", c.stood_m, {0.0, 1000}, "m", "radius for blind_after_s");
+  s.integer("blind_patience", c.blind_patience, {1, 1000}, "",
+            "after blind_after_s, so many lost scans in a row begin a new map");
   s.number("long_step_s", c.long_step_s, {0.0, 60.0}, "s", "after a longer time between scans every fit is doubted");
   s.number("better", c.better, {1.0, 10.0}, "", "times as many points must fit before another place is believed");
   s.integer("keypoints", c.keypoints, {50, 20000}, "", "points to search with");

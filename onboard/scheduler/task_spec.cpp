@@ -70,7 +70,7 @@ void declare(config::Section& s, TaskSpec& t) {
   s.number("hard_ms", t.hard_ms, {0, 10000}, "ms", "execution time at which a tick has failed; 0: none");
   s.number("busy_hz", t.busy_hz, {0, 2000}, "Hz", "releases per second that find work; 0: all of them");
   s.integer("priority", t.priority, {0, 99}, "", "SCHED_FIFO priority; 0: SCHED_OTHER");
-  s.integer("nice", t.nice, {0, 19}, "", "of SCHED_OTHER: the higher, the sooner others go first");
+  s.integer("nice", t.nice, {0, 19}, "", "nice value: a higher value means a lower priority");
   s.integer("core", t.core, {-1, 1023}, "", "the CPU it is bound to; -1: any");
 }
 

@@ -53,7 +53,7 @@ void keep_what_is_recorded(const SourceEntry& entry, ChosenProfile& given) {
   if (wanted.driver.position_port != lidar.driver.position_port) unused.emplace_back("lidar.position_port");
   if (wanted.base_xyz_rpy != lidar.base_xyz_rpy) unused.emplace_back("lidar.T_base_lidar");
   if (!unused.empty())
-    given.notes.push_back("not used of the profile, because the recording says it: " + joined(unused));
+    given.notes.push_back("the recording's values replace these settings of the profile: " + joined(unused));
 }
 
 /// The recording's own profile; `base` where it keeps none.
@@ -76,8 +76,8 @@ void note_differences(const ChosenProfile& own, ChosenProfile& given) {
   b.team.socket = a.team.socket;
   const auto keys = differing_keys(a, b);
   if (keys.empty()) return;
-  given.notes.push_back((own.file.empty() ? "the recording was made with" : "the recording's own profile has") +
-                        std::string(" another ") + joined(keys));
+  given.notes.push_back((own.file.empty() ? "the recording" : "the recording's own profile") +
+                        std::string(" has other values of: ") + joined(keys));
 }
 
 Result<ChosenProfile> choose_for(const recording::Recording& index, const fs::path& config, const fs::path& folder) {

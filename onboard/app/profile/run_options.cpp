@@ -21,7 +21,7 @@ Result<void> check(const RunOptions& options) {
   }
   if (detail.empty()) return {};
   return Error{Errc::kInvalidConfig,
-               "options that do not fit to this run",
+               "these options cannot be used in this kind of run",
                options.live() ? "live" : options.recording.string(),
                {},
                detail};

@@ -15,7 +15,7 @@ void declare_trust(config::Section& s, mapping::SensorTrust& trust) {
   s.number("prob_hit", trust.prob_hit, {0.51, 0.99}, "", "probability that a hit voxel is occupied");
   s.number("prob_miss", trust.prob_miss, {0.01, 0.49}, "", "probability that a voxel seen through is occupied");
   s.number("max_range_m", trust.max_range_m, {0.1, 100}, "m",
-           "from here on, a beam is free space alone: noise grows with the square of the distance");
+           "farther points mark nothing occupied; only the space before them is marked free, up to here");
 }
 
 }  // namespace

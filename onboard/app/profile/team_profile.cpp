@@ -58,7 +58,7 @@ void declare(config::Section& s, TeamProfile& p) {
           "where the robot is put down, in a metric frame that its team shares: a guess that the maps must confirm; if "
           "it is good to a voxel and half a degree, maps are merged before they overlap");
   s.group("satellites", p.satellites,
-          "the receiver at the LiDAR tells where the robot is, instead of a deployment; maps do not overrule it");
+          "use the LiDAR's GPS as start pose, in place of deployment; it has priority over map matches");
   s.number("submap_m", p.submap_m, {5, 1'000'000}, "m",
            "length of the path through one submap; the map may bend between submaps");
   s.number("drift_percent", p.drift_percent, {0.01, 20}, "%", "drift of odometry per axis, of the path");

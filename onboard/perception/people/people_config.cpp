@@ -19,7 +19,7 @@ void declare(config::Section& s, PeopleConfig& c) {
       "follow", c.follow, {"auto", "always", "never"},
       "people are followed and stay out of the map: auto where a detector looks at pictures, always by scans alone, "
       "too");
-  s.flag("movers", c.movers, "who walks, or came upright into a free place, is followed also where no camera sees it");
+  s.flag("movers", c.movers, "also follow walkers, and upright bodies that came, that the LiDAR alone sees");
   s.number("farthest_m", c.farthest_m, {2, 40}, "m", "nobody is looked for beyond it");
   s.number("confirm", c.confirm, {0.5, 10}, "nat", "evidence from which somebody is a person");
   s.number("patience_s", c.patience_s, {0.1, 10}, "s", "a track ends when nothing was seen of it for so long");

@@ -185,7 +185,7 @@ void add_evaluate_people_command(app::Commands& commands, CLI::App& evaluate) {
       ->check(app::above_zero)
       ->capture_default_str();
   sub->add_option("--view", o->view,
-                  "whose view the first figures are of: any camera, one of them, or around for everybody; "
+                  "which people count in the first figures: in view of any camera, of one camera, or all around; "
                   "the figures called around are always of everybody")
       ->check(CLI::IsMember({"any", "camera", "thermal", "around"}))
       ->capture_default_str();

@@ -76,7 +76,9 @@ int label(const LabelArguments& a) {
 void add_label_command(app::Commands& commands) {
   auto* sub = commands.app.add_subcommand("label", "runs the profile's networks over the pictures of a recording");
   auto a = std::make_shared<LabelArguments>();
-  sub->add_option("recording,--recording", a->label.recording, "folder of a recording")->required();
+  sub->add_option("recording,--recording", a->label.recording, "folder of a recording: once, with or without the name")
+      ->option_text("FOLDER")  // not REQUIRED twice: either one is enough
+      ->required();
   sub->add_option("--config", a->label.config, "robot profile with a section perception; default: the recording's own");
   sub->add_option("--out", a->label.out,
                   "folder for labels/ and boxes.csv; the recording itself, if runs are to use them");

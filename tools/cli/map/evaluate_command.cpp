@@ -275,8 +275,8 @@ void add_map(app::Commands& commands, CLI::App& evaluate, const std::shared_ptr<
                   "distance up to which a voxel counts as correct, m; default: a voxel's diagonal")
       ->check(app::above_zero);
   sub->add_option("--recording", options->recording,
-                  "simulated recording with people: adds the shares of what stands that the map keeps, and of where "
-                  "people walked that it leaves free; --ground-truth is then the true map without people")
+                  "simulated recording with people: adds static accuracy (standing voxels kept) and dynamic accuracy "
+                  "(walked places left free); --ground-truth is then the true map without people")
       ->check(CLI::ExistingDirectory);
   add(commands, sub, options, evaluate_map);
 }

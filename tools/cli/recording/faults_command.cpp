@@ -170,15 +170,17 @@ void add_faults_command(app::Commands& commands) {
   sub->add_option("--flip", o->faults.flip, "share that arrives with one bit turned")->check(share);
   sub->add_option("--extend", o->faults.extend, "share that arrives with bytes added")->check(share);
   sub->add_option("--delay", o->faults.delay, "share that arrives later, by --delay-by")->check(share);
-  sub->add_option("--delay-by", o->delay_s, "seconds")->check(CLI::Range(0.0, 10.0));
+  sub->add_option("--delay-by", o->delay_s, "delay of --delay, s")->check(CLI::Range(0.0, 10.0))->capture_default_str();
   sub->add_option("--shift", o->shift_s, "seconds added to all arrivals from --shift-after on")
       ->check(CLI::Range(-1e6, 1e6));
-  sub->add_option("--shift-after", o->shift_after_s, "seconds")->check(CLI::Range(0.0, 1e6));
+  sub->add_option("--shift-after", o->shift_after_s, "seconds after which --shift begins")->check(CLI::Range(0.0, 1e6));
   sub->add_option("--spell", o->spell, "what happens to the source during --freeze")->check(CLI::IsMember(kSpells));
   sub->add_option("--freeze", o->freeze_s,
                   "length of the spell at the end of each --period, s; without --spell the source is silent")
       ->check(CLI::Range(0.0, 1e6));
-  sub->add_option("--period", o->period_s, "seconds")->check(CLI::Range(0.001, 1e6));
+  sub->add_option("--period", o->period_s, "repeat the spell every so many seconds")
+      ->check(CLI::Range(0.001, 1e6))
+      ->capture_default_str();
   sub->add_option("--seed", o->faults.seed, "seed of the faults; the same seed gives the same faults");
   sub->add_flag("--overwrite", o->overwrite, "replace the recording in --out");
   sub->add_flag("--json", o->json, "one JSON object on stdout");

@@ -54,7 +54,9 @@ void print_report(const ImportArguments& options, const ImportReport& r) {
   if (!r.model.empty()) std::cout << ", " << r.model;
   if (r.pictures > 0) std::cout << ", " << r.pictures << " pictures" << (r.profile ? " with their calibration" : "");
   if (r.ground_truth_poses > 0) std::cout << ", " << r.ground_truth_poses << " poses of ground truth";
-  if (r.rejected_points > 0) std::cout << ", " << r.rejected_points << " points that are none left out";
+  if (r.rejected_points > 0)
+    std::cout << ", " << r.rejected_points
+              << (r.rejected_points == 1 ? " invalid point was left out" : " invalid points were left out");
   std::cout << '\n';
   for (const Error& e : r.damage) std::cerr << "cairn: left out: " << to_string(e) << '\n';
   if (r.absurd_stamps_note) std::cerr << "cairn: note: " << to_string(*r.absurd_stamps_note) << '\n';

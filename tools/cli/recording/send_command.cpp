@@ -68,7 +68,9 @@ void add_send_command(app::Commands& commands) {
   auto* sub =
       commands.app.add_subcommand("send", "sends the LiDAR datagrams of a recording over UDP, as fast as they came");
   auto a = std::make_shared<SendArguments>();
-  sub->add_option("recording,--recording", a->recording, "folder of a recording")->required();
+  sub->add_option("recording,--recording", a->recording, "folder of a recording: once, with or without the name")
+      ->option_text("FOLDER")  // not REQUIRED twice: either one is enough
+      ->required();
   sub->add_option("--to", a->to, "IPv4 address of the robot")->default_val("127.0.0.1");
   sub->add_option("--port-offset", a->port_offset, "added to the recorded ports")->check(CLI::Range(-60000, 60000));
   sub->add_option("--rate", a->rate, "factor on the speed; 2 is twice as fast")->check(CLI::Range(0.01, 100.0));

@@ -65,7 +65,8 @@ TEST_F(RecordedProfileTest, AGivenProfileWinsAndWhatDiffersIsNamed) {
   EXPECT_THAT(choose(config("name: other\nthreads: 2\n"), recording).notes, IsEmpty()) << "these change no result";
   const ChosenProfile chosen = choose(config("mapping: {resolution_m: 0.3}\nteam: {submap_m: 50}\n"), recording);
   EXPECT_EQ(chosen.profile.mapping.resolution_m, 0.3);
-  EXPECT_THAT(chosen.notes, ElementsAre("the recording's own profile has another mapping.resolution_m, team.submap_m"));
+  EXPECT_THAT(chosen.notes,
+              ElementsAre("the recording's own profile has other values of: mapping.resolution_m, team.submap_m"));
 }
 
 TEST_F(RecordedProfileTest, TheMountOfAGivenProfileWinsWhereItSaysOne) {
@@ -75,19 +76,21 @@ TEST_F(RecordedProfileTest, TheMountOfAGivenProfileWinsWhereItSaysOne) {
   EXPECT_THAT(silent.notes, IsEmpty());
   const ChosenProfile said = choose(config("lidar: {T_base_lidar: [0, 0, 0.9, 0, 0, 0]}\n"), recording);
   EXPECT_EQ(said.profile.lidar.base_xyz_rpy[2], 0.9);
-  EXPECT_THAT(said.notes, ElementsAre("the recording was made with another lidar.T_base_lidar"));
+  EXPECT_THAT(said.notes, ElementsAre("the recording has other values of: lidar.T_base_lidar"));
 }
 
 TEST_F(RecordedProfileTest, WhatTheRecordingKnowsBetterIsNotUsedAndSaid) {
   const fs::path sweeps = record(recording::kScans, "data.csv");
   const ChosenProfile mount = choose(config("lidar: {T_base_lidar: [0, 0, 0.9, 0, 0, 0]}\n"), sweeps);
   EXPECT_EQ(mount.profile.lidar.base_xyz_rpy[2], 0.5);
-  EXPECT_THAT(mount.notes, ElementsAre("not used of the profile, because the recording says it: lidar.T_base_lidar"));
+  EXPECT_THAT(mount.notes,
+              ElementsAre("the recording's values replace these settings of the profile: lidar.T_base_lidar"));
   fs::remove_all(sweeps);
   const ChosenProfile model = choose(config("lidar: {model: HDL-32E, data_port: 2370}\n"), velodyne());
   EXPECT_EQ(model.profile.lidar.driver.model, "VLP-16");
-  EXPECT_THAT(model.notes,
-              ElementsAre("not used of the profile, because the recording says it: lidar.model, lidar.data_port"));
+  EXPECT_THAT(
+      model.notes,
+      ElementsAre("the recording's values replace these settings of the profile: lidar.model, lidar.data_port"));
 }
 
 TEST_F(RecordedProfileTest, AFaultyOwnProfileNamesItsRemedyAndIsOfNoInterestBesideAnother) {

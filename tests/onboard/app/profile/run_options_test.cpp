@@ -20,7 +20,7 @@ TEST(RunOptions, WhatOnlyALiveRunCanDoIsRefusedOfARecordingAllAtOnce) {
   const auto fits = check(options);
   ASSERT_FALSE(fits);
   EXPECT_EQ(fits.error().code, Errc::kInvalidConfig);
-  for (const char* option : {"--record", "--state", "--live-view", "--sockets", "rec: options"})
+  for (const char* option : {"--record", "--state", "--live-view", "--sockets", "rec: these options"})
     EXPECT_THAT(to_string(fits.error()), HasSubstr(option));
   options.peers = true;
   EXPECT_TRUE(check(options)) << "played as if by devices";
