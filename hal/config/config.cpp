@@ -40,6 +40,14 @@ std::optional<T> number_in(const YAML::Node& node) {
   return value;
 }
 
+constexpr const char* kNoTabs = "; indent with spaces, not tabs";
+
+/// Whether the line of this number, from 0, holds a tab.
+bool has_tab(std::string_view text, int line) {
+  for (; line > 0 && !text.empty(); --line) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  return text.substr(0, text.find('\n')).find('\t') != std::string_view::npos;
+}
+
 /// Walks a parsed document along a declaration, collecting faults and, apart from them, what to set.
 class Checker {
  public:
@@ -94,13 +102,18 @@ class Checker {
     return shortest(f.range.min) + " … " + shortest(f.range.max) + (f.unit.empty() ? "" : " " + f.unit);
   }
 
+  /// Angles are often meant in degrees.
+  static const char* hint(const Field& f) {
+    return f.unit == "rad" || f.unit == "m, rad" ? "; angles are in radians: 90 degrees are 1.5708" : "";
+  }
+
   template <class T>
   std::optional<T> in_range(const YAML::Node& node, const Field& f, const std::string& path) {
     const std::optional<T> v = node.IsScalar() ? number_in<T>(node) : std::nullopt;
     if (!v || !std::isfinite(static_cast<double>(*v)))
       fault(node, path, std::is_integral_v<T> ? "must be a whole number" : "must be a number");
     else if (static_cast<double>(*v) < f.range.min || static_cast<double>(*v) > f.range.max)
-      fault(node, path, shortest(static_cast<double>(*v)) + " is out of range " + bounds(f));
+      fault(node, path, shortest(static_cast<double>(*v)) + " is out of range " + bounds(f) + hint(f));
     else
       return v;
     return std::nullopt;
@@ -223,7 +236,7 @@ Result<void> parse(std::string_view yaml, std::string_view file_name, Section& s
   try {
     checker.section(parse_yaml_document(yaml), section, "");
   } catch (const YAML::Exception& e) {
-    checker.fault_at(e.mark.line, "syntax", e.msg);
+    checker.fault_at(e.mark.line, "syntax", e.msg + (has_tab(yaml, e.mark.line) ? kNoTabs : ""));
   }
   return checker.finish();
 }

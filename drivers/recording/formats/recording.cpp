@@ -45,6 +45,15 @@ namespace {
 Error no_recording(const fs::path& dir) {
   std::error_code ignored;
   if (!fs::exists(dir, ignored)) return {Errc::kNotFound, "there is no such recording", dir.string()};
+  const fs::path ending = dir.extension();
+  if (!fs::is_directory(dir, ignored) && (ending == ".pcap" || ending == ".pcapng"))
+    return {Errc::kMalformed,
+            "this is a capture, not a recording",
+            dir.string(),
+            {},
+            "make one of it: cairn import velodyne-pcap " + dir.string() + " --out recording"};
+  if (!fs::is_directory(dir, ignored))
+    return {Errc::kMalformed, "this is a file: a recording is a folder", dir.string(), {}, "`cairn inspect` reads it"};
   return {Errc::kNotFound,
           "not a recording: there is no recording.yaml",
           dir.string(),
@@ -55,6 +64,8 @@ Error no_recording(const fs::path& dir) {
 }  // namespace
 
 Result<Recording> load_recording(const fs::path& dir) {
+  std::error_code ignored;
+  if (!fs::is_directory(dir, ignored)) return no_recording(dir);
   const fs::path index = dir / kIndexFile;
   const auto bytes = read_file(index, kMaxYamlBytes);
   if (!bytes) return bytes.error().code == Errc::kNotFound ? no_recording(dir) : bytes.error();

@@ -27,12 +27,13 @@ std::size_t edits(std::string_view a, std::string_view b) {
 }  // namespace
 
 std::optional<std::string> nearest(std::string_view word, const std::vector<std::string>& names) {
+  constexpr std::size_t kShort = 4;     // of so few letters, two wrong ones make any word of any other
   constexpr std::size_t kLongest = 64;  // no name is longer, and the work grows with the square
   if (names.empty() || word.size() > kLongest) return std::nullopt;
   const auto& best = *std::ranges::min_element(names, {}, [&](const std::string& name) { return edits(word, name); });
-  return edits(word, best) <= std::max<std::size_t>(2, word.size() / 3) && edits(word, best) < word.size()
-             ? std::optional(best)
-             : std::nullopt;
+  const std::size_t wrong = edits(word, best);
+  const std::size_t most = word.size() <= kShort ? 1 : std::max<std::size_t>(2, word.size() / 3);
+  return wrong <= most && wrong < word.size() ? std::optional(best) : std::nullopt;
 }
 
 }  // namespace cairn::app

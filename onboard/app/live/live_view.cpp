@@ -12,12 +12,16 @@ using LiveJson = nlohmann::ordered_json;
 // Deeper than any view; nlohmann's parser is iterative, but its values are taken apart again.
 constexpr int kMaxDepth = 4;
 
+/// Ends after a word where there is one.
 std::string clipped(std::string_view text) {
-  text = text.substr(0, LiveView::kMaxText);
+  constexpr std::string_view kMore = "...";
+  text = text.substr(0, LiveView::kMaxText - kMore.size());
   // Not in the middle of a character.
   while (!text.empty() && (static_cast<unsigned char>(text.back()) & 0xC0U) == 0x80U) text.remove_suffix(1);
   if (!text.empty() && static_cast<unsigned char>(text.back()) >= 0xC0U) text.remove_suffix(1);
-  return std::string(text);
+  if (const std::size_t space = text.rfind(' '); space != std::string_view::npos && space > LiveView::kMaxText / 2)
+    text = text.substr(0, space);
+  return std::string(text).append(kMore);
 }
 std::string short_text(const std::string& text) { return text.size() > LiveView::kMaxText ? clipped(text) : text; }
 

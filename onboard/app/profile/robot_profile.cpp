@@ -51,9 +51,12 @@ void declare(config::Section& s, RobotProfile& p) {
 
 namespace {
 
-/// A wrong argument, as everything else that is wrong with a profile.
-Error no_such_profile(const std::filesystem::path& path) {
-  return {Errc::kInvalidConfig, "there is no such profile", path.string(), {}, "without one, the defaults hold"};
+/// A wrong argument, as everything else that is wrong with a profile: also one that cannot be read.
+Error unusable(Error error, const std::filesystem::path& path) {
+  if (error.code == Errc::kNotFound)
+    return {Errc::kInvalidConfig, "there is no such profile", path.string(), {}, "without one, the defaults hold"};
+  error.code = Errc::kInvalidConfig;
+  return error;
 }
 
 /// Angles beyond a full turn were meant in degrees.
@@ -136,8 +139,7 @@ Result<RobotProfile> load_profile(const std::filesystem::path& path, RobotProfil
   if (path.empty()) return profile;
   config::Section section;
   declare(section, profile);
-  if (const auto loaded = config::load(path, section); !loaded)
-    return loaded.error().code == Errc::kNotFound ? no_such_profile(path) : loaded.error();
+  if (const auto loaded = config::load(path, section); !loaded) return unusable(loaded.error(), path);
   if (auto sound = check(profile.failsafe); !sound) return at(path.string(), sound.error());
   if (auto sound = check(profile.schedule); !sound) return at(path.string(), sound.error());
   if (auto sound = check(profile.perception); !sound) return at(path.string(), sound.error());

@@ -82,6 +82,23 @@ TEST(Config, RefusesWhatLooksAlmostRight) {
   }
 }
 
+TEST(Config, OfATabItSaysThatSpacesIndent) {
+  Section section;
+  double angle = 0;
+  section.number("angle", angle, {-3, 3}, "rad", "");
+  EXPECT_NE(parse("angle: 1\n\tlength: 2\n", "f", section).error().detail.find("spaces, not tabs"), std::string::npos);
+  EXPECT_EQ(parse("angle: [1\n", "f", section).error().detail.find("spaces"), std::string::npos);
+}
+
+TEST(Config, AnAngleOutOfRangeIsToldItsUnit) {
+  Section section;
+  double angle = 0, length = 0;
+  section.number("angle", angle, {-3, 3}, "rad", "");
+  section.number("length", length, {-3, 3}, "m", "");
+  EXPECT_NE(parse("angle: 90", "f", section).error().detail.find("90 degrees are 1.5708"), std::string::npos);
+  EXPECT_EQ(parse("length: 90", "f", section).error().detail.find("degrees"), std::string::npos);
+}
+
 TEST(Config, AnEmptyFileMeansDefaults) {
   for (const char* yaml : {"", "# nothing\n", "inner:\n"}) {
     Declared d;

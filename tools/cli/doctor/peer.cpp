@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -32,18 +33,37 @@ Finding judge(const app::LiveView::Peer& peer) {
   if (peer.merged) return {Level::kOk, peer.name + ": merged" + figures, {}};
   const auto state = team::peer_state_from(peer.state).value_or(team::PeerState::kUndecided);
   return {Level::kProblem, peer.name + " is not merged: " + peer.reason + figures,
-          peer.deployment_contradicted ? kContradicted : remedy_for(state)};
+          peer.deployment_contradicted ? kContradicted : remedy_for(state, peer.name)};
 }
 
 Findings problem(const Error& error) { return {{Level::kProblem, to_string(error), {}}}; }
 
+/// `folder` has no report.json: which of its folders have.
+Error no_run(const fs::path& folder, const Error& missing) {
+  std::vector<std::string> runs;
+  std::error_code ignored;
+  for (const auto& entry : fs::directory_iterator(folder, ignored))
+    if (fs::exists(entry.path() / "report.json", ignored)) runs.push_back(entry.path().filename().string());
+  if (runs.empty()) return missing;
+  std::ranges::sort(runs);
+  std::string names;
+  for (const std::string& run : runs) names += (names.empty() ? "" : ", ") + run;
+  return {Errc::kNotFound, "this folder is no run", folder.string(), {}, "it holds " + names + ": name one of them"};
+}
+
 Result<Peers> peers_of_report(const fs::path& run) {
   const auto bytes = read_file(run / "report.json", std::uint64_t{64} << 20U);
-  if (!bytes) return bytes.error();
+  if (!bytes) return no_run(run, bytes.error());
   const auto* text = reinterpret_cast<const char*>(bytes->data());
   const report::Json json = report::Json::parse(text, text + bytes->size(), nullptr, false);
   if (!json.is_object() || !json.contains("peers") || !json["peers"].is_object())
     return Error{Errc::kMalformed, "not the report of a run", (run / "report.json").string(), {}, {}};
+  if (json.contains("team") && json["team"].is_null())
+    return Error{Errc::kNotFound,
+                 "this run took no part in a team",
+                 run.string(),
+                 {},
+                 "start the core with --peers and give it team.id"};
   Peers peers;
   for (const auto& [name, p] : json["peers"].items())
     if (p.is_object())
@@ -79,17 +99,19 @@ Result<Peers> peers_of_recording(const fs::path& recording) {
   auto peers = ran ? peers_of_report(out) : Result<Peers>(ran.error());
   std::error_code ignored;
   fs::remove_all(out, ignored);
+  if (!peers && peers.error().where == out.string()) peers.error().where = recording.string();
   return peers;
 }
 
 }  // namespace
 
-const char* remedy_for(team::PeerState state) {
+std::string remedy_for(team::PeerState state, const std::string& peer) {
   switch (state) {
     case team::PeerState::kMerged:
       return "";
     case team::PeerState::kNeverHeard:
-      return "start cairn-peers on both robots; its --peer addresses and --domain must fit, its --socket be the "
+      return "start the cores with --peers, and cairn-peers on both robots; its --peer addresses and --domain must "
+             "fit, its --socket be the "
              "profile's team.socket";
     case team::PeerState::kBanned:
       return "it is listened to again after a while; if that goes on, update or stop it";
@@ -101,11 +123,11 @@ const char* remedy_for(team::PeerState state) {
     case team::PeerState::kNoLink:
       return "look at the radio, and whether the peer's cairn-peers still runs";
     case team::PeerState::kNoMap:
-      return "it has not mapped anything yet, or the link carries hellos only";
+      return "wait until the peer has mapped; then check the link's rate and loss";
     case team::PeerState::kTooLittleMapped:
       return "drive on";
     case team::PeerState::kPeerCompares:
-      return "ask it: cairn doctor --peer there";
+      return "run cairn doctor --peer all on " + peer;
     case team::PeerState::kBeingCompared:
       return "wait";
     case team::PeerState::kNoPlace:
@@ -135,8 +157,11 @@ Findings judge_peers(const Peers& peers, const std::string& name) {
                           "does no harm to the map; set the clocks (chrony) so that logs can be compared"});
   }
   if (!findings.empty()) return findings;
-  const std::string who = name == "all" ? "any peer" : name;
-  return {{Level::kProblem, who + ": never heard of", remedy_for(team::PeerState::kNeverHeard)}};
+  const std::string remedy = remedy_for(team::PeerState::kNeverHeard, name);
+  if (peers.empty()) return {{Level::kProblem, "no robot of the team was heard", remedy}};
+  std::string heard;
+  for (const app::LiveView::Peer& peer : peers) heard += (heard.empty() ? "" : ", ") + peer.name;
+  return {{Level::kProblem, name + ": no robot of this name was heard; heard: " + heard, remedy}};
 }
 
 Findings examine_peer(const PeerQuestion& question) {

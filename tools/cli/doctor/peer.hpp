@@ -19,8 +19,8 @@ struct PeerQuestion {
   std::filesystem::path live_view;  ///< socket of a running core
 };
 
-/// What people can do about a peer that is in this state; empty for kMerged.
-[[nodiscard]] const char* remedy_for(team::PeerState state);
+/// What people can do about a peer of this name that is in this state; empty for kMerged.
+[[nodiscard]] std::string remedy_for(team::PeerState state, const std::string& peer);
 /// One finding per peer: whether it is merged, and what to do if not.
 [[nodiscard]] Findings examine_peer(const PeerQuestion& question);
 /// The same for peers whose state is known already.

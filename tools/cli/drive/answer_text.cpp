@@ -6,6 +6,8 @@
 #include <CLI/CLI.hpp>
 #include <nlohmann/json.hpp>
 
+#include "onboard/safety/fault.hpp"
+
 namespace cairn::cli {
 namespace {
 
@@ -34,9 +36,16 @@ std::string head_of(const clients::Answer& a) {
   return "unknown answer";
 }
 
+/// What a core says of a robot that nothing holds but its motors.
+std::string being_enabled() {
+  return fmt::format("{}: {}", to_string(safety::Mode::kHold), to_string(safety::Fault::kDriveNotReady));
+}
+
 }  // namespace
 
 std::string text_of(const clients::Answer& answer) {
+  if (answer.outcome == Outcome::kHeld && !answer.stopped && answer.why.view() == being_enabled())
+    return "the motors are being enabled: the robot waits";
   std::string text = head_of(answer);
   if (!answer.why.empty()) text.append(": ").append(answer.why.view());
   return text;

@@ -9,11 +9,14 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "drivers/clients/commands/command_client.hpp"
 #include "hal/clock.hpp"
 #include "onboard/app/live/stop_signal.hpp"
+#include "onboard/safety/fault.hpp"
 #include "tools/cli/drive/answer_text.hpp"
+#include "tools/cli/drive/connect_robot.hpp"
 #include "tools/cli/drive/place_command.hpp"
 
 namespace cairn::cli {
@@ -50,7 +53,7 @@ int show(const Answer& answer, bool json) {
 /// One command and its answer.
 int ask(const Asked& a, Command::Verb verb) {
   const LiveClock clock;
-  auto robot = CommandClient::connect(a.socket, "cairn " + std::string(to_string(verb)), clock);
+  auto robot = connect_robot(a.socket, "cairn " + std::string(to_string(verb)), clock);
   if (!robot) return app::fail(robot.error());
   const auto answer = robot->ask({.verb = verb, .epoch = robot->last().epoch, .who = {}}, kPatience);
   return answer ? show(*answer, a.json) : app::fail(answer.error());
@@ -69,16 +72,19 @@ Result<void> listen(CommandClient& robot, Time until, const Clock& clock, std::o
   return {};
 }
 
+/// Why a robot whose greeting says that it is stopped is not driven, and what lets it move.
+Error stopped(const Answer& greeting, std::string socket) {
+  const std::string why(greeting.why.view());
+  if (why.find(to_string(safety::Fault::kEStopOpen)) != std::string::npos)
+    return {Errc::kLinkDown, "stopped by the e-stop", std::move(socket), {}, "release it, then `cairn arm`"};
+  return {Errc::kLinkDown, "the robot is stopped", std::move(socket), {}, why + "; `cairn arm` lets it move"};
+}
+
 int drive(const DriveArguments& a) {
   const LiveClock clock;
-  auto robot = CommandClient::connect(a.asked.socket, "cairn drive", clock);
+  auto robot = connect_robot(a.asked.socket, "cairn drive", clock);
   if (!robot) return app::fail(robot.error());
-  if (robot->last().stopped)
-    return app::fail({Errc::kLinkDown,
-                      "the robot is stopped",
-                      a.asked.socket.string(),
-                      {},
-                      std::string(robot->last().why.view()) + "; `cairn arm` lets it move"});
+  if (robot->last().stopped) return app::fail(stopped(robot->last(), a.asked.socket.string()));
   app::catch_stop_signals();
   std::optional<Answer::Outcome> said;
   const Time end = clock.now() + from_seconds(a.seconds);
@@ -91,6 +97,8 @@ int drive(const DriveArguments& a) {
   const auto held = robot->ask({.verb = Command::Verb::kHold, .who = {}}, kPatience);
   if (!held) return app::fail(held.error());
   if (app::stop_requested()) return app::fail(app::interrupted("cairn drive", "the robot holds"));
+  if (!a.asked.json && said == last.outcome && said != Answer::Outcome::kDone && said != Answer::Outcome::kLimited)
+    return app::kFailed;  // stderr has it already
   return show(last, a.asked.json);
 }
 

@@ -13,6 +13,7 @@
 #include "drivers/clients/commands/command_client.hpp"
 #include "hal/clock.hpp"
 #include "tools/cli/drive/answer_text.hpp"
+#include "tools/cli/drive/connect_robot.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -42,7 +43,7 @@ Placement placement_of(const PlaceArguments& a) {
 
 int place(const PlaceArguments& a) {
   const LiveClock clock;
-  auto robot = clients::CommandClient::connect(a.socket, "cairn place", clock);
+  auto robot = connect_robot(a.socket, "cairn place", clock);
   if (!robot) return app::fail(robot.error());
   const auto answer =
       robot->ask({.verb = clients::Command::Verb::kPlace, .who = {}, .place = placement_of(a)}, kAnswered);

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/cli/inspect/calibration.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <variant>
 
 #include "hal/files/file.hpp"
+#include "onboard/app/profile/robot_profile.hpp"
 #include "onboard/perception/cameras/calibration_writer.hpp"
 
 namespace cairn::cli {
@@ -54,11 +58,32 @@ Result<std::string> written_as(const std::string& format, const Calibration& cal
   return Error{Errc::kInvalidConfig, "the format is missing", "--as", {}, "kalibr, ros or opencv"};
 }
 
+/// Whether a line of the file begins with the name of one of a profile's sections.
+bool is_profile(const std::filesystem::path& path) {
+  constexpr std::uint64_t kMostBytes = 1U << 20U;
+  const auto bytes = read_file(path, kMostBytes);
+  if (!bytes) return false;
+  const std::string text = "\n" + std::string(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+  config::Section section;
+  app::RobotProfile profile;
+  declare(section, profile);
+  return std::ranges::any_of(section.fields(), [&](const config::Field& field) {
+    const bool group = std::holds_alternative<std::unique_ptr<config::Section>>(field.target);
+    return group && text.find("\n" + field.key + ":") != std::string::npos;
+  });
+}
+
 }  // namespace
 
 Result<report::Json> inspect_calibration(const std::filesystem::path& path, const std::filesystem::path& out,
                                          const std::string& format, std::size_t camera) {
   const auto calibration = cameras::load_calibration(path);
+  if (!calibration && is_profile(path))
+    return Error{Errc::kUnsupported,
+                 "this is the profile of a robot, not data",
+                 path.string(),
+                 {},
+                 "cairn doctor --config " + path.string() + " checks it"};
   if (!calibration) return calibration.error();
   report::Json json{{"kind", "calibration"},
                     {"path", path.string()},

@@ -8,6 +8,16 @@ namespace {
 
 constexpr Duration kStep = std::chrono::milliseconds(100);
 
+Error gone(const std::filesystem::path& socket) {
+  if (socket.filename() == "command.sock")
+    return {Errc::kInvalidConfig,
+            "this socket takes commands and tells nothing of the robot",
+            socket.string(),
+            {},
+            "use " + (socket.parent_path() / "robot.sock").string()};
+  return {Errc::kLinkDown, "the core is gone", socket.string(), {}, "or it has clients enough"};
+}
+
 }  // namespace
 
 Result<void> read_core(const std::filesystem::path& socket, const client::SubscribeMessage& wants,
@@ -20,8 +30,7 @@ Result<void> read_core(const std::filesystem::path& socket, const client::Subscr
     auto message = stream->next(kStep);
     if (!message) return at(socket.string(), message.error());
     if (lost != nullptr) *lost = stream->lost();
-    if (std::holds_alternative<client::CoreGone>(*message))
-      return Error{Errc::kLinkDown, "the core is gone", socket.string(), {}, "or it has clients enough"};
+    if (std::holds_alternative<client::CoreGone>(*message)) return gone(socket);
     const bool nothing = std::holds_alternative<std::monostate>(*message);
     const auto goes_on = nothing ? Result<bool>(true) : take(*message);
     if (!goes_on) return goes_on.error();

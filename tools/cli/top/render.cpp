@@ -10,6 +10,8 @@
 namespace cairn::cli {
 namespace {
 
+constexpr std::size_t kEventIndent = 21;  // below the words of an event, beside its time and count
+
 enum class Paint { kPlain, kBold, kGood, kWarn, kBad };
 
 /// Printable ASCII as it is; everything else, of which a terminal might make something, as '?'.
@@ -33,6 +35,17 @@ class Lines {
     if (lines_.size() >= static_cast<std::size_t>(std::max(1, screen_.rows))) return;
     text.resize(std::min(text.size(), static_cast<std::size_t>(std::max(1, screen_.columns))));
     lines_.push_back(painted(text, paint, screen_));
+  }
+  /// In as many lines as it needs, broken between words. Lines after the first are indented.
+  void add_wrapped(std::string text, std::size_t indent) {
+    const auto width = static_cast<std::size_t>(std::max(1, screen_.columns));
+    while (text.size() > width) {
+      const std::size_t space = text.rfind(' ', width);
+      if (space == std::string::npos || space <= indent) break;
+      add(text.substr(0, space));
+      text = std::string(indent, ' ') + text.substr(space + 1);
+    }
+    add(std::move(text));
   }
   [[nodiscard]] std::vector<std::string> take() { return std::move(lines_); }
 
@@ -111,8 +124,9 @@ std::vector<std::string> render(const app::LiveView& v, const Screen& screen) {
   lines.add("");
   lines.add(v.events.empty() ? "no events" : "events, newest first", Paint::kBold);
   for (auto e = v.events.rbegin(); e != v.events.rend(); ++e)
-    lines.add(fmt::format("{:9.1f} s {:>6}x  {}: {}", e->t_s, std::min<std::uint64_t>(e->count, 999'999),
-                          safe(e->stage), safe(e->what)));
+    lines.add_wrapped(fmt::format("{:9.1f} s {:>6}x  {}: {}", e->t_s, std::min<std::uint64_t>(e->count, 999'999),
+                                  safe(e->stage), safe(e->what)),
+                      kEventIndent);
   return lines.take();
 }
 

@@ -154,6 +154,14 @@ TEST(Recording, AFolderOfSomethingElseIsNamedAsItWasGiven) {
   EXPECT_THAT(to_string(r.error()), HasSubstr("there is no recording.yaml: `cairn inspect "));
 }
 
+TEST(Recording, ACaptureIsNoRecordingButMakesOne) {
+  const TemporaryFolder folder;
+  std::ofstream(folder / "drive.pcap") << "x";
+  std::ofstream(folder / "drive.log") << "x";
+  EXPECT_THAT(to_string(load_recording(folder / "drive.pcap").error()), HasSubstr("cairn import velodyne-pcap"));
+  EXPECT_THAT(to_string(load_recording(folder / "drive.log").error()), HasSubstr("a recording is a folder"));
+}
+
 TEST(Recording, WhatCouldNotBeReadIsNotWritten) {
   const TemporaryFolder folder;
   ASSERT_TRUE(save_recording(folder.path(), example()));

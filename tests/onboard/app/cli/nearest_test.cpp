@@ -19,6 +19,7 @@ TEST(Nearest, FindsWhatAFewWrongLettersMeant) {
 
 TEST(Nearest, SaysNothingWhereNothingIsNear) {
   EXPECT_FALSE(nearest("calibrate", kNames));
+  EXPECT_FALSE(nearest("foo", {"top", "run"})) << "two of three letters would be wrong";
   EXPECT_FALSE(nearest("x", kNames)) << "every letter would be wrong";
   EXPECT_FALSE(nearest("", kNames));
   EXPECT_FALSE(nearest("run", {}));

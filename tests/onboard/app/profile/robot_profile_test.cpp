@@ -31,6 +31,18 @@ TEST(RobotProfile, OneThatIsNotThereIsAWrongArgument) {
   EXPECT_EQ(profile.error().where, "/nowhere/robot.yaml");
 }
 
+TEST(RobotProfile, OneThatCannotBeReadIsAWrongArgument) {
+  const support::TemporaryFolder folder;
+  const auto a_folder = load_profile(folder.path());
+  ASSERT_FALSE(a_folder);
+  EXPECT_EQ(a_folder.error().code, Errc::kInvalidConfig);
+  std::ofstream(folder / "large.yaml") << std::string(2'000'000, '#');
+  const auto large = load_profile(folder / "large.yaml");
+  ASSERT_FALSE(large);
+  EXPECT_EQ(large.error().code, Errc::kInvalidConfig);
+  EXPECT_EQ(large.error().cause, "the file is too large");
+}
+
 TEST(RobotProfile, AMountInDegreesIsRefused) {
   const support::TemporaryFolder folder;
   std::ofstream(folder / "robot.yaml") << "lidar: {T_base_lidar: [0.1, 0, 0.5, 0, 0, 90]}\n"

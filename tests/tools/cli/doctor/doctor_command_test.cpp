@@ -166,7 +166,26 @@ TEST(DoctorCommand, SaysWhyAPeerHasNotMergedByWhatARunLeft) {
       HasSubstr(
           "problem: robot_3 is not merged: another pose may be as good (overlap 0.86, 9 m²) (7 tiles) → ambiguous"));
   EXPECT_EQ(doctor({"--peer", "robot_2", "--run", folder / ""}).exit_code, app::kDone);
-  EXPECT_THAT(doctor({"--peer", "robot_9", "--run", folder / ""}).out, HasSubstr("robot_9: never heard of → start"));
+  EXPECT_THAT(doctor({"--peer", "robot_9", "--run", folder / ""}).out,
+              HasSubstr("robot_9: no robot of this name was heard; heard: robot_2, robot_3 → start"));
+}
+
+TEST(DoctorCommand, OfARunWithoutATeamItSaysThat) {
+  const TemporaryFolder folder;
+  put(folder / "report.json", R"({"peers": {}, "team": null})");
+  EXPECT_THAT(doctor({"--peer", "all", "--run", folder / ""}).out, HasSubstr("took no part in a team: start the core"));
+  put(folder / "report.json", R"({"peers": {}, "team": {"id": 1}})");
+  EXPECT_THAT(doctor({"--peer", "all", "--run", folder / ""}).out, HasSubstr("no robot of the team was heard → start"));
+}
+
+TEST(DoctorCommand, OfAFolderOfRunsItNamesThem) {
+  const TemporaryFolder folder;
+  for (const char* name : {"robot_2", "robot_1"}) {
+    std::filesystem::create_directory(folder / name);
+    put(folder / (std::string(name) + "/report.json"), "{}");
+  }
+  EXPECT_THAT(doctor({"--peer", "all", "--run", folder / ""}).out,
+              HasSubstr("this folder is no run: it holds robot_1, robot_2"));
 }
 
 TEST(DoctorCommand, ADeploymentThatTheMapsContradictIsNamed) {
@@ -201,7 +220,7 @@ TEST(DoctorCommand, EveryStateOfAPeerHasARemedyButTheGoodOne) {
     peer.state = to_string(state);
     const auto findings = judge_peers({peer}, "robot_2");
     ASSERT_EQ(findings.size(), 1U);
-    EXPECT_EQ(findings[0].remedy, remedy_for(state)) << peer.state;
+    EXPECT_EQ(findings[0].remedy, remedy_for(state, "robot_2")) << peer.state;
     EXPECT_EQ(findings[0].remedy.empty(), peer.merged) << peer.state;
     EXPECT_EQ(findings[0].level, peer.merged ? Finding::Level::kOk : Finding::Level::kProblem) << peer.state;
   }
@@ -210,7 +229,7 @@ TEST(DoctorCommand, EveryStateOfAPeerHasARemedyButTheGoodOne) {
 TEST(DoctorCommand, AStateOfALaterVersionHasTheGeneralRemedy) {
   const auto findings = judge_peers({{.name = "robot_2", .state = "dancing", .reason = "it dances"}}, "all");
   ASSERT_EQ(findings.size(), 1U);
-  EXPECT_EQ(findings[0].remedy, remedy_for(team::PeerState::kUndecided));
+  EXPECT_EQ(findings[0].remedy, remedy_for(team::PeerState::kUndecided, "robot_2"));
 }
 
 TEST(DoctorCommand, AClockThatDiffersIsANote) {

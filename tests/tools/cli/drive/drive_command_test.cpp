@@ -111,6 +111,26 @@ TEST(DriveCommands, AStoppedRobotIsNotDriven) {
   EXPECT_TRUE(core.asked.empty());
 }
 
+TEST(DriveCommands, OfAnOpenEStopTheyNameTheWayOn) {
+  Core core;
+  core.greeting.stopped = true;
+  core.greeting.why.append("stop: estop_open");
+  const Outcome o = run_against(core, {"drive", "--v", "0.3", "--seconds", "5"});
+  EXPECT_THAT(o.err, HasSubstr("stopped by the e-stop: release it, then `cairn arm`"));
+}
+
+TEST(DriveCommands, ADriveThatFailsSaysWhyOnce) {
+  Core core;
+  core.answer.outcome = Answer::Outcome::kHeld;
+  core.answer.why.append("hold: drive_not_ready");
+  const Outcome o = run_against(core, {"drive", "--v", "0.3", "--seconds", "0.2"});
+  EXPECT_EQ(o.exit_code, app::kFailed);
+  EXPECT_EQ(o.err, "the motors are being enabled: the robot waits\n");
+  EXPECT_EQ(o.out, "");
+  const Outcome json = run_against(core, {"drive", "--v", "0.3", "--seconds", "0.2", "--json"});
+  EXPECT_EQ(nlohmann::json::parse(json.out)["outcome"], "held");
+}
+
 TEST(DriveCommands, WithoutACoreTheySaySo) {
   const TemporaryFolder folder;
   const Outcome o = run(add_drive_commands, {"stop", "--socket", folder / "none"});

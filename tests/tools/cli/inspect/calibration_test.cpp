@@ -59,6 +59,12 @@ TEST_F(InspectCalibration, AFormatOrCameraThatIsMissingIsNamed) {
   EXPECT_THAT(o.err, HasSubstr("the file has 2"));
 }
 
+TEST_F(InspectCalibration, OfAProfileItSaysWhatChecksIt) {
+  std::ofstream(folder_ / "chain.yaml") << "name: husky\nlidar:\n  model: VLP-16\n";
+  EXPECT_THAT(inspect({}).err, HasSubstr("the profile of a robot"));
+  EXPECT_THAT(inspect({}).err, HasSubstr("cairn doctor --config"));
+}
+
 TEST_F(InspectCalibration, AnotherYamlIsRefusedWithWhatWouldBeOne) {
   std::ofstream(folder_ / "chain.yaml") << "name: husky\n";
   EXPECT_THAT(inspect({}).err, HasSubstr("not a calibration of a camera"));

@@ -3,7 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <atomic>
 #include <sstream>
+
+#include "drivers/clients/commands/command_socket.hpp"
 
 #include "tests/tools/cli/stream/core_stand_in.hpp"
 
@@ -52,6 +55,24 @@ TEST(PoseCommand, SaysThatNoPoseCame) {
   const Outcome o = test::run_beside_core(add_pose_command, {"pose", "--seconds", "0.1"}, nothing_ever);
   EXPECT_EQ(o.exit_code, app::kFailed);
   EXPECT_THAT(o.err, HasSubstr("no pose came in time"));
+}
+
+TEST(PoseCommand, OnTheSocketForCommandsItNamesTheOther) {
+  const TemporaryFolder folder;
+  const LiveClock clock;
+  const auto socket = clients::CommandSocket::open(folder / "command.sock", SourceId{}, clock).value();
+  Outcome outcome{};
+  std::atomic<bool> done{false};
+  Workers(2).for_each(2, [&](std::size_t side) {
+    if (side == 0) {
+      outcome = run(add_pose_command, {"pose", "--seconds", "5", "--socket", folder / "command.sock"});
+      done = true;
+    }
+    Packet packet;
+    while (!done) (void)socket->next(packet, {});
+  });
+  EXPECT_EQ(outcome.exit_code, app::kWrongArguments);
+  EXPECT_THAT(outcome.err, HasSubstr("robot.sock"));
 }
 
 TEST(PoseCommand, WithoutACoreItSaysSo) {

@@ -72,6 +72,13 @@ TEST(RenderTop, NeverWiderNorLongerThanTheScreen) {
   }
 }
 
+TEST(RenderTop, LongEventsAreBrokenBetweenWords) {
+  app::LiveView view = support::sample_view();
+  view.events = {{12.3, "lidar", "incomplete scan: packets were lost or late, or the motor stood", 7}};
+  EXPECT_THAT(text(view, {60, 40, false}), HasSubstr("     12.3 s      7x  lidar: incomplete scan: packets were\n"
+                                                     "                     lost or late, or the motor stood\n"));
+}
+
 TEST(RenderTop, ColoursOnlyWhereAskedFor) {
   EXPECT_EQ(text(support::sample_view()).find('\x1b'), std::string::npos);
   EXPECT_THAT(text(support::sample_view(), {120, 40, true}), HasSubstr("\x1b[1;31mmapping"));
