@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/client/view/planner_view.hpp"
 
+#include <cmath>
+
 namespace cairn::client {
 namespace {
 
@@ -48,6 +50,18 @@ Occupancy PlannerView::occupancy(const Eigen::Vector3d& p_odom) const {
   const Occupancy seen = occupancy_in(own_.map(), p_odom);
   if (seen != Occupancy::kUnknown || team_ == nullptr) return seen;
   return occupancy_in(team_->map(), T_team_odom_ * p_odom);
+}
+
+std::optional<Eigen::Vector3d> PlannerView::first_hit(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const {
+  // No map is larger than a tree, so no ray needs more steps.
+  constexpr double kMostSteps = 1 << 18;
+  const double steps = std::ceil((to - from).norm() / (0.5 * resolution_m()));
+  if (!(steps <= kMostSteps)) return std::nullopt;
+  for (int i = 0; i <= static_cast<int>(steps); ++i) {
+    const Eigen::Vector3d p = steps > 0 ? Eigen::Vector3d(from + (to - from) * (i / steps)) : from;
+    if (occupancy(p) == Occupancy::kOccupied) return p;
+  }
+  return std::nullopt;
 }
 
 }  // namespace cairn::client

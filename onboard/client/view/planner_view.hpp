@@ -36,6 +36,9 @@ class PlannerView {
   [[nodiscard]] Place at(const Eigen::Vector3d& p_odom) const;
   /// The same without who and when; cheaper.
   [[nodiscard]] Occupancy occupancy(const Eigen::Vector3d& p_odom) const;
+  /// The first occupied place on the way from one point to another, both in odom, looked at every half voxel. None:
+  /// nothing known is in the way.
+  [[nodiscard]] std::optional<Eigen::Vector3d> first_hit(const Eigen::Vector3d& from, const Eigen::Vector3d& to) const;
 
   [[nodiscard]] double resolution_m() const { return own_.map().getResolution(); }
 

@@ -56,6 +56,15 @@ TEST_F(PlannerViewTest, PlacesThatNoMapCanHoldAreUnknown) {
   const PlannerView view(own_.mirror(), &team_.mirror(), SE3());
   for (const double x : {1e9, -1e9, std::numeric_limits<double>::quiet_NaN()})
     EXPECT_EQ(view.at({x, 0, 0}).occupancy, Occupancy::kUnknown);
+  EXPECT_FALSE(view.first_hit({0, 0, 0}, {1e12, 0, 0}));
+}
+
+TEST_F(PlannerViewTest, ARayEndsAtTheFirstOccupiedPlace) {
+  const PlannerView view(own_.mirror(), &team_.mirror(), SE3());
+  const auto hit = view.first_hit(kHere, kThere);
+  ASSERT_TRUE(hit);
+  EXPECT_NEAR(hit->x(), 1.0, 0.06) << "where the own free space ends";
+  EXPECT_FALSE(view.first_hit(kHere, kHere));
 }
 
 }  // namespace
