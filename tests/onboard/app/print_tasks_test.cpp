@@ -111,7 +111,7 @@ TEST_F(PrintTasksOf, WhatARunRefusesBeforeItOpensADeviceIsRefused) {
   }
   EXPECT_TRUE(printed("name: husky"));
   options.schedule = "schedule.log";
-  EXPECT_EQ(printed("name: husky").error().cause, "options that do not fit to this run");
+  EXPECT_EQ(printed("name: husky").error().cause, "these options cannot be used in this kind of run");
 }
 
 TEST_F(PrintTasksOf, AsJsonTheyAreTheSame) {
