@@ -185,7 +185,7 @@ void run_kitti(const std::filesystem::path& recording, int scans, double angle_d
   }
   print(recording.filename().c_str(), f);
   if (truth.empty()) return (void)std::printf("  distance %.2f\n", poses.back().translation().norm());
-  for (const std::size_t gap : {1, 5, 10, 15}) print_relative(poses, truth, gap);
+  for (const std::size_t gap : {1U, 5U, 10U, 15U}) print_relative(poses, truth, gap);
 }
 
 }  // namespace

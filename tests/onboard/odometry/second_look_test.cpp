@@ -87,7 +87,7 @@ TEST(SecondLook, AScanThatFitsFarWorseWouldBlurTheMap) {
 /// A room that is mapped, and a robot that stood in it until something turned it.
 class SecondLookInARoom : public ::testing::Test {
  protected:
-  SecondLookInARoom() {
+  void SetUp() override {
     map_.insert(Room(1).points(30000, 0.01), Room::sensor(), 0, workers_);
     Vector12 sigma = Vector12::Constant(0.01);
     MotionFilter::Uncertainty uncertainty;

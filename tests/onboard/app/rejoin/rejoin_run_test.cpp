@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // A robot that loses its way for a while, and comes back to where it has been.
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -17,7 +16,6 @@
 namespace cairn::app {
 namespace {
 
-using ::testing::HasSubstr;
 namespace fs = std::filesystem;
 
 const Vector6 kLidarMount = (Vector6() << 0.2, 0, 0.6, 0, 0, 0).finished();

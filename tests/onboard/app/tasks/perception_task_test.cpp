@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/app/tasks/perception_task.hpp"
 
-#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -15,8 +14,6 @@
 
 namespace cairn::app {
 namespace {
-
-using ::testing::HasSubstr;
 
 using grey::kEyeHeight;
 using grey::kEyeWidth;

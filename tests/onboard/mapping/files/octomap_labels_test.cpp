@@ -7,6 +7,7 @@
 #include <string>
 
 #include "onboard/mapping/files/octomap_file.hpp"
+#include "onboard/mapping/tree/label_evidence.hpp"
 #include "onboard/mapping/tree/voxel_label.hpp"
 
 namespace cairn::mapping {

@@ -12,7 +12,6 @@ namespace cairn::scheduler {
 namespace {
 
 using namespace std::chrono_literals;
-using ::testing::ElementsAre;
 
 struct EarlyTask final : Task {
   explicit EarlyTask(std::string& order) : order_(order) {}

@@ -9,6 +9,7 @@
 
 #include "drivers/camera/frame.hpp"
 #include "drivers/recording/recording_writer.hpp"
+#include "hal/files/file.hpp"
 #include "onboard/perception/networks/recorded/box_file.hpp"
 #include "onboard/perception/networks/recorded/label_folder.hpp"
 #include "tests/drivers/thermal/lepton.hpp"

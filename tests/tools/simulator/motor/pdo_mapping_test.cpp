@@ -23,7 +23,7 @@ class PdoMapping : public testing::Test {
     const auto mapping = static_cast<std::uint16_t>(base + 0x200U);
     objects.put({base, 1}, id);
     objects.put({mapping, 0}, static_cast<std::uint32_t>(entries.size()));
-    for (std::uint8_t i = 0; i < entries.size(); ++i)
+    for (std::size_t i = 0; i < entries.size(); ++i)
       objects.put({mapping, static_cast<std::uint8_t>(i + 1)}, entries[i]);
   }
   void take(const CanFrame& frame) {

@@ -8,7 +8,6 @@ namespace {
 
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 Result<PerceptionConfig> parsed(std::string_view yaml) {
   PerceptionConfig c;
