@@ -55,7 +55,7 @@ void append_frame(Bytes& out, std::uint8_t subtype, const Mode& mode) {
 
 Bytes formats() {
   Bytes out;
-  for (std::uint8_t i = 0; i < kModes.size(); ++i) {
+  for (std::size_t i = 0; i < kModes.size(); ++i) {
     const auto index = static_cast<std::uint8_t>(i + 1);
     switch (kModes[i].format) {
       case PixelFormat::kY16:
