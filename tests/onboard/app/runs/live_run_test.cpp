@@ -53,15 +53,21 @@ Result<std::unique_ptr<RunResult>> run_while(const std::vector<Packet>& packets,
   return result;
 }
 
-TEST(LiveRun, IsRepeatedToTheBitFromWhatItRecorded) {
-  const support::TemporaryFolder folder;
+/// A live run of a robot with a LiDAR that records itself; writes its profile.
+RunOptions recorded_live_run(const support::TemporaryFolder& folder) {
   std::ofstream(folder / "robot.yaml") << support::LoopbackLidar::profile("[0.2, 0, 0.6, 0, 0, 0]");
-  const support::Vlp16Drive drive(support::lobby(), SE3::from_xyz_rpy(kMountOfLidar), kLiveSeconds, 1);
   RunOptions live;
   live.config = folder / "robot.yaml";
   live.out = folder / "live";
   live.record = folder / "recording";
   live.pace = Pace::kLive;
+  return live;
+}
+
+TEST(LiveRun, IsRepeatedToTheBitFromWhatItRecorded) {
+  const support::TemporaryFolder folder;
+  const support::Vlp16Drive drive(support::lobby(), SE3::from_xyz_rpy(kMountOfLidar), kLiveSeconds, 1);
+  const RunOptions live = recorded_live_run(folder);
   const auto result = run_while(drive.packets(), live);
   ASSERT_TRUE(result) << to_string(result.error());
   const report::RunReport& ran = (*result)->report;
@@ -141,13 +147,8 @@ TEST(LiveRun, AStartAfterAnotherGoesOnInItsMapAndIsRepeatedToTheBit) {
 
 TEST(LiveRun, KeepsItsResultsWhereTheDiskOfTheRecordingIsFull) {
   const support::TemporaryFolder folder;
-  std::ofstream(folder / "robot.yaml") << support::LoopbackLidar::profile("[0.2, 0, 0.6, 0, 0, 0]");
   const support::Vlp16Drive drive(support::lobby(), SE3::from_xyz_rpy(kMountOfLidar), kLiveSeconds, 1);
-  RunOptions live;
-  live.config = folder / "robot.yaml";
-  live.out = folder / "live";
-  live.record = folder / "recording";
-  live.pace = Pace::kLive;
+  const RunOptions live = recorded_live_run(folder);
   std::filesystem::create_directory(live.record);
   std::filesystem::create_symlink("/dev/full", live.record / "schedule.log");
   const auto result = run_while(drive.packets(), live);
