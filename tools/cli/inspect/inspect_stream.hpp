@@ -12,9 +12,9 @@
 #include "drivers/velodyne/lidar.hpp"
 #include "hal/monitor.hpp"
 #include "hal/ports.hpp"
-#include "tools/cli/inspect/packet_figures.hpp"
-#include "tools/cli/inspect/scan_figures.hpp"
-#include "tools/cli/inspect/sensor_figures.hpp"
+#include "tools/cli/inspect/figures/packet_figures.hpp"
+#include "tools/cli/inspect/figures/scan_figures.hpp"
+#include "tools/cli/inspect/figures/sensor_figures.hpp"
 
 namespace cairn::cli {
 

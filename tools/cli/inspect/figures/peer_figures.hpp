@@ -5,7 +5,7 @@
 #include <map>
 #include <string>
 
-#include "tools/cli/inspect/sensor_figures.hpp"
+#include "tools/cli/inspect/figures/sensor_figures.hpp"
 
 namespace cairn::cli {
 

@@ -6,7 +6,7 @@
 #include <set>
 #include <string>
 
-#include "tools/cli/inspect/sensor_figures.hpp"
+#include "tools/cli/inspect/figures/sensor_figures.hpp"
 
 namespace cairn::cli {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/cli/inspect/sensor_figures.hpp"
+#include "tools/cli/inspect/figures/sensor_figures.hpp"
 
 #include <algorithm>
 #include <array>
@@ -13,9 +13,9 @@
 #include "drivers/depth/depth_camera.hpp"
 #include "drivers/gpio/line_event.hpp"
 #include "drivers/thermal/thermal.hpp"
-#include "tools/cli/inspect/can_figures.hpp"
-#include "tools/cli/inspect/command_figures.hpp"
-#include "tools/cli/inspect/peer_figures.hpp"
+#include "tools/cli/inspect/figures/can_figures.hpp"
+#include "tools/cli/inspect/figures/command_figures.hpp"
+#include "tools/cli/inspect/figures/peer_figures.hpp"
 
 namespace cairn::cli {
 namespace {

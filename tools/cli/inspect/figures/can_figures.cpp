@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/cli/inspect/can_figures.hpp"
+#include "tools/cli/inspect/figures/can_figures.hpp"
 
 #include <fmt/format.h>
 

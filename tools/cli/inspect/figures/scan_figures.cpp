@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/cli/inspect/scan_figures.hpp"
+#include "tools/cli/inspect/figures/scan_figures.hpp"
 
 #include <algorithm>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/cli/inspect/peer_figures.hpp"
+#include "tools/cli/inspect/figures/peer_figures.hpp"
 
 #include <nlohmann/json.hpp>
 #include <variant>
