@@ -27,7 +27,7 @@ plan() {
     people=$((i % 2 == 0 ? 10 : 8))
     if [[ $split == train ]]; then people=$((i % 2 == 0 ? 20 : 10)); fi
     carried=thermal
-    if [[ $sensors == both || ($sensors == some && $((i % 2)) == 1) ]]; then carried=camera,thermal; fi
+    if [[ $sensors == both || ($sensors == some && $((i % 2)) == 1) ]]; then carried="camera,thermal --camera-rate 0.1"; fi
     echo "$out/$split ${scenes[i % 8]} $((first + 13 * i)) --motion ${motions[i % 5]} --people $people" \
       "--sensors $carried" "${@:5}"
   done
@@ -40,7 +40,7 @@ render() {
   [[ ! -e $folder/$scene-$seed.done ]] || return 0
   scratch=$(mktemp -d)
   mkdir -p "$folder"
-  if "$cairn" simulate --scene "$scene" --seed "$seed" --robots 4 --seconds 40 --camera-rate 0.1 --thermal-rate 0.5 \
+  if "$cairn" simulate --scene "$scene" --seed "$seed" --robots 4 --seconds 40 --thermal-rate 0.5 \
       "$@" --out "$scratch/run" > "$scratch/said" 2>&1; then
     /usr/bin/python3 "$here/pack_people.py" "$scratch/run" "$folder" "$scene-$seed"
     touch "$folder/$scene-$seed.done"

@@ -116,7 +116,7 @@ Findings examine_profile(const std::filesystem::path& path, Duration listen) {
 }
 
 Findings examine_recording(const std::filesystem::path& folder) {
-  const auto found = inspect({folder, {}, {}, {}});
+  const auto found = inspect({.path = folder});
   if (!found) return {problem("recording", found.error())};
   Findings findings;
   if (!found->contains("sources"))

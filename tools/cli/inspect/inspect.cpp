@@ -2,7 +2,6 @@
 #include "tools/cli/inspect/inspect.hpp"
 
 #include <algorithm>
-#include <array>
 #include <nlohmann/json.hpp>
 #include <system_error>
 
@@ -13,7 +12,6 @@
 #include "drivers/recording/stamp_guard.hpp"
 #include "drivers/thermal/models.hpp"
 #include "drivers/velodyne/models.hpp"
-#include "drivers/velodyne/packet.hpp"
 #include "drivers/velodyne/transport/pcap_source.hpp"
 #include "hal/files/file.hpp"
 #include "hal/files/input_file.hpp"
@@ -21,6 +19,8 @@
 #include "onboard/mapping/files/map_file.hpp"
 #include "onboard/report/figures/map_measures.hpp"
 #include "tools/cli/inspect/calibration.hpp"
+#include "tools/cli/inspect/captured_sensor.hpp"
+#include "tools/cli/inspect/content.hpp"
 #include "tools/cli/inspect/data_file.hpp"
 #include "tools/cli/inspect/folder.hpp"
 #include "tools/cli/inspect/inspect_stream.hpp"
@@ -35,17 +35,6 @@ namespace fs = std::filesystem;
 using recording::Recording;
 using recording::SourceEntry;
 
-bool is_capture(InputFile& file) {
-  std::array<unsigned char, 4> magic{};
-  (void)file.read(std::as_writable_bytes(std::span(magic)));
-  using Magic = std::array<unsigned char, 4>;
-  for (const Magic& known :
-       {Magic{0xD4, 0xC3, 0xB2, 0xA1}, Magic{0xA1, 0xB2, 0xC3, 0xD4}, Magic{0x4D, 0x3C, 0xB2, 0xA1},
-        Magic{0xA1, 0xB2, 0x3C, 0x4D}, Magic{0x0A, 0x0D, 0x0D, 0x0A}})
-    if (magic == known) return true;
-  return false;
-}
-
 Result<report::Json> write_scan(const InspectOptions& options, const std::optional<Scan>& scan, std::uint64_t scans) {
   if (!scan)
     return Error{Errc::kNotFound, "there is no such scan", options.path.string(), {}, std::to_string(scans) + " scans"};
@@ -55,6 +44,14 @@ Result<report::Json> write_scan(const InspectOptions& options, const std::option
                       {"start_s", to_seconds(scan->valid.start)},
                       {"end_s", to_seconds(scan->valid.end)},
                       {"incomplete", scan->incomplete}};
+}
+
+/// Of a file that holds one scan.
+Result<report::Json> write_only_scan(const InspectOptions& options, PointCloud cloud) {
+  if (options.scan.value_or(0) > 0) return write_scan(options, std::nullopt, 1);
+  Scan scan;
+  scan.cloud = std::move(cloud);
+  return write_scan(options, scan, 1);
 }
 
 /// Appends what the stream holds to what is known of it.
@@ -107,35 +104,11 @@ Result<report::Json> inspect_recording(const InspectOptions& options) {
   return found;
 }
 
-/// Ports and model, from the first datagrams of the sensors' sizes.
-SourceEntry recognise(velodyne::PcapSource& capture) {
-  constexpr int kEnough = 10'000;
-  SourceEntry entry{"lidar", recording::kVelodyne, "", "", ""};
-  bool data = false, position = false;
-  Packet packet;
-  for (int i = 0; i < kEnough && !(data && position); ++i) {
-    const auto poll = capture.next(packet, {});
-    if (!poll || *poll == Poll::kEnd) break;
-    if (*poll == Poll::kTimeout) continue;
-    if (!data && packet.bytes.size() == velodyne::kDataBytes) {
-      data = true;
-      entry.data_port = packet.channel;
-      const auto* model = velodyne::find_model(std::to_integer<std::uint8_t>(packet.bytes[velodyne::kProductOffset]));
-      if (model != nullptr) entry.model = model->name;
-    }
-    if (!position && packet.bytes.size() == velodyne::kPositionBytes) {
-      position = true;
-      entry.position_port = packet.channel;
-    }
-  }
-  return entry;
-}
-
 Result<report::Json> inspect_capture(const InspectOptions& options) {
   auto first_look = velodyne::PcapSource::open(options.path, {});
   if (!first_look) return first_look.error();
   Recording recording;
-  SourceEntry entry = recognise(**first_look);
+  SourceEntry entry = captured_sensor(**first_look);
   entry.file = options.path.filename().string();
   if (!options.model.empty()) entry.model = options.model;
   if (entry.model.empty())
@@ -175,9 +148,7 @@ Result<report::Json> inspect_cloud(const InspectOptions& options) {
   for (const auto& f : header->fields) json["fields"].push_back(f.name);
   json["has_time"] = pcd->has_time;
   if (options.out.empty()) return json;
-  Scan scan;
-  scan.cloud = pcd->cloud;
-  auto written = write_scan(options, scan, 1);
+  auto written = write_only_scan(options, pcd->cloud);
   if (!written) return written.error();
   json["out"] = std::move(*written);
   return json;
@@ -191,7 +162,19 @@ Result<report::Json> inspect_map(const InspectOptions& options) {
   return json;
 }
 
-Result<report::Json> inspect_native_file(const InspectOptions& options, NativeFile file) {
+Error not_known(const fs::path& path) {
+  return {Errc::kUnsupported,
+          "what this file holds is not known",
+          path.string(),
+          {},
+          "known: folders of recordings and runs, pcap, pcapng, candump, gpio.csv, lists of pictures, pictures, sweeps "
+          "(.bin), .npy, .pcd, .cairn, .ot, .bt, .tum, calibrations (.yaml, .yml)"};
+}
+
+Result<report::Json> inspect_native_file(const InspectOptions& options) {
+  auto recognised = recognise_native_file(options.path);
+  if (!recognised) return not_known(options.path);
+  NativeFile& file = *recognised;
   SourceEntry& entry = file.recording.sources.front();
   if (!options.model.empty()) entry.model = options.model;
   auto source = recording::open_recorded_source(file.dir, file.recording, 0);
@@ -208,13 +191,18 @@ std::string thermal_model(const camera::NpyHeader& header) {
   return "plain";
 }
 
+Result<report::Json> inspect_other_numbers(const InspectOptions& options) {
+  if (const auto used = check_options(options, Content::kNumbers); !used) return used.error();
+  return inspect_numbers(options.path);
+}
+
 /// The file knows neither times nor the sensor. Two bytes a pixel are temperatures, or depth where a name says so.
 Result<report::Json> inspect_array(const InspectOptions& options) {
   camera::NpySource::Options as;
   const bool depth = says_depth(options.path);
   if (depth) as.deep = camera::FrameFormat::kZ16;
   auto source = camera::NpySource::open(options.path, as);
-  if (!source && source.error().code == Errc::kUnsupported) return inspect_numbers(options.path);
+  if (!source && source.error().code == Errc::kUnsupported) return inspect_other_numbers(options);
   if (!source) return source.error();
   const camera::NpyHeader& header = (*source)->header();
   const bool grey = header.pixel_bytes == 1;
@@ -231,27 +219,10 @@ Result<report::Json> inspect_bin(const InspectOptions& options) {
   auto sweep = inspect_sweep(options.path);
   if (!sweep) return sweep.error();
   if (options.out.empty()) return std::move(sweep->json);
-  Scan scan;
-  scan.cloud = std::move(sweep->cloud);
-  auto written = write_scan(options, scan, 1);
+  auto written = write_only_scan(options, std::move(sweep->cloud));
   if (!written) return written.error();
   sweep->json["out"] = std::move(*written);
   return std::move(sweep->json);
-}
-
-Result<report::Json> inspect_folder(const InspectOptions& options) {
-  std::error_code error;
-  if (fs::exists(options.path / recording::kIndexFile, error)) return inspect_recording(options);
-  return is_run(options.path) ? inspect_run(options.path) : inspect_parent(options.path);
-}
-
-Error not_known(const fs::path& path) {
-  return {Errc::kUnsupported,
-          "what this file holds is not known",
-          path.string(),
-          {},
-          "known: folders of recordings and runs, pcap, pcapng, candump, gpio.csv, lists of pictures, pictures, sweeps "
-          "(.bin), .npy, .pcd, .cairn, .ot, .bt, .tum, calibrations (.yaml, .yml)"};
 }
 
 /// A file of any text may be called .txt: it is a trajectory if it has a pose.
@@ -262,6 +233,39 @@ Result<report::Json> inspect_trajectory(const fs::path& path) {
   return json;
 }
 
+Result<report::Json> inspect_content(const InspectOptions& options, Content content) {
+  switch (content) {
+    case Content::kRecording:
+      return inspect_recording(options);
+    case Content::kRun:
+      return inspect_run(options.path);
+    case Content::kFolder:
+      return inspect_parent(options.path);
+    case Content::kCapture:
+      return inspect_capture(options);
+    case Content::kPicture:
+      return inspect_picture(options.path);
+    case Content::kNativeFile:
+      return inspect_native_file(options);
+    case Content::kCloud:
+      return inspect_cloud(options);
+    case Content::kPictures:
+      return inspect_array(options);
+    case Content::kSweep:
+      return inspect_bin(options);
+    case Content::kMap:
+      return inspect_map(options);
+    case Content::kTrajectory:
+      return inspect_trajectory(options.path);
+    case Content::kCalibration:
+      return inspect_calibration(options.path, options.out, options.as, options.camera.value_or(0));
+    case Content::kNumbers:  // which the header of an array says
+    case Content::kUnknown:
+      break;
+  }
+  return not_known(options.path);
+}
+
 }  // namespace
 
 Result<report::Json> inspect(const InspectOptions& options) {
@@ -269,25 +273,12 @@ Result<report::Json> inspect(const InspectOptions& options) {
   const bool folder = fs::is_directory(options.path, error);
   if (!options.out.empty() && (!folder || fs::exists(options.out, error)))  // a new file in the folder harms nothing
     if (const auto kept = keep_input(options.path, options.out); !kept) return kept.error();
-  const std::string extension = options.path.extension().string();
-  const bool calibration = !folder && (extension == ".yaml" || extension == ".yml");
-  if (!options.out.empty() && !calibration && options.out.extension() != ".pcd")
+  const auto content = content_of(options.path);
+  if (!content) return content.error();
+  if (const auto used = check_options(options, *content); !used) return used.error();
+  if (!options.out.empty() && *content != Content::kCalibration && options.out.extension() != ".pcd")
     return Error{Errc::kInvalidConfig, "the name must end in .pcd", "--out " + options.out.string(), {}, {}};
-  if (folder) return inspect_folder(options);
-  if (!fs::exists(options.path, error))
-    return Error{Errc::kNotFound, "there is no such file or folder", options.path.string(), {}, {}};
-  auto input = InputFile::open(options.path);
-  if (!input) return input.error();
-  if (is_capture(*input)) return inspect_capture(options);
-  if (is_picture(options.path)) return inspect_picture(options.path);
-  if (auto file = recognise_native_file(options.path)) return inspect_native_file(options, std::move(*file));
-  if (extension == ".pcd") return inspect_cloud(options);
-  if (extension == ".npy") return inspect_array(options);
-  if (extension == ".bin") return inspect_bin(options);
-  if (extension == ".cairn" || extension == ".ot" || extension == ".bt") return inspect_map(options);
-  if (extension == ".tum" || extension == ".txt") return inspect_trajectory(options.path);
-  if (calibration) return inspect_calibration(options.path, options.out, options.as, options.camera);
-  return not_known(options.path);
+  return inspect_content(options, *content);
 }
 
 }  // namespace cairn::cli

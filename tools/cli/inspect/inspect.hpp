@@ -12,12 +12,12 @@
 namespace cairn::cli {
 
 struct InspectOptions {
-  std::filesystem::path path;
-  std::string model;                  ///< of a capture, instead of what its packets say
-  std::filesystem::path out;          ///< where to write one scan as PCD; empty: nowhere
-  std::optional<std::uint64_t> scan;  ///< which one, counted from 0; none: the first complete one
-  std::string as{};                   ///< of a calibration: format of `out`, which is kalibr, ros or opencv
-  std::size_t camera = 0;             ///< of a calibration: which camera goes to `out`
+  std::filesystem::path path{};
+  std::string model{};                  ///< of a capture, instead of what its packets say
+  std::filesystem::path out{};          ///< where to write one scan as PCD; empty: nowhere
+  std::optional<std::uint64_t> scan{};  ///< which one, counted from 0; none: the first complete one
+  std::string as{};                     ///< of a calibration: format of `out`, which is kalibr, ros or opencv
+  std::optional<std::size_t> camera{};  ///< of a calibration: which camera goes to `out`; none: the first one, or all
 };
 
 /// What is in the folder of a recording, of a run or of several, one of a recording's files (candump, gpio.csv, a list

@@ -35,13 +35,16 @@ void add_inspect_command(app::Commands& commands) {
   auto o = std::make_shared<InspectArguments>();
   sub->add_option("path", o->inspect.path, "file or folder")->required();
   sub->add_option("--model", o->inspect.model, "sensor model, instead of the one in the packets or the recording");
-  sub->add_option("--out", o->inspect.out,
-                  "file for one scan as PCD: x y z intensity ring time return_type; or for a calibration, see --as");
-  sub->add_option("--scan", o->inspect.scan, "number of the scan, from 0; default: the first complete one");
+  auto* out = sub->add_option(
+      "--out", o->inspect.out,
+      "file for one scan as PCD: x y z intensity ring time return_type; or for a calibration, see --as");
+  sub->add_option("--scan", o->inspect.scan, "number of the scan, from 0; default: the first complete one")->needs(out);
   sub->add_option("--as", o->inspect.as, "format of a calibration in --out")
-      ->check(CLI::IsMember({"kalibr", "ros", "opencv"}));
-  sub->add_option("--camera", o->inspect.camera, "number of the camera in --out, from 0; kalibr: all of them")
-      ->capture_default_str();
+      ->check(CLI::IsMember({"kalibr", "ros", "opencv"}))
+      ->needs(out);
+  sub->add_option("--camera", o->inspect.camera,
+                  "number of the camera in --out, from 0, which is the default; kalibr: all of them")
+      ->needs(out);
   sub->add_flag("--json", o->json, "one JSON object on stdout");
   sub->callback([&commands, o] { commands.job = [o] { return run(*o); }; });
 }

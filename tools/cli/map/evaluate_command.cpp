@@ -268,7 +268,8 @@ void add_map(app::Commands& commands, CLI::App& evaluate, const std::shared_ptr<
   sub->add_option("--align", options->align,
                   "how the trajectories give the pose: first (their first poses coincide), se3 (least squares)")
       ->check(CLI::IsMember({"first", "se3"}))
-      ->capture_default_str();
+      ->capture_default_str()
+      ->needs(from);
   from->needs(to);
   to->needs(from);
   sub->add_option("--tolerance", options->tolerance_m,

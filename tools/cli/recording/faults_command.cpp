@@ -5,6 +5,7 @@
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -30,6 +31,10 @@ using recording::Recording;
 constexpr const char* kGroundTruth = "ground_truth.tum";
 // In the order of recording::Spell.
 const std::vector<std::string> kSpells{"silence", "disconnect", "stuck", "burst"};
+
+// The options that each bring a fault.
+constexpr std::array kFaults{"--drop",   "--repeat", "--swap",  "--cut",   "--flip",
+                             "--extend", "--delay",  "--shift", "--freeze"};
 
 struct FaultArguments {
   fs::path recording, out;
@@ -135,6 +140,24 @@ int inject(const FaultArguments& options) {
   return app::kDone;
 }
 
+/// Options that were given and would change nothing. CLI11 looks after those that need one other option.
+Result<void> check_fault_options(const CLI::App& sub, bool list) {
+  const auto unused = [](const std::string& option, const char* remedy) {
+    return Error{Errc::kInvalidConfig, "would change nothing", option, {}, remedy};
+  };
+  if (list) {
+    for (const CLI::Option* option : sub.get_options())
+      if (const std::string name = option->get_name(); option->count() > 0 && name != "recording" && name != "--json")
+        return unused(name, "`cairn faults list` prints the robot's faults; name a recording instead of list");
+    return {};
+  }
+  const auto given = [&sub](const char* option) { return sub.count(option) > 0; };
+  if (std::ranges::any_of(kFaults, given)) return {};
+  for (const char* option : {"--source", "--seed"})
+    if (given(option)) return unused(option, "no packet gets a fault; add one, such as --drop 0.01");
+  return {};
+}
+
 /// What the core knows as faults, and what each leads to.
 int list_faults(bool json) {
   report::Json rows = report::Json::array();
@@ -151,41 +174,65 @@ int list_faults(bool json) {
   return json ? app::print({{"faults", rows}}) : app::kDone;
 }
 
+/// Faults that one packet has or has not.
+void add_shares(CLI::App& sub, FaultArguments& o) {
+  const CLI::Range share(0.0, 1.0);
+  sub.add_option("--drop", o.faults.drop, "share of packets that are lost")->check(share);
+  sub.add_option("--repeat", o.faults.repeat, "share that arrives twice")->check(share);
+  sub.add_option("--swap", o.faults.swap, "share that arrives after the next packet")->check(share);
+  sub.add_option("--cut", o.faults.cut, "share that arrives without its end")->check(share);
+  sub.add_option("--flip", o.faults.flip, "share that arrives with one bit turned")->check(share);
+  sub.add_option("--extend", o.faults.extend, "share that arrives with bytes added")->check(share);
+  auto* delay = sub.add_option("--delay", o.faults.delay, "share that arrives later, by --delay-by")->check(share);
+  sub.add_option("--delay-by", o.delay_s, "delay of --delay, s")
+      ->check(CLI::Range(0.0, 10.0))
+      ->capture_default_str()
+      ->needs(delay);
+}
+
+/// Faults of all packets from some time on, or for some time.
+void add_times(CLI::App& sub, FaultArguments& o) {
+  auto* shift = sub.add_option("--shift", o.shift_s, "seconds added to all arrivals from --shift-after on")
+                    ->check(CLI::Range(-1e6, 1e6));
+  sub.add_option("--shift-after", o.shift_after_s, "seconds after which --shift begins")
+      ->check(CLI::Range(0.0, 1e6))
+      ->needs(shift);
+  auto* freeze = sub.add_option("--freeze", o.freeze_s,
+                                "length of the spell at the end of each --period, s; without --spell the source is "
+                                "silent")
+                     ->check(CLI::Range(0.0, 1e6));
+  sub.add_option("--spell", o.spell, "what happens to the source during --freeze")
+      ->check(CLI::IsMember(kSpells))
+      ->needs(freeze);
+  sub.add_option("--period", o.period_s, "repeat the spell every so many seconds")
+      ->check(CLI::Range(0.001, 1e6))
+      ->capture_default_str()
+      ->needs(freeze);
+}
+
 }  // namespace
 
 void add_faults_command(app::Commands& commands) {
   auto* sub =
       commands.app.add_subcommand("faults", "copies a recording with faults: lost, late, repeated or damaged packets");
   auto o = std::make_shared<FaultArguments>();
-  const CLI::Range share(0.0, 1.0);
   sub->add_option("recording", o->recording,
                   "folder of the recording; or `list`, which prints the robot's faults and their modes")
       ->required();
   sub->add_option("--out", o->out, "folder of the new recording");
   sub->add_option("--source", o->source, "source to damage, such as lidar; default: all");
-  sub->add_option("--drop", o->faults.drop, "share of packets that are lost")->check(share);
-  sub->add_option("--repeat", o->faults.repeat, "share that arrives twice")->check(share);
-  sub->add_option("--swap", o->faults.swap, "share that arrives after the next packet")->check(share);
-  sub->add_option("--cut", o->faults.cut, "share that arrives without its end")->check(share);
-  sub->add_option("--flip", o->faults.flip, "share that arrives with one bit turned")->check(share);
-  sub->add_option("--extend", o->faults.extend, "share that arrives with bytes added")->check(share);
-  sub->add_option("--delay", o->faults.delay, "share that arrives later, by --delay-by")->check(share);
-  sub->add_option("--delay-by", o->delay_s, "delay of --delay, s")->check(CLI::Range(0.0, 10.0))->capture_default_str();
-  sub->add_option("--shift", o->shift_s, "seconds added to all arrivals from --shift-after on")
-      ->check(CLI::Range(-1e6, 1e6));
-  sub->add_option("--shift-after", o->shift_after_s, "seconds after which --shift begins")->check(CLI::Range(0.0, 1e6));
-  sub->add_option("--spell", o->spell, "what happens to the source during --freeze")->check(CLI::IsMember(kSpells));
-  sub->add_option("--freeze", o->freeze_s,
-                  "length of the spell at the end of each --period, s; without --spell the source is silent")
-      ->check(CLI::Range(0.0, 1e6));
-  sub->add_option("--period", o->period_s, "repeat the spell every so many seconds")
-      ->check(CLI::Range(0.001, 1e6))
-      ->capture_default_str();
+  add_shares(*sub, *o);
+  add_times(*sub, *o);
   sub->add_option("--seed", o->faults.seed, "seed of the faults; the same seed gives the same faults");
   sub->add_flag("--overwrite", o->overwrite, "replace the recording in --out");
   sub->add_flag("--json", o->json, "one JSON object on stdout");
-  sub->callback(
-      [&commands, o] { commands.job = [o] { return o->recording == "list" ? list_faults(o->json) : inject(*o); }; });
+  sub->callback([&commands, o, sub] {
+    commands.job = [o, sub] {
+      const bool list = o->recording == "list";
+      if (const auto fit = check_fault_options(*sub, list); !fit) return app::fail(fit.error());
+      return list ? list_faults(o->json) : inject(*o);
+    };
+  });
 }
 
 }  // namespace cairn::cli

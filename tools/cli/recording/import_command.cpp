@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cstdio>
 #include <iostream>
 #include <memory>
@@ -63,6 +64,23 @@ void print_report(const ImportArguments& options, const ImportReport& r) {
   if (r.damaged > r.damage.size()) std::cerr << "cairn: left out: " << r.damaged - r.damage.size() << " more\n";
 }
 
+/// Options that were given and would change nothing with this kind of data.
+Result<void> check_kind(const CLI::App& sub, const std::string& kind) {
+  const bool capture = kind == "velodyne-pcap";
+  const std::array<const char*, 2> of_others =
+      capture ? std::array{"--rate", "--deskewed"} : std::array{"--data-port", "--position-port"};
+  for (const char* option : of_others)
+    if (sub.count(option) > 0)
+      return Error{Errc::kInvalidConfig,
+                   "would change nothing",
+                   option,
+                   {},
+                   std::string(capture ? "the packets of a capture carry their times and are kept as they are"
+                                       : "this data holds no datagrams") +
+                       "; leave the option out"};
+  return {};
+}
+
 int import_data(ImportArguments options) {
   options.import.overwrite = options.overwrite ? recording::Overwrite::kYes : recording::Overwrite::kNo;
   const bool terminal = ::isatty(STDERR_FILENO) != 0;
@@ -103,7 +121,12 @@ void add_import_command(app::Commands& commands) {
       ->capture_default_str();
   sub->add_flag("--overwrite", o->overwrite, "replace the recording in --out");
   sub->add_flag("--json", o->json, "one JSON object on stdout");
-  sub->callback([&commands, o] { commands.job = [o] { return import_data(*o); }; });
+  sub->callback([&commands, o, sub] {
+    commands.job = [o, sub] {
+      if (const auto fit = check_kind(*sub, o->kind); !fit) return app::fail(fit.error());
+      return import_data(*o);
+    };
+  });
 }
 
 }  // namespace cairn::cli

@@ -15,6 +15,7 @@
 
 #include "onboard/app/live/stop_signal.hpp"
 #include "tools/cli/simulate/live_command.hpp"
+#include "tools/cli/simulate/unused_options.hpp"
 #include "tools/simulator/simulate.hpp"
 
 namespace cairn::cli {
@@ -109,10 +110,11 @@ int run_live(SimulateOptions options, bool limited) {
   return cli::run_live(options.live, options.json);
 }
 
-int run(SimulateOptions options) {
+int run(SimulateOptions options, const CLI::App& sub) {
   if (options.simulation.flies()) make_uav(options.simulation);
   options.simulation.motion = simulator::style_of(simulator::motion_of(options.motion));
   if (!options.sensors.empty()) options.simulation.sensors = sensors(options.sensors);
+  if (const auto fit = check_unused_options(sub, options.simulation); !fit) return app::fail(fit.error());
   app::catch_stop_signals();
   options.simulation.stop = app::stop_requested;
   const auto robots = simulator::simulate(options.simulation, progress_line());
@@ -229,7 +231,7 @@ void add_simulate_command(app::Commands& commands) {
   sub->callback([&commands, options, sub] {
     commands.job = [options, sub] {
       if (const auto fit = check_live_options(*sub, options->live.live); !fit) return app::fail(fit.error());
-      return options->live.live ? run_live(*options, sub->count("--seconds") > 0) : run(*options);
+      return options->live.live ? run_live(*options, sub->count("--seconds") > 0) : run(*options, *sub);
     };
   });
 }

@@ -135,6 +135,13 @@ TEST(EvaluateMap, WithoutLabelsTheFieldsAreNull) {
   EXPECT_EQ(json["precision"], 1.0);
 }
 
+TEST(EvaluateMap, AnAlignmentNeedsTrajectories) {
+  const TemporaryFolder folder;
+  const Outcome o = evaluate({"map", folder.path(), "--ground-truth", folder.path(), "--align", "se3"});
+  EXPECT_EQ(o.exit_code, app::kWrongArguments);
+  EXPECT_THAT(o.err, HasSubstr("--align requires --trajectory"));
+}
+
 TEST(EvaluateMap, RefusesHalfAPose) {
   const TemporaryFolder folder;
   EXPECT_EQ(evaluate({"map", folder.path(), "--ground-truth", folder.path(), "--pose", "1,2,3"}).exit_code,

@@ -66,7 +66,7 @@ TEST(FaultsCommand, WithoutFaultsItCopies) {
 TEST(FaultsCommand, WrongSourcesAndFoldersAreNamed) {
   const TemporaryFolder folder;
   write_recording(folder / "good");
-  const Outcome o = faults({folder / "good", "--out", folder / "bad", "--source", "lidar"});
+  const Outcome o = faults({folder / "good", "--out", folder / "bad", "--source", "lidar", "--drop", "0.5"});
   EXPECT_EQ(o.exit_code, app::kWrongArguments);
   EXPECT_THAT(o.err, HasSubstr("it has drive, gpio"));
   EXPECT_EQ(faults({folder / "nothing", "--out", folder / "bad"}).exit_code, app::kFailed);
@@ -104,6 +104,36 @@ TEST(FaultsCommand, ListsWhatCountsAsAFault) {
   const auto json = faults({"list", "--json"}).json();
   EXPECT_EQ(json["faults"].size(), 27U);
   EXPECT_EQ(json["faults"][16]["least"], "stop");
+}
+
+TEST(FaultsCommand, OptionsThatWouldChangeNothingAreRefused) {
+  const TemporaryFolder folder;
+  write_recording(folder / "good");
+  struct Row {
+    std::string option, value, needed;
+    const char* that;
+  };
+  for (const Row& row : {Row{"--spell", "stuck", "--freeze", "1"}, Row{"--period", "3", "--freeze", "1"},
+                         Row{"--delay-by", "0.1", "--delay", "0.5"}, Row{"--shift-after", "1", "--shift", "2"},
+                         Row{"--source", "drive", "--drop", "0.5"}, Row{"--seed", "2", "--flip", "0.5"}}) {
+    const Outcome alone = faults({folder / "good", "--out", folder / "bad", row.option, row.value});
+    EXPECT_EQ(alone.exit_code, app::kWrongArguments) << row.option;
+    EXPECT_THAT(alone.err, HasSubstr(row.option));
+    const Outcome with =
+        faults({folder / "good", "--out", folder / "bad", "--overwrite", row.option, row.value, row.needed, row.that});
+    EXPECT_EQ(with.exit_code, app::kDone) << row.option << ": " << with.err;
+  }
+}
+
+TEST(FaultsCommand, TheListTakesNoOptionOfARecording) {
+  for (const std::vector<std::string>& option :
+       {std::vector<std::string>{"--drop", "0.1"}, {"--out", "x"}, {"--overwrite"}, {"--seed", "3"}}) {
+    std::vector<std::string> arguments{"list"};
+    arguments.insert(arguments.end(), option.begin(), option.end());
+    const Outcome o = faults(arguments);
+    EXPECT_EQ(o.exit_code, app::kWrongArguments) << option[0];
+    EXPECT_THAT(o.err, HasSubstr(option[0] + ": would change nothing"));
+  }
 }
 
 TEST(FaultsCommand, WithoutAPlaceForTheResultItSaysSo) {

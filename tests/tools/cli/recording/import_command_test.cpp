@@ -73,6 +73,24 @@ TEST(ImportCommand, WhatCannotBeImportedLeavesTheOldRecordingAndNothingElse) {
   EXPECT_FALSE(std::filesystem::exists(folder / "new"));
 }
 
+TEST(ImportCommand, OptionsOfOtherKindsAreRefused) {
+  const TemporaryFolder folder;
+  write_cloud(folder / "a.pcd");
+  for (const char* kind : {"pcd-folder", "kitti-raw", "kitti-odometry"})
+    for (const char* option : {"--data-port=2368", "--position-port=8308"}) {
+      const Outcome o = import({kind, folder.path(), "--out", folder / "r", option});
+      EXPECT_EQ(o.exit_code, app::kWrongArguments) << kind << option;
+      EXPECT_THAT(o.err, HasSubstr("would change nothing")) << kind << option;
+    }
+  for (const char* option : {"--rate=5", "--deskewed=true"}) {
+    const Outcome capture = import({"velodyne-pcap", folder / "a.pcd", "--out", folder / "r", option});
+    EXPECT_EQ(capture.exit_code, app::kWrongArguments) << option;
+    EXPECT_THAT(capture.err, HasSubstr("leave the option out")) << option;
+  }
+  EXPECT_FALSE(std::filesystem::exists(folder / "r"));
+  EXPECT_EQ(import({"pcd-folder", folder.path(), "--out", folder / "r", "--rate=5"}).exit_code, app::kDone);
+}
+
 TEST(ImportCommand, WrongArguments) {
   const TemporaryFolder folder;
   EXPECT_EQ(import({"tapes", folder.path(), "--out", folder / "r"}).exit_code, app::kWrongArguments);
