@@ -116,7 +116,7 @@ Findings examine_profile(const std::filesystem::path& path, Duration listen) {
 }
 
 Findings examine_recording(const std::filesystem::path& folder) {
-  const auto found = inspect({.path = folder});
+  const auto found = inspect({.path = folder, .unfinished_is_damage = false});
   if (!found) return {problem("recording", found.error())};
   Findings findings;
   if (!found->contains("sources"))
@@ -125,12 +125,9 @@ Findings examine_recording(const std::filesystem::path& folder) {
   if (found->value("unfinished", false))
     findings.push_back(problem("recording", recording::unfinished_recording(folder)));
   for (const report::Json& source : (*found)["sources"]) findings.push_back(examine_source(source));
-  const std::string said = to_string(recording::unfinished_recording(folder));
-  for (const report::Json& damage : (*found)["damage"]) {
-    if (damage == said) continue;
+  for (const report::Json& damage : (*found)["damage"])
     findings.push_back(
         {Level::kProblem, "recording: " + damage.get<std::string>(), "what lies before and behind the damage is used"});
-  }
   return findings;
 }
 

@@ -99,7 +99,8 @@ Result<report::Json> inspect_recording(const InspectOptions& options) {
   std::vector<std::string> damage;
   (*found)["labels"] = describe_labels(options.path, damage);
   (*found)["boxes"] = describe_boxes(options.path, damage);
-  if (recording.unfinished) damage.push_back(to_string(recording::unfinished_recording(options.path)));
+  if (recording.unfinished && options.unfinished_is_damage)
+    damage.push_back(to_string(recording::unfinished_recording(options.path)));
   add_damage(damage, *found);
   return found;
 }

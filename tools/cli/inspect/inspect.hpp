@@ -18,6 +18,7 @@ struct InspectOptions {
   std::optional<std::uint64_t> scan{};  ///< which one, counted from 0; none: the first complete one
   std::string as{};                     ///< of a calibration: format of `out`, which is kalibr, ros or opencv
   std::optional<std::size_t> camera{};  ///< of a calibration: which camera goes to `out`; none: the first one, or all
+  bool unfinished_is_damage = true;  ///< `damage` tells, too, that a recording was not closed; `unfinished` always does
 };
 
 /// What is in the folder of a recording, of a run or of several, one of a recording's files (candump, gpio.csv, a list
