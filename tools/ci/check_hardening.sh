@@ -1,13 +1,15 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # Checks that the program of a build has all the protections of docs/security.md: tools/ci/check_hardening.sh BUILD_FOLDER
-# Reads them from the binary. Protections that leave no trace there are read from the compile commands.
+# Reads them from the binary. Protections that leave no trace there are read from the compile commands. Checks, too, that
+# the robot's program needs no library of the simulator.
 set -euo pipefail
 
 build=${1:?usage: check_hardening.sh BUILD_FOLDER}
-program=$build/bin/cairn
+program=$build/bin/cairn core=$build/bin/cairn-core
 commands=$build/compile_commands.json
-[[ -x $program && -f $commands ]] || { echo "check_hardening.sh: no $program or $commands: build first" >&2; exit 2; }
+[[ -x $program && -x $core && -f $commands ]] ||
+  { echo "check_hardening.sh: no $program, $core or $commands: build first" >&2; exit 2; }
 
 headers=$(readelf --wide --file-header --program-headers --dynamic "$program")
 symbols=$(readelf --wide --dyn-syms "$program")
@@ -44,4 +46,9 @@ case $headers in
   *X86-64*) has "landing pads for indirect branches" 'endbr64' "$(objdump -d "$program" | grep -m 1 endbr64)" ;;
   *AArch64*) has "signed return addresses" '-mbranch-protection=standard' "$(<"$commands")" ;;
 esac
+
+echo "$core"
+needed=$(readelf --wide --dynamic "$core" | grep NEEDED)
+has "a direct dependency on the C library" 'libc\.so' "$needed"
+has_not "direct dependency on the simulator's libraries" 'embree|tbb' "$needed"
 exit "$bad"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
-# A program built with every protection passes; one that lacks any of them is refused.
+# A program built with every protection passes; one that lacks any of them is refused. So is a robot's program that needs a
+# library of the simulator.
 set -euo pipefail
 check=$(cd "$(dirname "${BASH_SOURCE[0]}")/../../.." && pwd)/tools/ci/check_hardening.sh
 build=$(mktemp -d)
@@ -32,6 +33,12 @@ readonly link='-pie -Wl,-z,relro -Wl,-z,now -Wl,-z,noexecstack'
 build_with() {  # build_with FLAG…: the program and its compile commands
   printf '  "command": "c++ %s -c program.cpp",\n' "$*" >"$build/compile_commands.json"
   c++ -Wno-stringop-overflow "$@" "$build/program.cpp" -o "$build/bin/cairn"
+  cp "$build/bin/cairn" "$build/bin/cairn-core"
+}
+# core_with LIBRARY: a robot's program that needs it directly.
+core_with() {
+  c++ -shared -fPIC -x c++ /dev/null -Wl,-soname,"$1" -o "$build/$1"
+  c++ -Wno-stringop-overflow "$build/program.cpp" -Wl,--no-as-needed "$build/$1" -o "$build/bin/cairn-core"
 }
 complain() { echo "FAILED: $*"; failures=$((failures + 1)); }
 
@@ -49,6 +56,13 @@ complain() { echo "FAILED: $*"; failures=$((failures + 1)); }
     build_with $compile $instead
     ! "$check" "$build" >/dev/null || complain "passes when linked with $instead"
   done
+  build_with $compile $link
+  for library in libembree3.so.3 libtbb.so.12; do
+    core_with "$library"
+    ! "$check" "$build" >/dev/null || complain "passes although cairn-core needs $library"
+  done
+  core_with libother.so
+  "$check" "$build" >"$build/log" || { cat "$build/log"; complain "a robot's program with another library is refused"; }
 }
-((failures == 0)) && echo "every missing protection was found"
+((failures == 0)) && echo "every missing protection and every library of the simulator was found"
 exit $((failures > 0))
