@@ -13,9 +13,6 @@ namespace {
 using clients::CameraMessage;
 using recording::SensorKind;
 
-// By the camera's number.
-constexpr std::array<SensorKind, kShownCameras> kKinds{recording::kCamera, recording::kThermal, recording::kDepth};
-
 void set_size(const PictureSize& size, CameraMessage& message) {
   message.width = static_cast<std::uint32_t>(size.width);
   message.height = static_cast<std::uint32_t>(size.height);
@@ -60,21 +57,27 @@ ShownCamera depth(const depth::Config& p) {
   return camera;
 }
 
-ShownCamera describe(SensorKind kind, const RobotProfile& profile) {
-  if (kind == recording::kCamera) return colour(profile.camera);
-  return kind == recording::kThermal ? thermal(profile.thermal) : depth(profile.depth.driver);
-}
+/// One kind of camera, and what its pictures are like.
+struct CameraRow {
+  SensorKind kind;
+  ShownCamera (*describe)(const RobotProfile&);
+};
+// By the camera's number.
+constexpr std::array<CameraRow, kShownCameras> kCameras{
+    CameraRow{.kind = recording::kCamera, .describe = [](const RobotProfile& p) { return colour(p.camera); }},
+    CameraRow{.kind = recording::kThermal, .describe = [](const RobotProfile& p) { return thermal(p.thermal); }},
+    CameraRow{.kind = recording::kDepth, .describe = [](const RobotProfile& p) { return depth(p.depth.driver); }}};
 
 }  // namespace
 
 std::vector<ShownCamera> shown_cameras(const RobotProfile& profile, std::span<const recording::SourceEntry> sources) {
   std::vector<ShownCamera> cameras;
-  for (std::size_t i = 0; i < kKinds.size(); ++i) {
+  for (std::size_t i = 0; i < kCameras.size(); ++i) {
     const auto source = std::ranges::find_if(sources, [&](const recording::SourceEntry& entry) {
-      return entry.kind == kKinds[i] && entry.id != recording::kRightEye;
+      return entry.kind == kCameras[i].kind && entry.id != recording::kRightEye;
     });
     if (source == sources.end()) continue;
-    ShownCamera& camera = cameras.emplace_back(describe(kKinds[i], profile));
+    ShownCamera& camera = cameras.emplace_back(kCameras[i].describe(profile));
     camera.message.camera = static_cast<std::uint8_t>(i);
     camera.message.name = source->id;
   }
@@ -84,7 +87,7 @@ std::vector<ShownCamera> shown_cameras(const RobotProfile& profile, std::span<co
 void show(std::span<const ShownCamera> cameras, ReceiveTask& receive, StreamOutlets& outlets) {
   for (const ShownCamera& camera : cameras) {
     const std::size_t i = camera.message.camera;
-    (void)receive.show(kKinds[i], outlets.pictures[i]);
+    (void)receive.show(kCameras[i].kind, outlets.pictures[i]);
   }
 }
 
