@@ -7,10 +7,15 @@
 namespace cairn::thermal {
 namespace {
 
-constexpr std::array kModels{Model{"plain", 0, 0, 0, false},           Model{"lepton2", 80, 60, 3, true},
-                             Model{"lepton3", 160, 120, 2, true},      Model{"boson320", 320, 256, 2, false},
-                             Model{"boson640", 640, 512, 2, false},    Model{"optris_pi400", 382, 288, 2, false},
-                             Model{"optris_pi450", 382, 288, 2, false}};
+constexpr std::array kModels{
+    Model{.name = "plain"},
+    Model{.name = "lepton2", .width = 80, .height = 60, .rows = 3, .lepton_telemetry = true},
+    Model{.name = "lepton3", .width = 160, .height = 120, .rows = 2, .lepton_telemetry = true},
+    Model{.name = "boson320", .width = 320, .height = 256, .rows = 2},
+    Model{.name = "boson640", .width = 640, .height = 512, .rows = 2},
+    Model{.name = "optris_pi400", .width = 382, .height = 288, .rows = 2},
+    Model{.name = "optris_pi450", .width = 382, .height = 288, .rows = 2},
+};
 
 }  // namespace
 

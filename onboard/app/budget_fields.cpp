@@ -36,7 +36,8 @@ report::RunReport expected_report(const RunOptions& options, Monitor& monitor) {
   const auto chosen = choose_profile(options.config, options.recording);
   const RobotProfile profile = chosen ? chosen->profile : RobotProfile();
   const ScheduleProfile& schedule = profile.schedule;
-  std::vector<scheduler::TaskSpec> tasks = schedule.tasks({true, true, true, true, true, true});
+  std::vector<scheduler::TaskSpec> tasks = schedule.tasks(
+      {.team = true, .perception = true, .depth = true, .detection = true, .thermal_detection = true, .stereo = true});
   tasks.push_back(schedule.odometry);
   tasks.push_back(schedule.safety);
   tasks.back().name = "reference";

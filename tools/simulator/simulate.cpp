@@ -102,7 +102,7 @@ bool is_robot_name(std::string_view name) {
 
 void make_uav(SimulationConfig& config) {
   config.profile = "uav";
-  config.sensors = {false, true, false, false, false, false};
+  config.sensors = {.lidar = false, .camera = true};
   config.stereo.base_camera_xyz_rpy << 0.10, 0.06, -0.03, 0.0, 0.5236, 0.0;
 }
 

@@ -152,7 +152,8 @@ CanFrame motion_command(const Motion& m) {
 }
 
 Motion read_motion(const CanFrame& f) {
-  return {i16(f, 0) / 1000.0, i16(f, 2) / 1000.0, i16(f, 4) / 1000.0, i16(f, 6) / 1000.0};
+  return {
+      .v = i16(f, 0) / 1000.0, .w = i16(f, 2) / 1000.0, .lateral = i16(f, 4) / 1000.0, .steering = i16(f, 6) / 1000.0};
 }
 
 CanFrame control_mode(Mode mode) { return make_frame(kControlModeId, {static_cast<std::uint8_t>(mode)}); }

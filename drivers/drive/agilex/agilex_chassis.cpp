@@ -29,8 +29,8 @@ void Chassis::take(const SystemState& state, Time arrival) {
 Motion Chassis::motion(const Order& order) const {
   if (!order.enable || order.halt) return {};
   const Velocity body = limited({order.v, order.w}, config_.max_speed_m_s, config_.max_yaw_rate_rad_s);
-  if (!config_.ackermann) return {body.v, body.w, 0, 0};
-  return {body.v, 0, 0, inner_steering(body, config_.wheelbase_m, config_.wheel_separation_m)};
+  if (!config_.ackermann) return {.v = body.v, .w = body.w};
+  return {.v = body.v, .steering = inner_steering(body, config_.wheelbase_m, config_.wheel_separation_m)};
 }
 
 void Chassis::step(Time now, const Order& order, TxQueue& out) {

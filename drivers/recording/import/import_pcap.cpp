@@ -71,7 +71,7 @@ Result<RecordingWriter> create_writer(const ImportOptions& options, const std::s
   recording.robot = options.robot;
   recording.start_utc_ns = start;
   recording.notes = "imported from a capture file; the time line is the capture's own clock";
-  SourceEntry lidar{"lidar", kVelodyne, "lidar.pcap", "lidar", model};
+  SourceEntry lidar{.id = "lidar", .kind = kVelodyne, .file = "lidar.pcap", .frame = "lidar", .model = model};
   lidar.data_port = options.data_port;
   lidar.position_port = options.position_port;
   recording.sources.push_back(std::move(lidar));

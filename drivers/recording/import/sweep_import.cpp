@@ -15,7 +15,7 @@ Result<SweepImport> SweepImport::create(const ImportOptions& options, const Desc
   recording.robot = options.robot;
   recording.start_utc_ns = description.start_utc_ns;
   recording.notes = description.notes;
-  SourceEntry lidar{"lidar", kScans, "data.csv", "base_link", options.model};
+  SourceEntry lidar{.id = "lidar", .kind = kScans, .file = "data.csv", .frame = "base_link", .model = options.model};
   // The sweeps' frame is the robot's: no profile's mount may move them away from their ground truth.
   lidar.base_sensor_xyz_rpy = Vector6::Zero();
   lidar.deskewed = options.deskewed.value_or(description.deskewed);

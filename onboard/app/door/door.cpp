@@ -76,7 +76,8 @@ bool may_be_missing(const SourceEntry& entry, const Devices& which, const RobotP
 Result<Input> open_live(const RobotProfile& profile, const SourceEntry& entry, SourceId id, const Clock& clock) {
   auto device = open_device(profile, entry, id, clock);
   if (!device) return at(entry.id, device.error());
-  Input input{entry, std::move(device->source), {}, nullptr, nullptr, std::move(device->losses)};
+  Input input{
+      .entry = entry, .source = std::move(device->source), .scans = nullptr, .losses = std::move(device->losses)};
   input.can = dynamic_cast<drive::CanLink*>(input.source.get());
   input.lines = dynamic_cast<gpio::GpioLines*>(input.source.get());
   return input;
@@ -92,7 +93,8 @@ Result<Door> open_sources(const std::filesystem::path& folder, RobotProfile& pro
   for (std::size_t i = 0; i < recorded->sources.size(); ++i) {
     auto source = recording::open_recorded_source(folder, *recorded, i);
     if (!source) source = std::make_unique<UnreadableSource>(source.error());
-    door.inputs.push_back({recorded->sources[i], std::move(*source), {}, nullptr, nullptr, {}});
+    door.inputs.push_back(
+        {.entry = recorded->sources[i], .source = std::move(*source), .scans = nullptr, .losses = {}});
   }
   door.recording = std::move(*recorded);
   return door;

@@ -26,11 +26,11 @@ bool ReceiveTask::add(Input& input, SourceId id, scheduler::Feed::Tap tap) {
   const auto complain = [this](Time now, const Error& error) { monitor_.event(now, "input", to_string(error)); };
   const std::size_t slot = packets_slot + sensors_.size();
   const bool right = input.entry.id == recording::kRightEye;  // is recorded, and nobody looks at it
-  sensors_.push_back({{*input.source, id, slot, complain, std::move(tap)},
-                      input.scans.get(),
-                      right ? std::nullopt : watched_as(input.entry.kind),
-                      right ? decltype(Sensor::pictures){} : ports_of(input.entry.kind),
-                      input.entry.kind});
+  sensors_.push_back({.feed = {*input.source, id, slot, complain, std::move(tap)},
+                      .decoder = input.scans.get(),
+                      .watched = right ? std::nullopt : watched_as(input.entry.kind),
+                      .pictures = right ? PicturePorts{} : ports_of(input.entry.kind),
+                      .kind = input.entry.kind});
   const auto triggered = std::ranges::find(triggered_, input.entry.kind, &Triggered::kind);
   if (triggered != triggered_.end() && !right) sensors_.back().triggered = triggered->latency;
   return true;

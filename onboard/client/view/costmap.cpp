@@ -80,13 +80,13 @@ class Ground {
     const double base = ground.value_or(from_m);
     for (double z = base + voxel; z < base + config_.height_m; z += voxel) {
       const Occupancy occupancy = at(z);
-      if (occupancy == Occupancy::kOccupied) return {Cell::kBlocked, base, false};
+      if (occupancy == Occupancy::kOccupied) return {.cell = Cell::kBlocked, .ground_m = base};
       free = free || occupancy == Occupancy::kFree;
     }
     if (!ground && !free) return {};
     if (!ground && at(from_m - config_.step_m - voxel) == Occupancy::kFree)
-      return {Cell::kBlocked, base, false};  // a drop
-    return {Cell::kDrivable, base, ground.has_value()};
+      return {.cell = Cell::kBlocked, .ground_m = base};  // a drop
+    return {.cell = Cell::kDrivable, .ground_m = base, .seen = ground.has_value()};
   }
 
   const PlannerView& view_;

@@ -54,7 +54,12 @@ void FootprintApplier::apply(Footprint& footprint, SemanticOcTree& tree, Workers
 void FootprintApplier::descend(SemanticNode* node, bool made, bool expanded, unsigned depth,
                                std::span<const BrickRef> bricks) {
   if (depth == kBrickDepth) {
-    jobs_.push_back({node, bricks.front().path, bricks.front().slot, made, expanded, 0});
+    jobs_.push_back({.node = node,
+                     .path = bricks.front().path,
+                     .slot = bricks.front().slot,
+                     .made = made,
+                     .changed = expanded,
+                     .changed_octants = 0});
     return;
   }
   if (!made && node->block() == nullptr) {

@@ -59,7 +59,13 @@ Layout layout_of(const MapPicture& p, double pixels_per_m, int text) {
   const auto pixels = [&](int cells) {
     return std::max(1, static_cast<int>(std::lround(cells * p.cell_m * pixels_per_m)));
   };
-  return {44 * text, 14 * text, pixels(p.width), pixels(p.height), text, pixels_per_m, &p};
+  return {.scale_x = 44 * text,
+          .scale_y = 14 * text,
+          .map_width = pixels(p.width),
+          .map_height = pixels(p.height),
+          .text = text,
+          .pixels_per_m = pixels_per_m,
+          .picture = &p};
 }
 
 void put_map(Raster& image, const Layout& layout, bool classes) {

@@ -28,7 +28,9 @@ struct Axes {
   std::size_t right, up, near;
   int near_sign;
 };
-constexpr std::array<Axes, 3> kAxes{Axes{0, 1, 2, 1}, Axes{0, 2, 1, -1}, Axes{1, 2, 0, 1}};
+constexpr std::array<Axes, 3> kAxes{Axes{.right = 0, .up = 1, .near = 2, .near_sign = 1},
+                                    Axes{.right = 0, .up = 2, .near = 1, .near_sign = -1},
+                                    Axes{.right = 1, .up = 2, .near = 0, .near_sign = 1}};
 const Axes& axes_of(MapView view) { return kAxes[static_cast<std::size_t>(view)]; }
 
 struct Heights {

@@ -29,7 +29,9 @@ struct DoctorArguments {
 };
 
 Findings examine(const DoctorArguments& options) {
-  if (!options.peer.empty()) return examine_peer({options.peer, options.recording, options.run, options.live_view});
+  if (!options.peer.empty())
+    return examine_peer(
+        {.name = options.peer, .recording = options.recording, .run = options.run, .live_view = options.live_view});
   Findings all;
   const auto add = [&all](Findings more) { std::move(more.begin(), more.end(), std::back_inserter(all)); };
   if (!options.recording.empty()) {

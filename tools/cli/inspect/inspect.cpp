@@ -208,7 +208,8 @@ Result<report::Json> inspect_array(const InspectOptions& options) {
   const camera::NpyHeader& header = (*source)->header();
   const bool grey = header.pixel_bytes == 1;
   const recording::SensorKind kind = grey ? recording::kCamera : depth ? recording::kDepth : recording::kThermal;
-  SourceEntry entry{"source", kind, options.path.filename().string(), "", options.model};
+  SourceEntry entry{
+      .id = "source", .kind = kind, .file = options.path.filename().string(), .frame = "", .model = options.model};
   if (entry.model.empty() && kind == recording::kThermal) entry.model = thermal_model(header);
   Recording recording;
   recording.sources.push_back(std::move(entry));

@@ -87,7 +87,7 @@ std::string in_words(const simulator::RobotSummary& r) {
 
 /// The names of --sensors as what they switch on; CLI11 has checked them.
 simulator::Sensors sensors(const std::vector<std::string>& names) {
-  simulator::Sensors s{false, false, false, false, false, false};
+  simulator::Sensors s{.lidar = false};
   for (const std::string& name : names) {
     if (name == "all") return simulator::Sensors::all();
     s.lidar = s.lidar || name == "lidar";

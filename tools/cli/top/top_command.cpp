@@ -27,8 +27,9 @@ struct TopArguments {
 Screen screen_now() {
   winsize size{};
   const bool terminal = ::isatty(STDOUT_FILENO) != 0;
-  if (!terminal || ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0) return {120, 200, false};
-  return {size.ws_col, std::max(2, static_cast<int>(size.ws_row)) - 1, true};
+  if (!terminal || ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_col == 0)
+    return {.columns = 120, .rows = 200};
+  return {.columns = size.ws_col, .rows = std::max(2, static_cast<int>(size.ws_row)) - 1, .colour = true};
 }
 
 void show(const app::LiveView& view, const TopArguments& a) {

@@ -59,7 +59,12 @@ Detection to_picture(const Candidate& c, std::uint8_t class_id, const Placement&
     return std::clamp(static_cast<float>(value / p.scale_y), 0.0F, static_cast<float>(p.picture_height));
   };
   const float left = x(c.left), top = y(c.top);
-  return {left, top, x(c.right) - left, y(c.bottom) - top, class_id, c.score};
+  return {.x = left,
+          .y = top,
+          .width = x(c.right) - left,
+          .height = y(c.bottom) - top,
+          .class_id = class_id,
+          .score = c.score};
 }
 
 }  // namespace

@@ -142,7 +142,12 @@ Result<const Detections*> RecordedDetector::detect(const Image& picture) {
     const float left = std::clamp(d.x, 0.0F, w), top = std::clamp(d.y, 0.0F, h);
     const float right = std::clamp(d.x + d.width, left, w), bottom = std::clamp(d.y + d.height, top, h);
     if (right > left && bottom > top)
-      detections_.found.push_back({left, top, right - left, bottom - top, d.class_id, d.score});
+      detections_.found.push_back({.x = left,
+                                   .y = top,
+                                   .width = right - left,
+                                   .height = bottom - top,
+                                   .class_id = d.class_id,
+                                   .score = d.score});
   }
   return &detections_;
 }
