@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "fusion/matching/features/landmarks.hpp"
 #include "fusion/matching/features/levelling.hpp"
 #include "fusion/matching/features/sample.hpp"
+#include "fusion/matching/search/constellations.hpp"
 #include "fusion/matching/search/global_search.hpp"
 #include "fusion/matching/search/stand_up.hpp"
 
@@ -54,15 +56,20 @@ DefaultMatcher::DefaultMatcher(const MapFeatures& a, const MapFeatures& b, const
       coarse_m_(std::max(a.coarse_m(), b.coarse_m())),
       near_coarse_(a.coarse(), coarse_m_, kCoarseReach_cells * coarse_m_) {}
 
-std::vector<SE3> DefaultMatcher::swept(Budget& budget) const {
+DefaultMatcher::Proposals DefaultMatcher::proposed(Budget& budget) const {
   const GlobalSearchConfig& config = config_.global_search;
   const auto surfels_a = turned(judge_.a().surfels, T_level_a_), surfels_b = turned(judge_.b().surfels, T_level_b_);
   const PlanView a(surfels_a, map_a_, T_level_a_), b(surfels_b, map_b_, T_level_b_);
-  const auto placements = sweep(a, b, config, budget);
   const auto voters = sample(std::span<const Surfel>(surfels_b), config.height_votes);
-  std::vector<SE3> poses = stand_up(placements, a, b, voters);
-  for (SE3& T : poses) T = T_level_a_.inverse() * T * T_level_b_;
-  return poses;
+  const auto poses = [&](const std::vector<Placement>& placements) {
+    std::vector<SE3> all = stand_up(placements, a, b, voters);
+    for (SE3& T : all) T = T_level_a_.inverse() * T * T_level_b_;
+    return all;
+  };
+  const std::size_t most = config.constellations.landmarks;
+  return {.of_landmarks = poses(constellations(landmarks(surfels_a, most), landmarks(surfels_b, most), b.middle(),
+                                               config.constellations, budget)),
+          .swept = poses(sweep(a, b, config, budget))};
 }
 
 std::vector<DefaultMatcher::Candidate> DefaultMatcher::climbed(const std::vector<SE3>& poses, Budget& budget) const {
@@ -83,15 +90,21 @@ std::vector<DefaultMatcher::Candidate> DefaultMatcher::climbed(const std::vector
 
 std::vector<SE3> DefaultMatcher::starts_anywhere(Budget& budget) const {
   const GlobalSearchConfig& config = config_.global_search;
-  const auto poses = swept(budget);
-  std::vector<SE3> starts;
-  for (const Candidate& c : climbed(poses, budget)) {
+  const auto [of_landmarks, swept] = proposed(budget);
+  std::vector<SE3> all = of_landmarks, starts;
+  all.insert(all.end(), swept.begin(), swept.end());
+  const std::size_t as_they_are = config.best_swept + config.best_constellations;
+  for (const Candidate& c : climbed(all, budget)) {
     const auto again = [&](const SE3& T) { return one_way(T, c.T_a_b, config_.refinement); };
-    if (starts.size() + config.best_swept < config.starts && std::none_of(starts.begin(), starts.end(), again))
+    if (starts.size() + as_they_are < config.starts && std::none_of(starts.begin(), starts.end(), again))
       starts.push_back(c.T_a_b);
   }
-  const std::size_t as_they_are = std::min(poses.size(), config.best_swept);
-  starts.insert(starts.end(), poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(as_they_are));
+  const auto add_best = [&](const std::vector<SE3>& poses, std::size_t most) {
+    starts.insert(starts.end(), poses.begin(),
+                  poses.begin() + static_cast<std::ptrdiff_t>(std::min(poses.size(), most)));
+  };
+  add_best(of_landmarks, config.best_constellations);
+  add_best(swept, config.best_swept);
   return starts;
 }
 

@@ -16,8 +16,8 @@ namespace cairn::matching {
 
 /// Matches two maps near a prior, or anywhere if gravity is known. The steps are:
 /// 1. Search: the poses of the prior's window at which the structure fits best (PriorModes).
-///    Without a prior, the best poses of a sweep over all headings and distances (sweep(),
-///    stand_up()).
+///    Without a prior, the best poses at which landmarks meet (constellations()), and those of a
+///    sweep over all headings and distances (sweep()), at their heights (stand_up()).
 /// 2. Refine each on the coarse surfels, and score it on the fine ones, with free space both ways.
 /// 3. Refine the best one on the fine surfels, and weigh the evidence for it.
 ///
@@ -49,9 +49,12 @@ class DefaultMatcher : public Matcher {
   [[nodiscard]] std::vector<Candidate> modes(const std::optional<UncertainPose>& initial, Budget& budget) const;
   /// Starts for refinement without a prior.
   [[nodiscard]] std::vector<SE3> starts_anywhere(Budget& budget) const;
-  /// The best poses of a sweep over all headings and distances, at their heights. Both maps are
-  /// straightened first.
-  [[nodiscard]] std::vector<SE3> swept(Budget& budget) const;
+  /// Poses without a prior, at their heights, each list best first. Both maps are straightened first.
+  struct Proposals {
+    std::vector<SE3> of_landmarks;  ///< see constellations()
+    std::vector<SE3> swept;         ///< see sweep()
+  };
+  [[nodiscard]] Proposals proposed(Budget& budget) const;
   /// The most promising of the poses, each after a short climb, best first.
   [[nodiscard]] std::vector<Candidate> climbed(const std::vector<SE3>& poses, Budget& budget) const;
   /// Refines each start on the coarse surfels and scores it, best first. Starts that soon lead the

@@ -19,7 +19,7 @@ namespace {
 constexpr std::size_t kMostDirections = 3;
 // Cosines of 10° and 5°: whose normals are averaged.
 constexpr double kFirstGate = 0.985, kLastGate = 0.996;
-constexpr double kApart = std::numbers::sqrt2 / 2;  // cosine of 45°, between two directions
+constexpr double kLeastApartCos = std::numbers::sqrt2 / 2;  // cosine of 45°, between two directions
 // Directions that are tried, about 6° apart.
 constexpr int kHalfSphere = 600;
 // Of the extent, a twentieth is cut off at either end.
@@ -89,7 +89,7 @@ Vectors main_directions(const Vectors& normals) {
     if (*best == 0) break;
     found.push_back(centred(normals, everywhere[static_cast<std::size_t>(best - votes.begin())]));
     for (std::size_t i = 0; i < votes.size(); ++i)
-      if (std::abs(everywhere[i].dot(found.back())) > kApart) votes[i] = 0;
+      if (std::abs(everywhere[i].dot(found.back())) > kLeastApartCos) votes[i] = 0;
   }
   return found;
 }

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "fusion/matching/search/fourier.hpp"
-#include "fusion/matching/search/same_place.hpp"
 
 namespace cairn::matching {
 namespace {
@@ -158,21 +157,6 @@ std::vector<Peak> peaks_of(const ComplexImage::Plane& image, std::size_t most) {
   return best;
 }
 
-/// The best `most` placements that are different places.
-std::vector<Placement> apart(std::vector<Placement> all, std::size_t most) {
-  std::stable_sort(all.begin(), all.end(), [](const auto& p, const auto& q) { return p.score > q.score; });
-  std::vector<Placement> kept;
-  for (const Placement& p : all) {
-    if (kept.size() == most) break;
-    const bool near = std::any_of(kept.begin(), kept.end(), [&](const Placement& k) {
-      return same_place(std::hypot(p.x_m - k.x_m, p.y_m - k.y_m),
-                        std::abs(std::remainder(p.yaw_rad - k.yaw_rad, 2 * M_PI)));
-    });
-    if (!near) kept.push_back(p);
-  }
-  return kept;
-}
-
 }  // namespace
 
 std::vector<Placement> sweep(const PlanView& a, const PlanView& b, const GlobalSearchConfig& config, Budget& budget) {
@@ -199,7 +183,7 @@ std::vector<Placement> sweep(const PlanView& a, const PlanView& b, const GlobalS
         found[w].push_back(
             {.yaw_rad = yaw, .x_m = metres(p.x, a.low().x()), .y_m = metres(p.y, a.low().y()), .score = p.score});
   }
-  for (auto& of_weight : found) of_weight = apart(std::move(of_weight), config.placements / found.size());
+  for (auto& of_weight : found) of_weight = different_places(std::move(of_weight), config.placements / found.size());
   std::vector<Placement> all;
   for (std::size_t i = 0; i < config.placements; ++i)
     for (const auto& of_weight : found)

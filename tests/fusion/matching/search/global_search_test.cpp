@@ -107,7 +107,9 @@ TEST(PlanView, OfNothingIsEmptyAndOfFarThingsBounded) {
   const PlanView wide(far, empty);
   EXPECT_EQ(wide.columns().size(), 2U);
   Budget budget = Budget::steps(3);
-  EXPECT_LE(sweep(wide, none, {.placements = 10}, budget).size(), 10U);
+  GlobalSearchConfig config;
+  config.placements = 10;
+  EXPECT_LE(sweep(wide, none, config, budget).size(), 10U);
 }
 
 }  // namespace
