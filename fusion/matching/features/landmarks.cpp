@@ -28,24 +28,35 @@ constexpr double kMostAway_m = 0.6;
 // Two landmarks that are nearer are one. Chosen by hand; 0.6 m made no difference.
 constexpr float kOneLandmark_m = 1;
 
-/// Sums over the walls of some squares, each surfel a line with the normal n through the point p.
+/// The point that is nearest to some lines, and the sum of its squared distances from them.
+struct Meeting {
+  Eigen::Vector2d at;
+  double squared_off;
+};
+
+/// Sums over the walls of some squares, each surfel at the point p with the normal n.
 struct Walls {
   Eigen::Vector2i square = Eigen::Vector2i::Zero();
   double count = 0, oriented = 0;
   Eigen::Matrix2d directions = Eigen::Matrix2d::Zero();  // n nᵀ
   Eigen::Vector2d offsets = Eigen::Vector2d::Zero();     // n nᵀp
   double squared_offset = 0;                             // (nᵀp)²
+  Eigen::Vector2d places = Eigen::Vector2d::Zero();      // p
+  double squared_place = 0;                              // pᵀp
   Eigen::Vector2d cross = Eigen::Vector2d::Zero();
   Eigen::Vector2d facing = Eigen::Vector2d::Zero();  // n, of oriented ones
 
   void add(const Surfel& s) {
     const Eigen::Vector2d n = s.normal.head<2>().cast<double>().normalized();
-    const double offset = n.dot(s.point.head<2>().cast<double>());
+    const Eigen::Vector2d p = s.point.head<2>().cast<double>();
+    const double offset = n.dot(p);
     const double cos2 = n.x() * n.x() - n.y() * n.y(), sin2 = 2 * n.x() * n.y();
     count += 1;
     directions += n * n.transpose();
     offsets += offset * n;
     squared_offset += offset * offset;
+    places += p;
+    squared_place += p.squaredNorm();
     cross += Eigen::Vector2d(cos2 * cos2 - sin2 * sin2, 2 * cos2 * sin2);
     if (!s.oriented) return;
     oriented += 1;
@@ -57,19 +68,33 @@ struct Walls {
     directions += other.directions;
     offsets += other.offsets;
     squared_offset += other.squared_offset;
+    places += other.places;
+    squared_place += other.squared_place;
     cross += other.cross;
     facing += other.facing;
   }
+  /// Where the walls would meet.
+  [[nodiscard]] Meeting corner() const { return meeting(directions, offsets, squared_offset); }
+  /// Where the lines across the walls meet: the middle, if the walls are round.
+  [[nodiscard]] Meeting middle() const {
+    return meeting(count * Eigen::Matrix2d::Identity() - directions, places - offsets, squared_place - squared_offset);
+  }
+
+ private:
+  static Meeting meeting(const Eigen::Matrix2d& across, const Eigen::Vector2d& at, double squared) {
+    const Eigen::Vector2d point = across.inverse() * at;
+    return {point, squared - point.dot(at)};
+  }
 };
 
-/// Where the walls meet, if they do so near `middle`.
-std::optional<Landmark> landmark_of(const Walls& walls, const Eigen::Vector2d& middle) {
+/// The corner or the middle of the walls, whichever fits better, if it is near `window`.
+std::optional<Landmark> landmark_of(const Walls& walls, const Eigen::Vector2d& window) {
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> spread(walls.directions, Eigen::EigenvaluesOnly);
   const double weaker = spread.eigenvalues().x(), stronger = spread.eigenvalues().y();
   if (!(weaker >= kLeast_surfels && weaker >= kLeastRatio * stronger)) return {};
-  const Eigen::Vector2d at = walls.directions.inverse() * walls.offsets;
-  if (!((at - middle).cwiseAbs().maxCoeff() < kMostAway_m)) return {};
-  const double squared_off = walls.squared_offset - at.dot(walls.offsets);
+  const Meeting corner = walls.corner(), middle = walls.middle();
+  const auto& [at, squared_off] = middle.squared_off < corner.squared_off ? middle : corner;
+  if (!((at - window).cwiseAbs().maxCoeff() < kMostAway_m)) return {};
   if (squared_off > kMostOff_m * kMostOff_m * walls.count) return {};
   return Landmark{.at = at.cast<float>(),
                   .cross = (walls.cross / walls.count).cast<float>(),

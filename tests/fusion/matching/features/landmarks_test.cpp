@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "tests/fusion/matching/plan_surfels.hpp"
@@ -47,6 +48,26 @@ TEST(Landmarks, AThinPillarIsOneAndTheStrongestComeFirst) {
   EXPECT_LT((found[1].at - Eigen::Vector2f(7, 2)).norm(), 0.1F);
   EXPECT_GT(found[0].strength, found[1].strength);
   EXPECT_EQ(landmarks(surfels, 1).size(), 1U);
+}
+
+TEST(Landmarks, ATrunkHasOneMiddleFromAllSides) {
+  constexpr float kRadius_m = 0.35F;
+  const Eigen::Vector2f trunk(2.1F, -8.4F);
+  for (const float from_rad : {0.0F, 1.6F, 3.9F}) {
+    std::vector<Surfel> seen;  // half of it
+    for (float angle = from_rad; angle < from_rad + 3.1F; angle += 0.3F)
+      for (float z = 0; z < 2; z += 0.2F) {
+        Surfel s;
+        s.normal << std::cos(angle), std::sin(angle), 0;
+        s.point << trunk + kRadius_m * s.normal.head<2>(), z;
+        s.oriented = true;
+        seen.push_back(s);
+      }
+    const auto found = landmarks(seen, kMany);
+    ASSERT_EQ(found.size(), 1U);
+    EXPECT_LT((found.front().at - trunk).norm(), 0.02F);
+    EXPECT_LT(found.front().cross.norm(), 0.3F);
+  }
 }
 
 TEST(Landmarks, TurnAndMoveWithTheMap) {
