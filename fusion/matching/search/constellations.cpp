@@ -8,8 +8,9 @@
 namespace cairn::matching {
 namespace {
 
-// All are chosen by hand. Half or twice of the lengths made no difference to 72 pairs of
-// tests/bench/matching_pairs, seeds 1000 to 1017.
+// All are chosen by hand. On 72 pairs of tests/bench/matching_pairs, seeds 1000 to 1017, pairs from
+// 2 m on, and 0.4 or 0.8 m between the same landmarks, made a difference of one pair at most to how
+// often the truth came first.
 
 // Of a pair of landmarks. A short one tells little about the heading; a long one goes beyond what
 // two maps share.
@@ -18,8 +19,8 @@ constexpr float kShortest_m = 4, kLongest_m = 50;
 constexpr float kLengthOff_m = 0.4F;
 // Between two landmarks that are the same one.
 constexpr float kSame_m = 0.6F;
-// Length of Landmark::cross from which a corner has directions that must agree. Halls and outdoor
-// places find as many truths without this rule, in twice the time.
+// Length of Landmark::cross from which a corner has directions that must agree. Without
+// this rule, 41 instead of 43 of 48 truths of halls and outdoor places were proposed, in twice the time.
 constexpr float kCrossed = 0.3F;
 // Of four times the angle between two crosses: 15°. Of the angle between the ways they face: 90°.
 constexpr float kLeastCrossCos = 0.5F, kLeastFacingCos = 0;

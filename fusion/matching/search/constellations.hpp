@@ -13,7 +13,7 @@ namespace cairn::matching {
 
 /// Settings of constellations().
 struct ConstellationConfig {
-  /// Of each map: the strongest ones. A bound on time; none of the tuned maps had more than 110.
+  /// Of each map: the strongest ones. A bound on time; halls and outdoor places of 80 m had 16 to 83.
   std::size_t landmarks = 300;
   /// Pairs of landmarks of one map, at most: those of the strongest landmarks. A bound on time.
   std::size_t pairs = 6000;
