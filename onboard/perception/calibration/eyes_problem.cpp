@@ -83,7 +83,7 @@ std::optional<SE3> board_pose(const CameraParameters& eye, const Board& board, c
 
 Eigen::Index EyesProblem::unknowns() const {
   const auto eyes = static_cast<Eigen::Index>(now_.eyes.size());
-  return kEyeUnknowns * eyes + (eyes > 1 ? 6 : 0);
+  return (now_.eyes_known ? 0 : kEyeUnknowns * eyes) + (eyes > 1 ? 6 : 0);
 }
 
 double EyesProblem::degrees_of_freedom() const {
@@ -109,7 +109,7 @@ double EyesProblem::cost() const {
   for (const CameraParameters& eye : now_.eyes)
     if (!(eye.fx > 0) || !(eye.fy > 0)) return kNone;
   for (std::size_t view = 0; view < views_.size(); ++view)
-    for (std::size_t eye = 0; eye < now_.eyes.size(); ++eye) sum += cost_of(view, eye);
+    for (std::size_t eye = 0; eye < now_.eyes.size(); ++eye) sum += weight(eye) * cost_of(view, eye);
   return sum;
 }
 
@@ -129,9 +129,10 @@ void EyesProblem::add_view(std::size_t view, std::size_t eye, NormalEquations& e
     const Eigen::Vector2d residual = seen->pixel - views_[view].eyes[eye][i];
     for (Eigen::Index k = 0; k < 2; ++k) {
       shared.setZero();
-      shared.segment<kEyeUnknowns>(kEyeUnknowns * static_cast<Eigen::Index>(eye)) = seen->by_eye.row(k);
+      if (!now_.eyes_known)
+        shared.segment<kEyeUnknowns>(kEyeUnknowns * static_cast<Eigen::Index>(eye)) = seen->by_eye.row(k);
       if (eye == 1) shared.tail<6>() = right.row(k);
-      equations.add(view, shared, pose.row(k), residual[k], 1);
+      equations.add(view, shared, pose.row(k), residual[k], weight(eye));
     }
   }
 }
@@ -145,7 +146,7 @@ NormalEquations EyesProblem::linearise() const {
 
 EyesProblem EyesProblem::moved(const Step& step) const {
   EyesProblem next = *this;
-  for (std::size_t eye = 0; eye < now_.eyes.size(); ++eye)
+  for (std::size_t eye = 0; eye < now_.eyes.size() && !now_.eyes_known; ++eye)
     change(next.now_.eyes[eye], step.shared.segment(kEyeUnknowns * static_cast<Eigen::Index>(eye), kEyeUnknowns));
   if (now_.eyes.size() > 1) next.now_.T_right_left = now_.T_right_left * SE3::exp(Vector6(step.shared.tail<6>()));
   for (std::size_t view = 0; view < views_.size(); ++view)

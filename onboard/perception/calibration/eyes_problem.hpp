@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <optional>
 #include <span>
 #include <vector>
@@ -35,15 +36,18 @@ struct View {
   std::vector<Corners> eyes;
 };
 
-/// Least squares of one or two eyes that see a board in many poses: intrinsics, T_right_left (of the optical frames)
-/// and the poses of the board in the left eye's frame. The residuals are the distances of corners, pixels.
+/// Least squares of one or two eyes that see a board in many poses: intrinsics where they are not known, T_right_left
+/// (of the optical frames) and the poses of the board in the left eye's frame. The residuals are the distances of
+/// corners, in standard deviations of the eye's corners.
 class EyesProblem {
  public:
   /// Values to start at. `views` must outlive it.
   struct Start {
     std::vector<cameras::CameraParameters> eyes;
     SE3 T_right_left;
-    std::vector<SE3> T_left_board;  ///< one a view
+    std::vector<SE3> T_left_board;              ///< one a view
+    bool eyes_known = false;                    ///< the intrinsics stay as they are
+    std::array<double, 2> corner_px{1.0, 1.0};  ///< standard deviation of a corner in each eye, along one axis
   };
   EyesProblem(const Board& board, std::span<const View> views, Start start)
       : board_(board), views_(views), now_(std::move(start)) {}
@@ -60,6 +64,7 @@ class EyesProblem {
 
  private:
   [[nodiscard]] Eigen::Index unknowns() const;
+  [[nodiscard]] double weight(std::size_t eye) const { return 1 / (now_.corner_px[eye] * now_.corner_px[eye]); }
   void add_view(std::size_t view, std::size_t eye, NormalEquations& equations) const;
 
   Board board_;

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include "onboard/perception/calibration/eyes_problem.hpp"
+#include "onboard/perception/calibration/mount_deviations.hpp"
 
 namespace cairn::calibration {
 namespace {
@@ -128,39 +128,6 @@ Error too_few(std::size_t given, const Working& w, const MountCalibration& m) {
                   w.poses.size(), given, kLeastPoses, m.no_plane.size(), m.dropped.size())};
 }
 
-/// Standard deviations of x y z roll pitch yaw, from the covariance of T_optical_points · exp(ξ).
-Vector6 mount_deviations(const SE3& T_points_camera, const Matrix6& sigma) {
-  constexpr double kStep = 1e-6;
-  Matrix6 by;
-  for (Eigen::Index i = 0; i < 6; ++i) {
-    const Vector6 xi = kStep * Vector6::Unit(i);
-    Vector6 change = (SE3::exp(-xi) * T_points_camera).xyz_rpy() - (SE3::exp(xi) * T_points_camera).xyz_rpy();
-    for (Eigen::Index k = 3; k < 6; ++k) change[k] = std::remainder(change[k], 2 * std::numbers::pi);
-    by.col(i) = change / (2 * kStep);
-  }
-  if (sigma.allFinite()) return (by * sigma * by.transpose()).diagonal().cwiseSqrt();
-  Vector6 deviations = Vector6::Zero();  // a free direction leaves free whatever depends on it
-  for (Eigen::Index k = 0; k < 6; ++k)
-    for (Eigen::Index i = 0; i < 6; ++i)
-      if (std::abs(by(k, i)) > 1e-6) deviations[k] = std::hypot(deviations[k], by(k, i) * std::sqrt(sigma(i, i)));
-  return deviations;
-}
-
-void find_faults(MountCalibration& m, const MountLimits& limits) {
-  static constexpr std::array kNames{"x", "y", "z", "roll", "pitch", "yaw"};
-  for (std::size_t i = 0; i < 6; ++i) {
-    const bool place = i < 3;
-    const double deviation = m.deviations[static_cast<Eigen::Index>(i)] / (place ? 1 : kDegree);
-    const double limit = place ? limits.place_m : limits.turn_deg;
-    if (deviation <= limit) continue;
-    const char* unit = place ? "m" : "degrees";
-    m.faults.push_back(
-        std::isfinite(deviation)
-            ? fmt::format("{} is only known to {:.2g} {}, the limit is {:.2g}", kNames[i], deviation, unit, limit)
-            : fmt::format("{} is not determined at all: the boards are all parallel", kNames[i]));
-  }
-}
-
 /// Whether a direction is so free that the mount slides away from the board's points.
 bool is_free(const PlaneProblem& problem) {
   const SE3 T_points_camera = problem.now().T_optical_points.inverse() * cameras::T_camera_optical().inverse();
@@ -190,7 +157,7 @@ void describe(MountCalibration& m, const PlaneProblem& problem, const Working& w
 MountCalibration finished(MountCalibration m, const PlaneProblem& problem, const Working& w, const Board& board,
                           const CameraModel& eye, const MountLimits& limits) {
   describe(m, problem, w, board, eye);
-  find_faults(m, limits);
+  m.faults = mount_faults(m.deviations, limits);
   return m;
 }
 

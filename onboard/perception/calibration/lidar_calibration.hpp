@@ -7,15 +7,10 @@
 
 #include "hal/result.hpp"
 #include "onboard/perception/calibration/coverage.hpp"
+#include "onboard/perception/calibration/mount_deviations.hpp"
 #include "onboard/perception/calibration/plane_problem.hpp"
 
 namespace cairn::calibration {
-
-/// Limits of standard deviations. Beyond them a calibration is refused.
-struct MountLimits {
-  double place_m = 0.02;  ///< along each axis
-  double turn_deg = 0.3;  ///< about each axis
-};
 
 /// Where a camera is in the frame of the LiDAR's points.
 struct MountCalibration {

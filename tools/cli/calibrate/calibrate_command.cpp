@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 
 #include "tools/cli/calibrate/camera_command.hpp"
+#include "tools/cli/calibrate/camera_thermal_command.hpp"
 #include "tools/cli/calibrate/lidar_camera_command.hpp"
 #include "tools/cli/calibrate/stereo_command.hpp"
 
@@ -16,6 +17,7 @@ void add_calibrate_command(app::Commands& commands) {
   add_calibrate_stereo(commands, *sub);
   add_calibrate_lidar_camera(commands, *sub);
   add_calibrate_thermal(commands, *sub);
+  add_calibrate_camera_thermal(commands, *sub);
 }
 
 }  // namespace cairn::cli

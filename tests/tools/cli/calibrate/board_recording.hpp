@@ -26,6 +26,23 @@ inline Packet grey_packet(std::size_t source, std::uint64_t n, Time stamp, const
   return p;
 }
 
+/// The packet of a thermal picture of a board that looks so: what is dark is warm. A count is 0.01 K.
+inline Packet thermal_packet(std::size_t source, std::uint64_t n, Time stamp, const Image& grey) {
+  Packet p;
+  p.source = static_cast<SourceId>(source);
+  p.sequence = n;
+  p.arrival = stamp;
+  const auto width = static_cast<std::uint32_t>(grey.width), height = static_cast<std::uint32_t>(grey.height);
+  camera::append_header(p.bytes,
+                        {static_cast<std::uint32_t>(camera::FrameFormat::kY16), width, height, 2 * width, false});
+  for (const std::byte value : grey.bytes) {
+    const unsigned counts = 30000 + 8 * (255 - std::to_integer<unsigned>(value));
+    p.bytes.push_back(static_cast<std::byte>(counts & 0xFFU));
+    p.bytes.push_back(static_cast<std::byte>(counts >> 8U));
+  }
+  return p;
+}
+
 /// Two pictures of one size beside each other.
 inline Image side_by_side(const Image& left, const Image& right) {
   Image both;

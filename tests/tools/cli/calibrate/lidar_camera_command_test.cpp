@@ -39,23 +39,6 @@ Packet scan_packet(std::uint64_t n, Time stamp, const calibration::Points& point
   return p;
 }
 
-/// A thermal picture of the same board: what is dark is warm. A count is 0.01 K.
-Packet thermal_packet(std::uint64_t n, Time stamp, const Image& grey) {
-  Packet p;
-  p.source = static_cast<SourceId>(0);
-  p.sequence = n;
-  p.arrival = stamp;
-  const auto width = static_cast<std::uint32_t>(grey.width), height = static_cast<std::uint32_t>(grey.height);
-  camera::append_header(p.bytes,
-                        {static_cast<std::uint32_t>(camera::FrameFormat::kY16), width, height, 2 * width, false});
-  for (const std::byte value : grey.bytes) {
-    const unsigned counts = 30000 + 8 * (255 - std::to_integer<unsigned>(value));
-    p.bytes.push_back(static_cast<std::byte>(counts & 0xFFU));
-    p.bytes.push_back(static_cast<std::byte>(counts >> 8U));
-  }
-  return p;
-}
-
 /// The board stands still for half a second in each of `count` poses.
 void write_boards(const std::filesystem::path& folder, std::size_t count, double tilt, bool thermal = false) {
   recording::Recording r;
@@ -78,7 +61,7 @@ void write_boards(const std::filesystem::path& folder, std::size_t count, double
     for (int i = 0; i < 5; ++i) {
       const Time stamp = start + milliseconds(100 * i);
       if (i % 2 == 0) {  // three pictures are enough to tell that it stands still
-        ASSERT_TRUE(writer.write(thermal ? thermal_packet(pictures, stamp, image)
+        ASSERT_TRUE(writer.write(thermal ? test::thermal_packet(0, pictures, stamp, image)
                                          : test::grey_packet(0, pictures, stamp, image)));
         ++pictures;
       }
