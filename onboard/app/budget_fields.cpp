@@ -15,10 +15,10 @@
 namespace cairn::app {
 namespace {
 
-constexpr std::array<std::string_view, 16> kStages{
+constexpr std::array<std::string_view, 17> kStages{
     "odometry", "mapping",      "packet_to_pose", "packet_to_map", "decode",    "stereo",
     "depth",    "depth_update", "label_update",   "segmentation",  "detection", "thermal_detection",
-    "people",   "fusion",       "matching",       "rejoining"};
+    "people",   "fusion",       "matching",       "rejoining",     "mount"};
 // Fields below the others depend on what a run meets.
 constexpr std::array<std::string_view, 7> kFixed{"losses",   "stages", "ticks",      "tasks",
                                                  "odometry", "memory", "allocations"};
@@ -36,8 +36,13 @@ report::RunReport expected_report(const RunOptions& options, Monitor& monitor) {
   const auto chosen = choose_profile(options.config, options.recording);
   const RobotProfile profile = chosen ? chosen->profile : RobotProfile();
   const ScheduleProfile& schedule = profile.schedule;
-  std::vector<scheduler::TaskSpec> tasks = schedule.tasks(
-      {.team = true, .perception = true, .depth = true, .detection = true, .thermal_detection = true, .stereo = true});
+  std::vector<scheduler::TaskSpec> tasks = schedule.tasks({.team = true,
+                                                           .perception = true,
+                                                           .depth = true,
+                                                           .detection = true,
+                                                           .thermal_detection = true,
+                                                           .mount = true,
+                                                           .stereo = true});
   tasks.push_back(schedule.odometry);
   tasks.push_back(schedule.safety);
   tasks.back().name = "reference";

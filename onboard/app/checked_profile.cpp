@@ -6,8 +6,9 @@
 
 #include "hal/files/unfinished_folder.hpp"
 #include "onboard/app/door/devices.hpp"
-#include "onboard/app/perception/open_people.hpp"
-#include "onboard/app/perception/open_perception.hpp"
+#include "onboard/app/sight/open_mounts.hpp"
+#include "onboard/app/sight/open_people.hpp"
+#include "onboard/app/sight/open_perception.hpp"
 #include "onboard/app/team/join_team.hpp"
 #include "onboard/scheduler/task_spec.hpp"
 
@@ -41,6 +42,7 @@ Result<void> check_schedule(const RunOptions& options, const RobotProfile& profi
                                              .depth = profile.depth.exists() && profile.depth.map.rate_hz > 0,
                                              .detection = wants_eye(people::Eye::kVisible, options, profile),
                                              .thermal_detection = wants_eye(people::Eye::kThermal, options, profile),
+                                             .mount = wants_mounts(options, profile),
                                              .stereo = profile.sees_its_way()});
   return scheduler::validate(tasks, static_cast<int>(std::max(1U, std::thread::hardware_concurrency())));
 }

@@ -8,7 +8,7 @@
 #include "hal/monitor.hpp"
 #include "onboard/app/checked_profile.hpp"
 #include "onboard/app/door/devices.hpp"
-#include "onboard/app/perception/open_sight.hpp"
+#include "onboard/app/sight/open_sight.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
 #include "onboard/app/team/join_team.hpp"
 

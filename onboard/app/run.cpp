@@ -6,13 +6,13 @@
 
 #include "onboard/app/checked_profile.hpp"
 #include "onboard/app/commands/serve_commands.hpp"
-#include "onboard/app/perception/open_sight.hpp"
 #include "onboard/app/restart/restart.hpp"
 #include "onboard/app/restart/start_log.hpp"
 #include "onboard/app/restart/state_lock.hpp"
 #include "onboard/app/run_output.hpp"
 #include "onboard/app/runs/live_run.hpp"
 #include "onboard/app/runs/replay_run.hpp"
+#include "onboard/app/sight/open_sight.hpp"
 #include "onboard/app/tasks/robot_tasks.hpp"
 #include "onboard/app/team/join_team.hpp"
 

@@ -11,6 +11,7 @@
 #include "hal/files/sha256.hpp"
 #include "onboard/app/door/door.hpp"
 #include "onboard/app/door/fitted.hpp"
+#include "onboard/app/mount_figures.hpp"
 #include "onboard/app/people_figures.hpp"
 #include "onboard/app/rejoin/joined_track.hpp"
 #include "onboard/app/results_folder.hpp"
@@ -172,6 +173,7 @@ report::RunReport make_report(const RunFacts& facts, const std::vector<TrackPoin
   add_depth(facts.tasks, report);
   add_visual(facts.tasks, report);
   add_people(facts.tasks, report);
+  add_mounts(facts.tasks, report);
   report.monitor = &facts.monitor;
   for (const TrackPoint& p : track) report.trajectory.push_back({p.stamp, p.T_odom_base});
   report.map = report::summarise(facts.tasks.robot.map());

@@ -59,6 +59,13 @@ std::vector<Row> stereo_rows() {
        {},
        safety::Mode::kHold,
        "app/StereoRun.AFrozenCameraIsALostRobot"},
+      {"L36",
+       "a calibrated camera is knocked by 1.2° while the robot drives, nobody is around",
+       "The event camera_moved says by how much it is turned, at most 20 s later. Geometry goes on.",
+       {},
+       {},
+       safety::Mode::kNormal,
+       "mount/MountWatchTest.NoticesAKnockDuringTheDrive"},
   };
 }
 

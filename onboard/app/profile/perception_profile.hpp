@@ -3,6 +3,7 @@
 
 #include "hal/config/config.hpp"
 #include "onboard/perception/labelling/labelling_config.hpp"
+#include "onboard/perception/mount/mount_watch.hpp"
 #include "onboard/perception/networks/config/network_config.hpp"
 #include "onboard/perception/people/people_config.hpp"
 
@@ -13,6 +14,7 @@ struct PerceptionProfile {
   networks::PerceptionConfig networks;
   labelling::LabellingConfig labelling;
   people::PeopleConfig people;
+  mount::MountConfig mount;
 };
 
 void declare(config::Section& section, PerceptionProfile& profile);

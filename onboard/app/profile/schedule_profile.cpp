@@ -14,6 +14,7 @@ void declare(config::Section& s, ScheduleProfile& p) {
   s.group("perception", p.perception, "looks at one picture at a time; its labels are in the map after the deadline");
   s.group("detection", p.detection, "looks for people in one colour picture at a time");
   s.group("thermal_detection", p.thermal_detection, "looks for people in one thermal picture at a time");
+  s.group("mount", p.mount, "compares one picture at a time with the motion: was its camera moved?");
   s.group("depth", p.depth, "turns one depth picture at a time into points for the map");
   s.group("visual_odometry", p.visual_odometry, "of a robot without a LiDAR: locates one stereo picture at a time");
   s.group("stereo", p.stereo, "of a robot without a LiDAR: turns one stereo picture at a time into points for the map");
@@ -51,6 +52,7 @@ std::vector<scheduler::TaskSpec> ScheduleProfile::tasks(const Parts& parts) cons
   if (parts.depth) all.push_back(depth);
   if (parts.detection) all.push_back(detection);
   if (parts.thermal_detection) all.push_back(thermal_detection);
+  if (parts.mount) all.push_back(mount);
   return all;
 }
 

@@ -42,6 +42,8 @@ struct ScheduleProfile {
                                         .soft_ms = 10,
                                         .busy_hz = 5,
                                         .nice = 5};
+  scheduler::TaskSpec mount{
+      .name = "mount", .rate_hz = 50, .phase_ms = 8, .deadline_ms = 400, .soft_ms = 30, .busy_hz = 5, .nice = 5};
   scheduler::TaskSpec depth{
       .name = "depth", .rate_hz = 50, .phase_ms = 5, .deadline_ms = 100, .soft_ms = 10, .busy_hz = 5, .nice = 5};
   scheduler::TaskSpec visual_odometry{.name = "visual_odometry",
@@ -66,6 +68,7 @@ struct ScheduleProfile {
   /// Tasks that not every run has.
   struct Parts {
     bool team = false, perception = false, depth = false, detection = false, thermal_detection = false;
+    bool mount = false;
     bool stereo = false;  ///< both eyes tell the motion, and no LiDAR
   };
   /// All tasks that a live run may have.

@@ -9,6 +9,7 @@
 #include "hal/packet.hpp"
 #include "hal/point_cloud.hpp"
 #include "hal/time.hpp"
+#include "onboard/app/perception/arrived_picture.hpp"
 #include "onboard/robot.hpp"
 #include "onboard/safety/failsafe.hpp"
 
@@ -32,11 +33,6 @@ struct ArrivedMotion {
 struct LineEdge {
   gpio::Line line{};
   Time at{};
-};
-
-/// A picture as it came, not decoded. From receive to who looks at it.
-struct ArrivedPicture {
-  Packet packet;
 };
 
 /// A stereo picture and where it was taken. From visual odometry to who measures its points.

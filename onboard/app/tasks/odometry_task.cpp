@@ -42,6 +42,7 @@ void OdometryTask::locate(const ArrivedScan& arrived, Tick& tick) {
   }
   lost_ = !located || located->lost;
   if (located) watch_wheels(*located);
+  if (!lost_ && located->degenerate_directions == 0) publish_pose(*located, tick);
   if (!located) {
     monitor_.event(arrived.scan.valid.end, "odometry", to_string(located.error()));
   } else if (out == nullptr) {
@@ -59,6 +60,13 @@ void OdometryTask::watch_wheels(const TrackPoint& point) {
   if (wrong && !std::exchange(wheels_wrong_, wrong))
     monitor_.event(point.stamp, "odometry", "the wheels are not believed: their scale is wrong by more than 15 %");
   wheels_wrong_ = wrong;
+}
+
+void OdometryTask::publish_pose(const TrackPoint& point, Tick& tick) {
+  ArrivedPose* out = poses.back(tick);
+  if (out == nullptr) return;
+  *out = {point.stamp, point.T_odom_base.mean, point.twist, point.epoch};
+  poses.push(tick);
 }
 
 /// The safety task hears of changes only.

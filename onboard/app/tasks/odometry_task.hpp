@@ -4,6 +4,7 @@
 #include <functional>
 
 #include "hal/monitor.hpp"
+#include "onboard/app/perception/arrived_pose.hpp"
 #include "onboard/app/profile/robot_profile.hpp"
 #include "onboard/app/streams/pose_teller.hpp"
 #include "onboard/app/tasks/messages.hpp"
@@ -21,6 +22,7 @@ class OdometryTask final : public scheduler::Task {
   scheduler::OutputPort<ArrivedMotion> motions{*this, "motions"};
   scheduler::OutputPort<OdometryNews> status{*this, "status"};
   scheduler::InputPort<DriveState> wheels{*this, "wheels"};
+  scheduler::OutputPort<ArrivedPose> poses{*this, "poses"};  ///< those that scans alone tell
 
   using Progress = std::function<void(Time, std::size_t scans)>;
 
@@ -34,6 +36,7 @@ class OdometryTask final : public scheduler::Task {
 
  private:
   void locate(const ArrivedScan& arrived, scheduler::Tick& tick);
+  void publish_pose(const TrackPoint& point, scheduler::Tick& tick);
   void publish_status(scheduler::Tick& tick);
   void watch_wheels(const TrackPoint& point);
 

@@ -188,8 +188,8 @@ void ReceiveTask::hand_on(const Packet& picture, scheduler::OutputPort<ArrivedPi
 }
 
 ReceiveTask::PicturePorts ReceiveTask::ports_of(recording::SensorKind kind) {
-  if (kind == recording::kCamera) return {&pictures, &watched, &eyes};
-  if (kind == recording::kThermal) return {&thermals};
+  if (kind == recording::kCamera) return {&pictures, &watched, &eyes, &mounted};
+  if (kind == recording::kThermal) return {&thermals, &mounted_thermals};
   if (kind == recording::kDepth) return {&depths};
   return {};
 }

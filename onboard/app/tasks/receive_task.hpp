@@ -37,6 +37,8 @@ class ReceiveTask final : public scheduler::Task {
   scheduler::OutputPort<ArrivedPicture> eyes{*this, "eyes"};          ///< of the colour camera, for visual odometry
   scheduler::OutputPort<GeoFix> fixes{*this, "fixes"};                ///< of a satellite receiver at the LiDAR
   scheduler::InputPort<LineEdge> lines{*this, "lines"};
+  scheduler::OutputPort<ArrivedPicture> mounted{*this, "mounted"};  ///< of the colour camera, for who watches its mount
+  scheduler::OutputPort<ArrivedPicture> mounted_thermals{*this, "mounted_thermals"};  ///< of the thermal one, the same
 
   /// What came in. Of the task's thread, or after the run. Any thread may read the counters.
   struct Figures {
@@ -66,7 +68,7 @@ class ReceiveTask final : public scheduler::Task {
   [[nodiscard]] std::uint64_t missing_packets() const;
 
  private:
-  using PicturePorts = std::array<scheduler::OutputPort<ArrivedPicture>*, 3>;  // null: nowhere
+  using PicturePorts = std::array<scheduler::OutputPort<ArrivedPicture>*, 4>;  // null: nowhere
   struct Sensor {
     scheduler::Feed feed;
     ScanDecoder* decoder;                    // null: its packets are only counted and recorded

@@ -68,6 +68,7 @@ RobotTasks::RobotTasks(std::span<const recording::SourceEntry> sources, const Ro
   if (sight.labels.on()) add_perception(std::move(sight.labels), profile.schedule, options.live(), monitor);
   for (DetectionParts& parts : sight.people.detectors)
     add_detection(std::move(parts), profile.schedule, options.live(), monitor);
+  if (!sight.mounts.empty()) add_mounts(std::move(sight.mounts), profile.schedule, options.live(), monitor);
   if (has_kind(sources, recording::kDepth) && profile.depth.map.rate_hz > 0)
     add_depth(profile, options.live(), monitor);
   if (has_kind(sources, recording::kPeers)) {
@@ -156,6 +157,18 @@ void RobotTasks::add_depth(const RobotProfile& profile, bool live, Monitor& moni
   const std::size_t reserve = live ? 0 : 3 * kWaitingPictures;
   graph.connect(receive.depths, depth->pictures, {.capacity = kWaitingPictures, .reserve = reserve});
   graph.connect(depth->clouds, mapping.clouds, {.capacity = kWaitingPictures, .lag = spec.deadline()});
+}
+
+void RobotTasks::add_mounts(std::vector<MountParts> eyes, const ScheduleProfile& schedule, bool live,
+                            Monitor& monitor) {
+  const scheduler::TaskSpec& spec = schedule.mount;
+  mounts.emplace(
+      std::move(eyes), spec.soft(), [this] { return mapping.shed(); }, monitor);
+  graph.add(spec, *mounts, scheduler::TaskRole::kNewStage);
+  const std::size_t reserve = live ? 0 : 3 * kWaitingPictures;
+  graph.connect(receive.mounted, mounts->pictures, {.capacity = kWaitingPictures, .reserve = reserve});
+  graph.connect(receive.mounted_thermals, mounts->thermals, {.capacity = kWaitingPictures, .reserve = reserve});
+  graph.connect(odometry->poses, mounts->poses, {.capacity = kWaitingNews, .reserve = live ? 0 : kWaitingNews});
 }
 
 /// In virtual time its labels reach mapping when its deadline has passed.

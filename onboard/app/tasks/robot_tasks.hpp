@@ -6,10 +6,11 @@
 #include <span>
 
 #include "hal/workers.hpp"
-#include "onboard/app/perception/open_sight.hpp"
+#include "onboard/app/perception/mount_task.hpp"
 #include "onboard/app/profile/run_options.hpp"
 #include "onboard/app/rejoin/rejoin_task.hpp"
 #include "onboard/app/restart/restart.hpp"
+#include "onboard/app/sight/open_sight.hpp"
 #include "onboard/app/tasks/depth_task.hpp"
 #include "onboard/app/tasks/detection_task.hpp"
 #include "onboard/app/tasks/drive_task.hpp"
@@ -53,6 +54,7 @@ class RobotTasks {
   std::optional<StereoTask> stereo;          ///< with `visual`
   std::optional<PerceptionTask> perception;  ///< none: nothing is labelled
   std::deque<DetectionTask> detections;      ///< one for each camera that looks for people
+  std::optional<MountTask> mounts;           ///< none: no camera's mount is watched
   std::optional<DepthTask> depth;            ///< none: no depth camera, or the map gets no clouds
   std::optional<TeamTasks> team;             ///< none: this robot takes part in no team
 
@@ -72,6 +74,7 @@ class RobotTasks {
   void add_rejoin(const ScheduleProfile& schedule);
   void add_depth(const RobotProfile& profile, bool live, Monitor& monitor);
   void add_detection(DetectionParts parts, const ScheduleProfile& schedule, bool live, Monitor& monitor);
+  void add_mounts(std::vector<MountParts> eyes, const ScheduleProfile& schedule, bool live, Monitor& monitor);
   void add_perception(Perception sight, const ScheduleProfile& schedule, bool live, Monitor& monitor);
 };
 

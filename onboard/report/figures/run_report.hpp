@@ -102,6 +102,21 @@ struct PeopleStats {
   static constexpr std::size_t kMostPaths = 500;      ///< of more people, those who were followed longest
 };
 
+/// How a camera stands to its mount, by what its pictures showed while the robot moved.
+struct MountStats {
+  std::string camera;         ///< id of the source
+  std::string kind;           ///< "colour" or "thermal"
+  std::uint64_t images = 0;   ///< looked at
+  std::uint64_t pairs = 0;    ///< of these, that were compared with an earlier one
+  std::uint64_t passed = 0;   ///< not looked at, because of the rate
+  std::uint64_t shed = 0;     ///< because of overload
+  std::uint64_t refused = 0;  ///< on which nothing could be seen, or without scans around them
+  /// Roll, pitch and yaw of the camera beside its mount, and their standard deviations, in the last 12 s.
+  /// None: the robot moved too little.
+  std::optional<Eigen::Vector3d> turn_deg{}, deviation_deg{};
+  bool moved = false;  ///< an axis was turned too far to be chance
+};
+
 /// One robot of the team, as this one saw it.
 struct PeerStats {
   std::uint64_t tx_bytes = 0, rx_bytes = 0, tiles = 0;
@@ -161,6 +176,7 @@ struct RunReport {
   std::optional<VisualStats> visual_odometry;               ///< of a robot whose motion both eyes tell
   std::optional<DepthStats> depth;                          ///< of a run whose map got clouds
   std::optional<PeopleStats> people;                        ///< of a run that followed people
+  std::vector<MountStats> mounts;                           ///< of the cameras whose mounts were watched
   OdometryStats odometry;
   double peak_rss_mb = 0;
   std::optional<std::uint64_t> control_thread_allocations;  ///< after the warm-up; none without ticks after it

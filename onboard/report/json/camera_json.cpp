@@ -58,4 +58,22 @@ nlohmann::json people_json(const RunReport& report) {
           {"nearest_m", p.nearest_m ? nlohmann::json(*p.nearest_m) : nlohmann::json(nullptr)}};
 }
 
+nlohmann::json mounts_json(const RunReport& report) {
+  const auto three = [](const std::optional<Eigen::Vector3d>& v) {
+    return v ? nlohmann::json({v->x(), v->y(), v->z()}) : nlohmann::json(nullptr);
+  };
+  nlohmann::json all = nlohmann::json::array();
+  for (const MountStats& m : report.mounts)
+    all.push_back({{"camera", m.camera},
+                   {"images", m.images},
+                   {"pairs", m.pairs},
+                   {"passed", m.passed},
+                   {"shed", m.shed},
+                   {"refused", m.refused},
+                   {"turn_deg", three(m.turn_deg)},
+                   {"deviation_deg", three(m.deviation_deg)},
+                   {"moved", m.moved}});
+  return all;
+}
+
 }  // namespace cairn::report

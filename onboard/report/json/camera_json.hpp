@@ -13,5 +13,7 @@ namespace cairn::report {
 [[nodiscard]] nlohmann::json visual_odometry_json(const RunReport& report);
 [[nodiscard]] nlohmann::json depth_json(const RunReport& report);
 [[nodiscard]] nlohmann::json people_json(const RunReport& report);
+/// A list, empty where no mount was watched.
+[[nodiscard]] nlohmann::json mounts_json(const RunReport& report);
 
 }  // namespace cairn::report

@@ -240,6 +240,7 @@ Json to_json(const RunReport& report) {
           {"map", map_json(report)},
           {"labels", labels_json(report)},
           {"people", people_json(report)},
+          {"mounts", mounts_json(report)},
           {"depth", depth_json(report)},
           {"visual_odometry", visual_odometry_json(report)},
           {"memory", {{"peak_rss_mb", report.peak_rss_mb}}},

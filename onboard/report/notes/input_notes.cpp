@@ -42,4 +42,16 @@ void note_inputs(NoteList& notes, const RunReport& report) {
                   "give the drive's scales in the profile, section drive (docs/robot-setup.md)");
 }
 
+void note_mounts(NoteList& notes, const RunReport& report) {
+  for (const MountStats& m : report.mounts) {
+    if (!m.moved || !m.turn_deg) continue;
+    const Eigen::Vector3d& turn = *m.turn_deg;
+    notes.error(
+        fmt::format("The {} camera was moved: it is turned by roll {:.1f}, pitch {:.1f}, yaw {:.1f} degrees from "
+                    "its mount. Its labels and people are beside their places.",
+                    m.kind, turn.x(), turn.y(), turn.z()),
+        "fasten it, and calibrate its mount again (docs/cameras.md); `cairn evaluate projection` checks it");
+  }
+}
+
 }  // namespace cairn::report

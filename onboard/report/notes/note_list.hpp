@@ -26,6 +26,7 @@ class NoteList {
 
 // The parts of notes_of(), by what they look at.
 void note_inputs(NoteList& notes, const RunReport& report);    ///< packets, scans and wheels
+void note_mounts(NoteList& notes, const RunReport& report);    ///< cameras that were moved
 void note_odometry(NoteList& notes, const RunReport& report);  ///< lost scans, and maps that were split
 void note_accuracy(NoteList& notes, const RunReport& report);  ///< against the ground truth
 void note_schedule(NoteList& notes, const RunReport& report);  ///< late, over budget, left out

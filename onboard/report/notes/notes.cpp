@@ -25,6 +25,7 @@ std::vector<Note> notes_of(const RunReport& report) {
     list.error("The results are not complete. This report was written before the maps, which could not be written.",
                "Free space on the disk, then run it again.");
   note_inputs(list, report);
+  note_mounts(list, report);
   note_odometry(list, report);
   note_accuracy(list, report);
   note_schedule(list, report);

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "onboard/report/notes/notes.hpp"
 #include "onboard/report/page/html_sections.hpp"
@@ -50,6 +51,16 @@ std::string note_item(const Note& note) {
   return item + "</li>\n";
 }
 
+/// The axis about which a camera is turned most.
+std::string mount_tile(const MountStats& mount) {
+  Eigen::Index axis = 0;
+  const double most = mount.turn_deg->cwiseAbs().maxCoeff(&axis);
+  static constexpr std::array kAxes{"roll", "pitch", "yaw"};
+  return tile(number(most) + "°", mount.kind + " camera beside its mount",
+              fmt::format("{}, ± {}°", kAxes[static_cast<std::size_t>(axis)], number((*mount.deviation_deg)[axis])),
+              mount.moved ? "bad" : "");
+}
+
 }  // namespace
 
 std::string header(const RunReport& report) {
@@ -85,6 +96,8 @@ std::string tiles(const RunReport& report, const Accuracy& accuracy) {
   if (report.people)
     s += tile(count(report.people->tracks), "people",
               report.people->nearest_m ? "nearest " + length(*report.people->nearest_m) : "nobody was seen");
+  for (const MountStats& mount : report.mounts)
+    if (mount.turn_deg) s += mount_tile(mount);
   s += tile(number(report.peak_rss_mb) + " MiB", "memory at most",
             "map: " + bytes(static_cast<double>(report.map.memory_bytes)));
   return s + "</div>\n";

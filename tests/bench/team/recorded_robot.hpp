@@ -15,7 +15,7 @@
 #include "hal/ports.hpp"
 #include "hal/result.hpp"
 #include "hal/workers.hpp"
-#include "onboard/app/perception/open_stereo.hpp"
+#include "onboard/app/sight/open_stereo.hpp"
 #include "onboard/robot.hpp"
 
 namespace cairn::bench {

@@ -8,6 +8,7 @@
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <optional>
 #include <string>
 
@@ -16,6 +17,7 @@
 #include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/perception/alignment/alignment_score.hpp"
 #include "onboard/perception/labelling/projection.hpp"
+#include "onboard/perception/mount/mount_watch.hpp"
 #include "onboard/report/json/report_json.hpp"
 #include "tools/cli/projection/overlay.hpp"
 #include "tools/cli/projection/paired_pictures.hpp"
@@ -34,6 +36,7 @@ struct ProjectionOptions {
 /// What the command leaves.
 struct ProjectionFigures {
   alignment::AlignmentScore score;
+  mount::MountWatch motion;
   std::size_t pictures = 0, without_scan = 0, unreadable = 0, scans_without_pose = 0, overlays = 0;
 };
 
@@ -83,7 +86,9 @@ Result<ProjectionFigures> compare(const ProjectionOptions& options, const app::R
   auto pairs = PairedPictures::open(options.recording, profile);
   if (!pairs) return pairs.error();
   const SE3 T_base_camera = SE3::from_xyz_rpy(Eigen::Map<const Vector6>(profile.camera.base_xyz_rpy.data()));
-  ProjectionFigures figures{.score = alignment::AlignmentScore(camera, T_base_camera)};
+  ProjectionFigures figures{
+      .score = alignment::AlignmentScore(camera, T_base_camera),
+      .motion = mount::MountWatch(camera, T_base_camera, profile.perception.mount, std::chrono::hours(24))};
   Overlays overlays(options.out, camera, T_base_camera);
   alignment::PictureEdges edges;
   const auto done = (*pairs)->for_each(options.every, [&](const PicturePair& pair) -> Result<void> {
@@ -95,6 +100,7 @@ Result<ProjectionFigures> compare(const ProjectionOptions& options, const app::R
                    fmt::format("{}x{}, not {}x{}: set camera.capture and camera.side_by_side", pair.picture.width,
                                pair.picture.height, camera.width(), camera.height())};
     edges.compute(pair.picture.view());
+    figures.motion.look(pair.picture, pair.T_odom_base, pair.scan.epoch);
     figures.score.add(edges, pair.edges, pair.scan.T_odom_base.inverse() * pair.T_odom_base);
     return options.out.empty() ? Result<void>() : overlays.draw(pair);
   });
@@ -113,6 +119,31 @@ std::optional<bool> verdict(const alignment::AlignmentScore& score) {
   return score.given_mount_is_best();
 }
 
+constexpr double kToDegrees = 180 / std::numbers::pi;
+
+/// How far the camera is turned from its mount, by the robot's motion; null: it moved too little.
+report::Json by_motion(const mount::MountWatch& watch) {
+  const auto& e = watch.estimate();
+  if (!e) return nullptr;
+  report::Json json{{"pairs", watch.pairs()}};
+  for (Eigen::Index axis = 0; axis < 3; ++axis) {
+    json["turn_deg"].push_back(kToDegrees * e->turn_rad[axis]);
+    json["deviation_deg"].push_back(kToDegrees * e->deviation_rad(axis));
+  }
+  return json;
+}
+
+std::string motion_text(const mount::MountWatch& watch) {
+  const auto& e = watch.estimate();
+  if (!e) return "by motion: too little was seen; eight seconds of driving and turning tell how the camera is turned\n";
+  const Eigen::Vector3d turn = kToDegrees * e->turn_rad;
+  return fmt::format(
+      "by motion: turned by roll {:.2f} ± {:.2f}, pitch {:.2f} ± {:.2f}, yaw {:.2f} ± {:.2f} degrees "
+      "from the given mount ({} pairs of pictures)\n",
+      turn.x(), kToDegrees * e->deviation_rad(0), turn.y(), kToDegrees * e->deviation_rad(1), turn.z(),
+      kToDegrees * e->deviation_rad(2), watch.pairs());
+}
+
 report::Json to_json(const ProjectionOptions& options, const ProjectionFigures& f) {
   report::Json json{{"recording", options.recording.string()},
                     {"pictures", f.pictures},
@@ -126,6 +157,7 @@ report::Json to_json(const ProjectionOptions& options, const ProjectionFigures& 
         {{"mount", d.mount}, {"median_px", d.median_px}, {"within_2px", d.within_2px}, {"closeness", d.closeness}});
   const auto best = verdict(f.score);
   json["given_mount_is_best"] = best ? report::Json(*best) : report::Json(nullptr);
+  json["by_motion"] = by_motion(f.motion);
   json["overlays"] = f.overlays;
   return json;
 }
@@ -143,7 +175,8 @@ void print_figures(const ProjectionFigures& f) {
   const auto best = verdict(f.score);
   std::cout << (!best   ? "too few edges to judge the mount\n"
                 : *best ? "the given mount fits best\n"
-                        : "a turned mount fits better: check intrinsics, T_base_camera and T_base_lidar\n");
+                        : "a turned mount fits better: check intrinsics, T_base_camera and T_base_lidar\n")
+            << motion_text(f.motion);
 }
 
 int evaluate_projection(const ProjectionOptions& options) {

@@ -53,6 +53,16 @@ TEST(ReportJson, HasEveryPromisedField) {
   EXPECT_EQ(json["output_sha256"].get<std::string>().size(), 64U);
 }
 
+TEST(ReportJson, OfAMountThatWasNotJudgedTheTurnIsNull) {
+  auto run = sample_run(10);
+  run->report.mounts = {{.camera = "camera", .kind = "colour", .images = 7}};
+  const auto mount = parsed(run->report)["mounts"][0];
+  EXPECT_EQ(mount["camera"], "camera");
+  EXPECT_EQ(mount["images"], 7);
+  EXPECT_TRUE(mount["turn_deg"].is_null() && mount["deviation_deg"].is_null());
+  EXPECT_EQ(mount["moved"], false);
+}
+
 TEST(ReportJson, TellsWhatTheRunTold) {
   const auto run = sample_run(100);
   const auto json = parsed(run->report);

@@ -112,6 +112,20 @@ TEST(Notes, AMapThatWasFoundAgainIsNoPartMore) {
   EXPECT_EQ(joined[0]["T_map_earlier"][0], 1);
 }
 
+TEST(Notes, ACameraThatWasMovedIsAnErrorThatSaysByHowMuch) {
+  RunReport report = uneventful();
+  report.mounts.push_back({.camera = "camera",
+                           .kind = "colour",
+                           .pairs = 50,
+                           .turn_deg = Eigen::Vector3d(0.02, 1.24, -0.1),
+                           .deviation_deg = Eigen::Vector3d(0.1, 0.05, 0.05)});
+  EXPECT_THAT(lines(report), ElementsAre());
+  EXPECT_EQ(to_json(report)["mounts"][0]["turn_deg"][1], 1.24);
+  report.mounts[0].moved = true;
+  EXPECT_THAT(lines(report), ElementsAre(HasSubstr("error: The colour camera was moved: it is turned by roll 0.0, "
+                                                   "pitch 1.2, yaw -0.1 degrees")));
+}
+
 TEST(Notes, ACovarianceThatHoldsTooLittleIsAnErrorOfAllItsAxes) {
   auto run = sample_run(300);
   run->report.peers.clear(), run->report.odometry = {}, run->report.lost_packets = 0, run->report.monitor = nullptr;

@@ -97,6 +97,7 @@ TEST_F(Projection, TheTrueMountIsBestAndPicturesShowIt) {
   EXPECT_EQ(json["mounts"].size(), 7U);
   EXPECT_GT(json["mounts"][0]["within_2px"], 0.8);
   EXPECT_EQ(json["overlays"], 2);
+  EXPECT_TRUE(json["by_motion"].is_null()) << "the robot stands";
   const auto png = read_file(folder_ / "pictures/overlay_00001.png", 1U << 24U);
   ASSERT_TRUE(png);
   EXPECT_EQ(camera::parse_picture_header(*png)->width, kWidth);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/app/perception/open_perception.hpp"
+#include "onboard/app/sight/open_perception.hpp"
 
 #include <Eigen/Core>
 #include <memory>

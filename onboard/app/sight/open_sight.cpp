@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/app/perception/open_sight.hpp"
+#include "onboard/app/sight/open_sight.hpp"
 
 #include <utility>
 
@@ -21,7 +21,9 @@ Result<Sight> open_sight(const RunOptions& options, const RobotProfile& profile,
     if (!watch) return watch.error();
     people = std::move(*watch);
   }
-  return Sight{std::move(*labels), std::move(people), std::move(*eyes)};
+  auto mounts = open_mounts(options, profile, sources);
+  if (!mounts) return mounts.error();
+  return Sight{std::move(*labels), std::move(people), std::move(*mounts), std::move(*eyes)};
 }
 
 }  // namespace cairn::app

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "onboard/app/perception/open_people.hpp"
+#include "onboard/app/sight/open_people.hpp"
 
 #include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
 
+#include "onboard/app/sight/eye_profile.hpp"
 #include "onboard/perception/networks/open_networks.hpp"
 #include "onboard/perception/networks/recorded/box_file.hpp"
 
@@ -14,35 +15,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using people::Eye;
-
-/// What the profile says of one eye.
-struct EyeProfile {
-  const char* name;  ///< section of the profile
-  recording::SensorKind kind;
-  const networks::NetworkConfig& network;
-  const cameras::CameraIntrinsics& intrinsics;
-  const std::vector<double>& base_xyz_rpy;
-  PictureSize size;
-  bool exists;
-};
-
-EyeProfile profile_of(Eye eye, const RobotProfile& p) {
-  if (eye == Eye::kThermal)
-    return {"thermal",
-            recording::kThermal,
-            p.perception.networks.thermal_detection,
-            p.thermal.intrinsics,
-            p.thermal.base_xyz_rpy,
-            picture_size(p.thermal),
-            p.thermal.exists()};
-  return {"camera",
-          recording::kCamera,
-          p.perception.networks.detection,
-          p.camera.intrinsics,
-          p.camera.base_xyz_rpy,
-          picture_size(p.camera),
-          p.camera.exists()};
-}
 
 void nobody_seen(const EyeProfile& eye, const std::string& why, Monitor& monitor) {
   monitor.event({}, "people", std::string("no people are seen by ") + eye.name + ": " + why);
@@ -68,17 +40,6 @@ Result<std::unique_ptr<Detector>> open_network(const EyeProfile& eye, const fs::
   if (opened || opened.error().code != Errc::kNotFound) return opened;
   nobody_seen(eye, to_string(opened.error()), monitor);
   return std::unique_ptr<Detector>();
-}
-
-Result<std::unique_ptr<PictureReader>> open_reader(Eye eye, const RobotProfile& profile, const PictureForm& form) {
-  if (eye == Eye::kThermal) {
-    auto camera = thermal::Thermal::create(profile.thermal.driver);
-    if (!camera) return at("thermal", camera.error());
-    return std::unique_ptr<PictureReader>(std::make_unique<ThermalReader>(std::move(*camera), form));
-  }
-  auto camera = camera::Camera::create(profile.camera.driver);
-  if (!camera) return at("camera", camera.error());
-  return std::unique_ptr<PictureReader>(std::make_unique<ColourReader>(std::move(*camera), form));
 }
 
 /// Adds one eye to `watch`, where everything is there that it needs.

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "drivers/recording/formats/recording.hpp"
+#include "hal/result.hpp"
+#include "onboard/app/perception/mount_task.hpp"
+#include "onboard/app/profile/robot_profile.hpp"
+#include "onboard/app/profile/run_options.hpp"
+
+namespace cairn::app {
+
+/// Whether a run with these options may watch mounts, if it has pictures.
+[[nodiscard]] bool wants_mounts(const RunOptions& options, const RobotProfile& profile);
+
+/// The cameras among `sources` whose mounts are watched: those that are calibrated. None with `--networks off`, or
+/// with perception.mount.rate_hz 0. Error kInvalidConfig: intrinsics that are no lens.
+[[nodiscard]] Result<std::vector<MountParts>> open_mounts(const RunOptions& options, const RobotProfile& profile,
+                                                          std::span<const recording::SourceEntry> sources);
+
+}  // namespace cairn::app
