@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <functional>
 #include <memory>
 #include <optional>
 
@@ -27,26 +26,6 @@ std::optional<SourceId> camera_of(const recording::Recording& recording, recordi
   for (std::size_t i = 0; i < recording.sources.size(); ++i)
     if (recording.sources[i].kind == kind) return static_cast<SourceId>(i);
   return {};
-}
-
-/// Null: there is nothing to look at in this packet.
-using Decode = std::function<Result<const Image*>(const Packet&)>;
-
-Result<Decode> decoder_of_pictures(const app::RobotProfile& profile, bool thermal) {
-  if (!thermal) {
-    auto camera = camera::Camera::create(profile.camera.driver);
-    if (!camera) return camera.error();
-    return Decode(
-        [eye = std::make_shared<camera::Camera>(*std::move(camera))](const Packet& p) { return eye->decode(p); });
-  }
-  auto camera = thermal::Thermal::create(profile.thermal.driver);
-  if (!camera) return camera.error();
-  return Decode(
-      [eye = std::make_shared<thermal::Thermal>(*std::move(camera))](const Packet& p) -> Result<const Image*> {
-        const auto seen = eye->decode(p);
-        if (!seen) return seen.error();
-        return *seen == nullptr || (*seen)->correcting ? nullptr : &(*seen)->stretched;
-      });
 }
 
 /// Looks at the pictures of one recording.
@@ -78,7 +57,7 @@ class Search {
   }
 
  private:
-  Result<void> read(recording::RecordingReader& reader, const Decode& decode, SourceId source) {
+  Result<void> read(recording::RecordingReader& reader, const PictureDecoder& decode, SourceId source) {
     int skipped = search_.every - 1;
     for (Packet packet;;) {
       const auto poll = reader.next(packet, {});
@@ -146,6 +125,23 @@ Error not_found(const BoardSearch& search, const BoardsFound& found) {
 }
 
 }  // namespace
+
+Result<PictureDecoder> decoder_of_pictures(const app::RobotProfile& profile, bool thermal) {
+  if (!thermal) {
+    auto camera = camera::Camera::create(profile.camera.driver);
+    if (!camera) return camera.error();
+    return PictureDecoder(
+        [eye = std::make_shared<camera::Camera>(*std::move(camera))](const Packet& p) { return eye->decode(p); });
+  }
+  auto camera = thermal::Thermal::create(profile.thermal.driver);
+  if (!camera) return camera.error();
+  return PictureDecoder(
+      [eye = std::make_shared<thermal::Thermal>(*std::move(camera))](const Packet& p) -> Result<const Image*> {
+        const auto seen = eye->decode(p);
+        if (!seen) return seen.error();
+        return *seen == nullptr || (*seen)->correcting ? nullptr : &(*seen)->stretched;
+      });
+}
 
 std::vector<Corners> BoardsFound::corners(std::size_t eye) const {
   std::vector<Corners> all;

@@ -3,11 +3,15 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
+#include "hal/image.hpp"
+#include "hal/packet.hpp"
 #include "hal/result.hpp"
 #include "hal/time.hpp"
+#include "onboard/app/profile/robot_profile.hpp"
 #include "onboard/perception/calibration/board.hpp"
 
 namespace cairn::cli {
@@ -24,6 +28,12 @@ struct BoardSearch {
   bool thermal = false;   ///< the thermal camera's pictures, stretched to 8 bits; it has one eye
   bool inverted = false;  ///< squares that are dark on the board are bright in the pictures
 };
+
+/// From a camera's packet to its picture; null: there is nothing to look at in it.
+using PictureDecoder = std::function<Result<const Image*>(const Packet&)>;
+/// That of the colour camera, or of the thermal one, whose pictures are stretched to 8 bits. Errors: those of the
+/// driver's settings.
+[[nodiscard]] Result<PictureDecoder> decoder_of_pictures(const app::RobotProfile& profile, bool thermal);
 
 /// The board in one picture.
 struct SeenBoard {

@@ -5,11 +5,13 @@
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 
 #include "drivers/recording/new_recording.hpp"
@@ -19,6 +21,7 @@
 #include "onboard/app/live/stop_signal.hpp"
 #include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/report/json/report_json.hpp"
+#include "tools/cli/calibrate/view_guide.hpp"
 
 namespace cairn::cli {
 namespace {
@@ -32,6 +35,8 @@ struct RecordArguments {
   fs::path config, out;
   std::optional<double> seconds;
   bool overwrite = false, json = false;
+  std::string board;  ///< empty: nobody is guided
+  bool thermal = false, inverted = false;
 };
 
 Recording describe(const RecordArguments& options, const app::RobotProfile& profile, const Clock& clock) {
@@ -120,12 +125,51 @@ report::Json summary(const RecordArguments& options, const std::vector<app::Devi
           {"sensors", sensors(devices, writer)}};
 }
 
+/// Who tells which views of a board are missing, and what it looks at.
+struct Guidance {
+  ViewGuide guide;
+  SourceId camera{};
+  PictureDecoder decode;
+  bool side_by_side = false;
+};
+
+/// Null: nobody is guided. Errors kInvalidConfig: no board, or the profile has no such camera.
+Result<std::unique_ptr<Guidance>> make_guidance(const RecordArguments& options, const app::RobotProfile& profile) {
+  if (options.board.empty() && (options.thermal || options.inverted))
+    return Error{Errc::kInvalidConfig, "--thermal and --inverted are of --board", {}, {}, "name the board, too: 9x6"};
+  if (options.board.empty()) return std::unique_ptr<Guidance>();
+  constexpr double kAnySquare_m = 0.03;  // the tilt of a board does not depend on its size
+  const auto board = calibration::parse_board(options.board, kAnySquare_m);
+  if (!board) return board.error();
+  const auto sources = app::devices_of(profile);
+  const auto kind = options.thermal ? recording::kThermal : recording::kCamera;
+  const auto camera = std::ranges::find(sources, kind, &recording::SourceEntry::kind);
+  if (camera == sources.end())
+    return Error{
+        Errc::kInvalidConfig,
+        "--board needs a camera",
+        options.config.string(),
+        {},
+        options.thermal ? "name thermal.capture.device" : "name camera.capture.device; --thermal: the other one"};
+  auto decoder = decoder_of_pictures(profile, options.thermal);
+  if (!decoder) return decoder.error();
+  return std::make_unique<Guidance>(Guidance{.guide = ViewGuide(*board, options.inverted),
+                                             .camera = static_cast<SourceId>(camera - sources.begin()),
+                                             .decode = *std::move(decoder),
+                                             .side_by_side = !options.thermal && profile.camera.driver.side_by_side});
+}
+
 Result<RecordReport> record_all(const RecordArguments& options, const std::vector<app::Device>& devices,
-                                const Clock& clock, RecordingWriter& writer) {
+                                const Clock& clock, RecordingWriter& writer, Guidance* guidance) {
   std::vector<Source*> sources;
   for (const app::Device& device : devices) sources.push_back(device.source.get());
   app::LiveSources source(std::move(sources), clock);
-  auto recorded = recording::record(source, clock, writer, record_options(options, writer));
+  std::optional<GuidedSource> guided;
+  if (guidance != nullptr)
+    guided.emplace(source, guidance->camera, guidance->decode, guidance->side_by_side, guidance->guide,
+                   [guidance] { std::fprintf(stderr, "\r%s\n", guidance->guide.text().c_str()); });
+  Source& all = guided ? static_cast<Source&>(*guided) : source;
+  auto recorded = recording::record(all, clock, writer, record_options(options, writer));
   if (::isatty(STDERR_FILENO) != 0) std::fputc('\n', stderr);
   return recorded;
 }
@@ -141,6 +185,8 @@ int record(const RecordArguments& options) {
   app::catch_stop_signals();  // before the first file: until the first packet is read, seconds may pass
   const auto profile = app::load_profile(options.config);
   if (!profile) return app::fail(profile.error());
+  const auto guidance = make_guidance(options, *profile);
+  if (!guidance) return app::fail(guidance.error());
   const LiveClock clock;
   const auto devices = app::open_devices_of(*profile, clock);
   if (!devices) return app::fail(devices.error());
@@ -158,9 +204,11 @@ int record(const RecordArguments& options) {
   if (!writer) return app::fail(writer.error());
   if (const auto kept = app::keep_profile(place->folder(), *profile); !kept) return app::fail(kept.error());
 
-  const auto recorded = record_all(options, *devices, clock, *writer);
+  const auto recorded = record_all(options, *devices, clock, *writer, guidance->get());
   if (!recorded) return fail_and_keep(*place, recorded.error());
-  const report::Json json = summary(options, *devices, *writer, *recorded);
+  report::Json json = summary(options, *devices, *writer, *recorded);
+  if (const Guidance* g = guidance->get())
+    json["board"] = {{"views", g->guide.views()}, {"missing", g->guide.missing()}};
   description.notes = "recorded live; sensors: " + json["sensors"].dump();
   if (const auto saved = recording::save_recording(place->folder(), description); !saved)
     return fail_and_keep(*place, saved.error());
@@ -168,7 +216,7 @@ int record(const RecordArguments& options) {
   if (options.json)
     app::print(json);
   else
-    std::cout << as_table(options, json["sensors"], *recorded);
+    std::cout << as_table(options, json["sensors"], *recorded) << (*guidance ? (*guidance)->guide.text() + "\n" : "");
   return verdict(options, json["sensors"]);
 }
 
@@ -181,6 +229,11 @@ void add_record_command(app::Commands& commands) {
   sub->add_option("--out", o->out, "folder of the new recording")->required();
   sub->add_option("--seconds", o->seconds, "length of the recording, s; without it, until SIGINT or SIGTERM")
       ->check(app::above_zero);
+  sub->add_option(
+      "--board", o->board,
+      "inner corners of a checkerboard, such as 9x6: say which of its views are missing for `cairn calibrate`");
+  sub->add_flag("--thermal", o->thermal, "the thermal camera sees the board; default: the colour camera");
+  sub->add_flag("--inverted", o->inverted, "squares that are dark on the board are bright in the pictures");
   sub->add_flag("--overwrite", o->overwrite, "replace the recording in --out");
   sub->add_flag("--json", o->json, "one JSON object on stdout");
   sub->callback([&commands, o] { commands.job = [o] { return record(*o); }; });

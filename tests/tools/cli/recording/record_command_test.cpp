@@ -75,6 +75,17 @@ TEST(RecordCommand, OverwritingWithASilentSensorLeavesNoOldBytes) {
   EXPECT_FALSE(std::filesystem::exists(folder / "r.unfinished"));
 }
 
+TEST(RecordCommand, ABoardNeedsACamera) {
+  const TemporaryFolder folder;
+  const Outcome o = record({"--config", quiet_profile(folder), "--out", folder / "r", "--board", "9x6"});
+  EXPECT_EQ(o.exit_code, app::kWrongArguments);
+  EXPECT_THAT(o.err, HasSubstr("camera.capture.device"));
+  EXPECT_FALSE(std::filesystem::exists(folder / "r"));
+  const Outcome bare = record({"--config", quiet_profile(folder), "--out", folder / "r", "--inverted"});
+  EXPECT_EQ(bare.exit_code, app::kWrongArguments);
+  EXPECT_THAT(bare.err, HasSubstr("--board"));
+}
+
 TEST(RecordCommand, AFaultyProfileIsAWrongArgument) {
   const TemporaryFolder folder;
   std::ofstream(folder / "robot.yaml") << "lidar: {modle: VLP-16}\n";
