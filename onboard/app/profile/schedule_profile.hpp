@@ -42,8 +42,7 @@ struct ScheduleProfile {
                                         .soft_ms = 10,
                                         .busy_hz = 5,
                                         .nice = 5};
-  scheduler::TaskSpec mount{
-      .name = "mount", .rate_hz = 50, .phase_ms = 8, .deadline_ms = 400, .soft_ms = 30, .busy_hz = 5, .nice = 5};
+  scheduler::TaskSpec mount{.name = "mount", .rate_hz = 50, .phase_ms = 8, .deadline_ms = 400, .nice = 5};
   scheduler::TaskSpec depth{
       .name = "depth", .rate_hz = 50, .phase_ms = 5, .deadline_ms = 100, .soft_ms = 10, .busy_hz = 5, .nice = 5};
   scheduler::TaskSpec visual_odometry{.name = "visual_odometry",
