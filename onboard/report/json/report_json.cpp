@@ -185,6 +185,15 @@ Json map_json(const RunReport& report) {
           {"joined", joined}};
 }
 
+Json odometry_json(const OdometryStats& odometry) {
+  return {{"degenerate_scans", odometry.degenerate_scans},
+          {"wheel_scans", odometry.wheel_scans},
+          {"wheels_wrong_scans", odometry.wheels_wrong_scans},
+          {"lost_scans", odometry.lost_scans},
+          {"lost_s", odometry.lost_s},
+          {"mean_iterations", or_null(odometry.mean_iterations)}};
+}
+
 }  // namespace
 
 Json to_json(const TrajectoryError& e) {
@@ -229,13 +238,7 @@ Json to_json(const RunReport& report) {
           {"mode", report.mode},
           {"mode_cause", report.mode_cause},
           {"shed", shed_json(report)},
-          {"odometry",
-           {{"degenerate_scans", report.odometry.degenerate_scans},
-            {"wheel_scans", report.odometry.wheel_scans},
-            {"wheels_wrong_scans", report.odometry.wheels_wrong_scans},
-            {"lost_scans", report.odometry.lost_scans},
-            {"lost_s", report.odometry.lost_s},
-            {"mean_iterations", or_null(report.odometry.mean_iterations)}}},
+          {"odometry", odometry_json(report.odometry)},
           {"ground_truth", ground_truth_json(report)},
           {"map", map_json(report)},
           {"labels", labels_json(report)},
