@@ -80,10 +80,11 @@ class Played final : public Source {
 };
 
 TEST(GuidedSource, HandsOnEverythingAndLooksTwiceASecond) {
-  const Image first = seen({0, 0, 0.35}, {0.4, 0, 0}), second = seen({0, 0, 0.35}, {-0.4, 0, 0});
+  const Image first = seen({0, 0, 0.35}, {0.4, 0, 0}), second = seen({0, 0, 0.35}, {-0.4, 0, 0}),
+              early = seen({0, 0, 0.35}, {0, 0.4, 0});
   const auto at_ms = [](int ms) { return Time(std::chrono::milliseconds(ms)); };
-  Played source({test::grey_packet(0, 0, at_ms(1000), first), test::grey_packet(1, 0, at_ms(1010), second),
-                 test::grey_packet(0, 1, at_ms(1200), second), test::grey_packet(0, 2, at_ms(1600), second)});
+  Played source({test::grey_packet(0, 0, at_ms(1000), first), test::grey_packet(1, 0, at_ms(1010), early),
+                 test::grey_packet(0, 1, at_ms(1200), early), test::grey_packet(0, 2, at_ms(1600), second)});
   ViewGuide guide(board_test::kBoard, false);
   auto eye = std::make_shared<camera::Camera>(camera::Camera::create({}).value());
   std::vector<std::size_t> told;
