@@ -12,12 +12,20 @@ namespace cairn::app {
 
 using people::Eye;
 
+namespace {
+
+void not_watched(const EyeProfile& eye, const Error& why, Monitor& monitor) {
+  monitor.event({}, "mount", std::string("the mount of ") + eye.name + " is not watched: " + to_string(why));
+}
+
+}  // namespace
+
 bool wants_mounts(const RunOptions& options, const RobotProfile& profile) {
   return options.networks != NetworkUse::kOff && profile.perception.mount.rate_hz > 0 && !profile.sees_its_way();
 }
 
-Result<std::vector<MountParts>> open_mounts(const RunOptions& options, const RobotProfile& profile,
-                                            std::span<const recording::SourceEntry> sources) {
+std::vector<MountParts> open_mounts(const RunOptions& options, const RobotProfile& profile,
+                                    std::span<const recording::SourceEntry> sources, Monitor& monitor) {
   std::vector<MountParts> parts;
   if (!wants_mounts(options, profile)) return parts;
   for (const Eye which : {Eye::kVisible, Eye::kThermal}) {
@@ -25,10 +33,16 @@ Result<std::vector<MountParts>> open_mounts(const RunOptions& options, const Rob
     const auto source = std::ranges::find(sources, eye.kind, &recording::SourceEntry::kind);
     if (source == sources.end() || !eye.intrinsics.calibrated()) continue;
     const auto model = eye.intrinsics.model(eye.size.width, eye.size.height);
-    if (!model) return at(std::string(eye.name) + ".intrinsics", model.error());
+    if (!model) {
+      not_watched(eye, at(std::string(eye.name) + ".intrinsics", model.error()), monitor);
+      continue;
+    }
     const bool side_by_side = which == Eye::kVisible && profile.camera.driver.side_by_side;
     auto reader = open_reader(which, profile, {model->width(), model->height(), side_by_side});
-    if (!reader) return reader.error();
+    if (!reader) {
+      not_watched(eye, reader.error(), monitor);
+      continue;
+    }
     const SE3 T_base_camera = SE3::from_xyz_rpy(Eigen::Map<const Vector6>(eye.base_xyz_rpy.data()));
     parts.push_back({.eye = which,
                      .source = source->id,

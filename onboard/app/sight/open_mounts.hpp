@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "drivers/recording/formats/recording.hpp"
-#include "hal/result.hpp"
+#include "hal/monitor.hpp"
 #include "onboard/app/perception/mount_task.hpp"
 #include "onboard/app/profile/robot_profile.hpp"
 #include "onboard/app/profile/run_options.hpp"
@@ -16,8 +16,8 @@ namespace cairn::app {
 [[nodiscard]] bool wants_mounts(const RunOptions& options, const RobotProfile& profile);
 
 /// The cameras among `sources` whose mounts are watched: those that are calibrated. None with `--networks off`, or
-/// with perception.mount.rate_hz 0. Error kInvalidConfig: intrinsics that are no lens.
-[[nodiscard]] Result<std::vector<MountParts>> open_mounts(const RunOptions& options, const RobotProfile& profile,
-                                                          std::span<const recording::SourceEntry> sources);
+/// with perception.mount.rate_hz 0. One whose intrinsics do not fit its pictures is an event, and is not watched.
+[[nodiscard]] std::vector<MountParts> open_mounts(const RunOptions& options, const RobotProfile& profile,
+                                                  std::span<const recording::SourceEntry> sources, Monitor& monitor);
 
 }  // namespace cairn::app

@@ -21,9 +21,8 @@ Result<Sight> open_sight(const RunOptions& options, const RobotProfile& profile,
     if (!watch) return watch.error();
     people = std::move(*watch);
   }
-  auto mounts = open_mounts(options, profile, sources);
-  if (!mounts) return mounts.error();
-  return Sight{std::move(*labels), std::move(people), std::move(*mounts), std::move(*eyes)};
+  return Sight{std::move(*labels), std::move(people), open_mounts(options, profile, sources, monitor),
+               std::move(*eyes)};
 }
 
 }  // namespace cairn::app

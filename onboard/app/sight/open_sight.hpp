@@ -21,8 +21,7 @@ struct Sight {
   std::optional<StereoEyes> eyes{};  ///< none: a LiDAR tells the motion
 };
 
-/// Opens what the profile and the options ask for. Errors: those of open_stereo(), open_perception(),
-/// open_people() and open_mounts().
+/// Opens what the profile and the options ask for. Errors: those of open_stereo(), open_perception() and open_people().
 [[nodiscard]] Result<Sight> open_sight(const RunOptions& options, const RobotProfile& profile,
                                        const std::filesystem::path& profile_file,
                                        std::span<const recording::SourceEntry> sources, Monitor& monitor);
