@@ -31,6 +31,10 @@ bool has_kind(std::span<const recording::SourceEntry> sources, recording::Sensor
   return std::ranges::find(sources, kind, &recording::SourceEntry::kind) != sources.end();
 }
 
+bool has_lidar(std::span<const recording::SourceEntry> sources) {
+  return has_kind(sources, recording::kVelodyne) || has_kind(sources, recording::kScans);
+}
+
 std::optional<safety::Watched> watched_as(recording::SensorKind kind) {
   return recording::row_of(kind, kWatchedAs).watched;
 }

@@ -11,6 +11,8 @@
 namespace cairn::app {
 
 [[nodiscard]] bool has_kind(std::span<const recording::SourceEntry> sources, recording::SensorKind kind);
+/// Whether scans come in: as a LiDAR's packets, or as files.
+[[nodiscard]] bool has_lidar(std::span<const recording::SourceEntry> sources);
 
 /// As what the failsafe watches a sensor for silence; none: it is not watched.
 [[nodiscard]] std::optional<safety::Watched> watched_as(recording::SensorKind kind);

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "onboard/app/door/fitted.hpp"
 #include "onboard/app/sight/eye_profile.hpp"
 
 namespace cairn::app {
@@ -27,7 +28,7 @@ bool wants_mounts(const RunOptions& options, const RobotProfile& profile) {
 std::vector<MountParts> open_mounts(const RunOptions& options, const RobotProfile& profile,
                                     std::span<const recording::SourceEntry> sources, Monitor& monitor) {
   std::vector<MountParts> parts;
-  if (!wants_mounts(options, profile)) return parts;
+  if (!wants_mounts(options, profile) || !has_lidar(sources)) return parts;
   for (const Eye which : {Eye::kVisible, Eye::kThermal}) {
     const EyeProfile eye = profile_of(which, profile);
     const auto source = std::ranges::find(sources, eye.kind, &recording::SourceEntry::kind);

@@ -16,7 +16,8 @@ namespace cairn::app {
 [[nodiscard]] bool wants_mounts(const RunOptions& options, const RobotProfile& profile);
 
 /// The cameras among `sources` whose mounts are watched: those that are calibrated. None with `--networks off`, or
-/// with perception.mount.rate_hz 0. One whose intrinsics do not fit its pictures is an event, and is not watched.
+/// with perception.mount.rate_hz 0, or without a LiDAR. One whose intrinsics do not fit its pictures is an event, and
+/// is not watched.
 [[nodiscard]] std::vector<MountParts> open_mounts(const RunOptions& options, const RobotProfile& profile,
                                                   std::span<const recording::SourceEntry> sources, Monitor& monitor);
 

@@ -21,8 +21,7 @@ Error unfit(std::string remedy) {
 
 Result<std::optional<StereoEyes>> open_stereo(const RobotProfile& profile,
                                               std::span<const recording::SourceEntry> sources) {
-  const bool lidar = has_kind(sources, recording::kVelodyne) || has_kind(sources, recording::kScans);
-  if (lidar || !has_kind(sources, recording::kCamera) || profile.stereo.odometry == "never")
+  if (has_lidar(sources) || !has_kind(sources, recording::kCamera) || profile.stereo.odometry == "never")
     return std::optional<StereoEyes>();
   const CameraProfile& eyes = profile.camera;
   if (!eyes.driver.side_by_side) return unfit("it has one eye: camera.side_by_side is false");

@@ -15,7 +15,8 @@ class OpenMounts : public ::testing::Test {
     profile_.camera.intrinsics.fx = profile_.camera.intrinsics.fy = 190;
     profile_.camera.intrinsics.cx = 168;
     profile_.camera.intrinsics.cy = 120;
-    sources_ = {{"camera", recording::kCamera, "camera/data.csv", "camera", ""}};
+    sources_ = {{"lidar", recording::kVelodyne, "lidar.pcap", "lidar", "VLP-16"},
+                {"camera", recording::kCamera, "camera/data.csv", "camera", ""}};
   }
   std::vector<MountParts> open() { return open_mounts(options_, profile_, sources_, monitor_); }
 
@@ -45,6 +46,13 @@ TEST_F(OpenMounts, ACameraWithoutIntrinsicsIsNotWatched) {
   profile_.camera.intrinsics.fx = profile_.camera.intrinsics.fy = 0;
   EXPECT_TRUE(open().empty());
   EXPECT_TRUE(monitor_.events().empty());
+}
+
+/// There both eyes tell the motion, whatever the profile says of a LiDAR, and no odometry of scans gives poses.
+TEST_F(OpenMounts, WithoutALidarNothingIsWatched) {
+  sources_.erase(sources_.begin());
+  EXPECT_FALSE(profile_.sees_its_way());
+  EXPECT_TRUE(open().empty());
 }
 
 /// The map does not need the camera.
