@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "drivers/camera/camera.hpp"
+#include "tests/onboard/app/tasks/grey_pictures.hpp"
 #include "tests/onboard/perception/calibration/boards.hpp"
 #include "tests/tools/cli/calibrate/board_recording.hpp"
 
@@ -64,27 +65,13 @@ TEST(ViewGuide, APictureWithoutABoardIsNoView) {
   EXPECT_EQ(guide.views(), 0U);
 }
 
-/// Three packets of a camera and one of another sensor.
-class Played final : public Source {
- public:
-  explicit Played(std::vector<Packet> packets) : packets_(std::move(packets)) {}
-  Result<Poll> next(Packet& packet, Duration /*timeout*/) override {
-    if (next_ == packets_.size()) return Poll::kEnd;
-    packet = packets_[next_++];
-    return Poll::kPacket;
-  }
-
- private:
-  std::vector<Packet> packets_;
-  std::size_t next_ = 0;
-};
-
 TEST(GuidedSource, HandsOnEverythingAndLooksTwiceASecond) {
   const Image first = seen({0, 0, 0.35}, {0.4, 0, 0}), second = seen({0, 0, 0.35}, {-0.4, 0, 0}),
               early = seen({0, 0, 0.35}, {0, 0.4, 0});
   const auto at_ms = [](int ms) { return Time(std::chrono::milliseconds(ms)); };
-  Played source({test::grey_packet(0, 0, at_ms(1000), first), test::grey_packet(1, 0, at_ms(1010), early),
-                 test::grey_packet(0, 1, at_ms(1200), early), test::grey_packet(0, 2, at_ms(1600), second)});
+  app::grey::Pictures source({test::grey_packet(0, 0, at_ms(1000), first), test::grey_packet(1, 0, at_ms(1010), early),
+                              test::grey_packet(0, 1, at_ms(1200), early),
+                              test::grey_packet(0, 2, at_ms(1600), second)});
   ViewGuide guide(board_test::kBoard, false);
   auto eye = std::make_shared<camera::Camera>(camera::Camera::create({}).value());
   std::vector<std::size_t> told;
