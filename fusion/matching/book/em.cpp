@@ -6,20 +6,13 @@
 #include <cmath>
 #include <numeric>
 
-#include "fusion/matching/features/sample.hpp"
-
 namespace cairn::matching {
 namespace {
 
-constexpr float kDensityRadius_cells = 5;  // the book leaves the radius out
-// Of the climb, at most; the protocol's (section 4.6.3).
-constexpr int kIterations = 30;
-// Of these with σ of one voxel. Chosen by hand, not tuned.
+// Of kIterations, with σ of one voxel. Chosen by hand, not tuned.
 constexpr int kLastIterations = 5;
 // Iterations from each mode. Chosen by hand, not tuned.
 constexpr int kGlances = 4;
-// c_i (Alg. 3), at most: a bound on time. The book sees 3.57.
-constexpr int kMostCorrespondences = 8;
 // About so many in a glance. Chosen by hand, not tuned.
 constexpr std::size_t kGlanceVoxels = 1000;
 // The book leaves σ out. With 1 m the descent slid like ICP.
@@ -28,52 +21,32 @@ constexpr double kGate_sigmas = 3;  // of a partner: 99.7 %
 // Weight of a partner at 2σ. Chosen by hand, not tuned.
 const double kNoPartner = std::exp(-0.5 * 2 * 2);
 
-std::vector<int> densities(const PointGrid& grid, const std::vector<Eigen::Vector3f>& at, float radius) {
-  std::vector<int> all;
-  all.reserve(at.size());
-  for (const Eigen::Vector3f& p : at) all.push_back(grid.count(p, radius));
-  return all;
-}
-
-double mean(const std::vector<int>& values) {
-  return values.empty() ? 0 : std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
-}
-
 }  // namespace
 
-// The dense map's density enters as its mean: while the pose is unknown, no voxel is nearest to
-// another.
 Em::Em(const MapFeatures& a, const MapFeatures& b)
     : VoxelMatcher(a, b),
       modes_(a, b),
-      points_b_(centres_of(voxels_b()), static_cast<float>(kGridCell_voxels * resolution())) {
-  const auto radius = kDensityRadius_cells * static_cast<float>(resolution());
-  auto some_a = sample(std::span<const Eigen::Vector3f>(points_a().points()), kMostSources);
-  auto some_b = sample(std::span<const Eigen::Vector3f>(points_b_.points()), kMostSources);
-  const auto of_a = densities(points_a(), some_a, radius), of_b = densities(points_b_, some_b, radius);
-  sparse_is_b_ = mean(of_b) <= mean(of_a);
-  sparse_ = std::move(sparse_is_b_ ? some_b : some_a);
-  const auto& sparse = sparse_is_b_ ? of_b : of_a;
-  const double dense = mean(sparse_is_b_ ? of_a : of_b);
-  const bool alike = std::lround(dense / std::max(1.0, mean(sparse))) <= 1;
-  for (const int d : sparse) {
-    const auto ratio = static_cast<int>(std::lround(dense / std::max(1, d)));
-    correspondences_.push_back(alike ? 1 : std::clamp(ratio, 1, kMostCorrespondences));
-  }
+      points_b_(centres_of(voxels_b()), static_cast<float>(kGridCell_voxels * resolution())),
+      sparse_(sparser_of(points_a(), points_b_, resolution())) {
+  for (std::size_t i = 0; i < sparse_.voxels.size(); ++i)
+    correspondences_.push_back(sparse_.partners(i, sparse_.dense_mean));
 }
 
-double Em::mean_correspondences() const { return mean(correspondences_); }
+double Em::mean_correspondences() const {
+  const double sum = std::accumulate(correspondences_.begin(), correspondences_.end(), 0.0);
+  return correspondences_.empty() ? 0 : sum / static_cast<double>(correspondences_.size());
+}
 
 std::optional<SE3> Em::step(const SE3& T, const UncertainPose& prior, double sigma, std::size_t stride) const {
-  const SE3 T_dense_sparse = sparse_is_b_ ? T : T.inverse();
-  const PointGrid& dense = sparse_is_b_ ? points_a() : points_b_;
+  const SE3 T_dense_sparse = sparse_.is_b ? T : T.inverse();
+  const PointGrid& dense = sparse_.is_b ? points_a() : points_b_;
   const double gate = std::min(static_cast<double>(kGate_m), kGate_sigmas * sigma);
   Matrix6 H = Matrix6::Zero();
   Vector6 g = Vector6::Zero();
   int pairs = 0;
   std::vector<PointGrid::Neighbour> near;
-  for (std::size_t i = 0; i < sparse_.size(); i += stride) {
-    const Eigen::Vector3d x = sparse_[i].cast<double>();
+  for (std::size_t i = 0; i < sparse_.voxels.size(); i += stride) {
+    const Eigen::Vector3d x = sparse_.voxels[i].cast<double>();
     const auto count = static_cast<std::size_t>(correspondences_[i]);
     dense.nearest((T_dense_sparse * x).cast<float>(), static_cast<float>(gate), count, near);
     double total = 0;
@@ -86,8 +59,8 @@ std::optional<SE3> Em::step(const SE3& T, const UncertainPose& prior, double sig
     if (near.empty() || !(total > 0)) continue;
     // In b's frame, so that the parameters are a right perturbation of T whichever map is the
     // sparse one.
-    const Eigen::Vector3d in_b = sparse_is_b_ ? x : Eigen::Vector3d(target / total);
-    const Eigen::Vector3d in_a = sparse_is_b_ ? Eigen::Vector3d(target / total) : x;
+    const Eigen::Vector3d in_b = sparse_.is_b ? x : Eigen::Vector3d(target / total);
+    const Eigen::Vector3d in_a = sparse_.is_b ? Eigen::Vector3d(target / total) : x;
     const Eigen::Vector3d e = in_b - T.inverse() * in_a;
     Eigen::Matrix<double, 3, 6> J;
     J << Eigen::Matrix3d::Identity(), -hat(in_b);
@@ -118,7 +91,7 @@ SE3 Em::climb(SE3 T, const UncertainPose& prior, Budget& budget) const {
 }
 
 SE3 Em::descend(const UncertainPose& prior, Budget& budget) const {
-  const std::size_t stride = std::max<std::size_t>(1, sparse_.size() / kGlanceVoxels);
+  const std::size_t stride = std::max<std::size_t>(1, sparse_.voxels.size() / kGlanceVoxels);
   SE3 best = prior.mean;
   double most = score(best);
   for (SE3 T : modes_.near(prior)) {

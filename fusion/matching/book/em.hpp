@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include "fusion/matching/book/voxel_densities.hpp"
 #include "fusion/matching/book/voxel_matcher.hpp"
 #include "fusion/matching/search/prior_modes.hpp"
 
 namespace cairn::matching {
 
-/// Expectation–maximisation for maps of different sensors (ch. 5).
+/// Expectation–maximisation for maps of different sensors (ch. 5), Cairn's own. EmBook is the book's.
 /// - Each voxel of the sparse map is paired with as many of the dense one as their local densities
-///   say (Alg. 3). Density is the number of occupied neighbours within five voxels. That of the
-///   dense map is its mean; the book takes the nearest voxel's, which means little while the pose
-///   is unknown.
+///   say (Alg. 3). That of the dense map is its mean; the book takes the nearest voxel's, which
+///   means little while the pose is unknown.
 /// - E-step: weights ω_ij = exp(−d²/2σ²), normalised. Having no partner counts as much as a partner
 ///   at 2σ. Otherwise maps that overlap in part are dragged onto each other.
 /// - M-step: Gauss–Newton on the weighted distances, with the prior p(T) = N(T₀, Σ₀) (5.4, 5.8).
@@ -34,10 +34,9 @@ class Em final : public VoxelMatcher {
   [[nodiscard]] SE3 climb(SE3 T, const UncertainPose& prior, Budget& budget) const;
 
   PriorModes modes_;
-  bool sparse_is_b_;
   PointGrid points_b_;
-  std::vector<Eigen::Vector3f> sparse_;  // voxels of the sparse map that look for partners
-  std::vector<int> correspondences_;     // c_i of each, at least 1
+  SparseMap sparse_;
+  std::vector<int> correspondences_;  // c_i of each of its voxels, at least 1
 };
 
 }  // namespace cairn::matching

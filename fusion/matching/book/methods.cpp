@@ -4,6 +4,7 @@
 #include <array>
 
 #include "fusion/matching/book/em.hpp"
+#include "fusion/matching/book/em_book.hpp"
 #include "fusion/matching/book/oicp.hpp"
 #include "fusion/matching/book/pmm.hpp"
 #include "fusion/matching/methods.hpp"
@@ -22,11 +23,12 @@ struct Method {
   std::string_view name;
   Make make;
 };
-constexpr std::array<Method, 7> kBookMethods{{{"oicp", make<Oicp>},
+constexpr std::array<Method, 8> kBookMethods{{{"oicp", make<Oicp>},
                                               {"pmm", make<Pmm>},
                                               {"pmm_level1", make<PmmLevel1>},
                                               {"edge_icp", make<EdgeIcp>},
                                               {"em", make<Em>},
+                                              {"em_book", make<EmBook>},
                                               {"icp", make<Icp>},
                                               {"p2plane", make<PlaneIcp>}}};
 

@@ -23,7 +23,6 @@ class Oicp : public VoxelMatcher {
     /// Counts in the association of the second stage.
     bool occupancy = true;
   };
-  static constexpr int kIterations = 30;  ///< of ICP (section 4.6.3)
   Oicp(const MapFeatures& a, const MapFeatures& b, const Stages& stages);
 
  private:

@@ -18,6 +18,8 @@ class VoxelMatcher : public Matcher {
 
   /// Of the first level's pairs: the search gate (section 4.6.3).
   static constexpr float kGate_m = 2;
+  /// Of ICP and EM, at most: the protocol's (section 4.6.3).
+  static constexpr int kIterations = 30;
   /// A step needs so many. Chosen by hand, not tuned.
   static constexpr int kMinPairs = 20;
   static constexpr double kGridCell_voxels = 4;  ///< edge of a cell of PointGrid. For time only

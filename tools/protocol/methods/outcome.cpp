@@ -29,7 +29,8 @@ constexpr std::array kTitles{Titled{"icp", "ICP (PCL)"},
                              Titled{"edge_icp", "edge ICP"},
                              Titled{"pmm_level1", "PMM level 1"},
                              Titled{"pmm", "PMM"},
-                             Titled{"em", "EM"},
+                             Titled{"em_book", "EM as printed"},
+                             Titled{"em", "Cairn's EM"},
                              Titled{"default", "Cairn's default"}};
 
 Result<FusedEntropy> fused_entropy(const MapPair& pair, std::string name, merging::Policy policy, const SE3& T_a_b) {

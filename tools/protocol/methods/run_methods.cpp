@@ -29,7 +29,7 @@ Result<Attempt> attempt_from(const MapPair& pair, const Matcher& matcher, int st
 
 std::vector<std::string> our_methods(const MapPair& pair) {
   if (pair.kind == kOverlap) return {"edge_icp", "pmm_level1", "pmm", "default"};
-  if (pair.kind == kHeterogeneous || pair.kind == kUnlike) return {"oicp", "em", "default"};
+  if (pair.kind == kHeterogeneous || pair.kind == kUnlike) return {"oicp", "em_book", "em", "default"};
   if (pair.kind == kMission) return {"default"};
   return {"oicp", "edge_icp", "pmm_level1", "pmm", "em", "default"};
 }

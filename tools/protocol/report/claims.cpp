@@ -69,16 +69,17 @@ void add_heterogeneous(const Outcome& outcome, std::vector<Claim>& claims) {
       if (!p->pair.name.ends_with(phase) || oicp == nullptr || em == nullptr) continue;
       const Figures a = figures_of(oicp->attempts), b = figures_of(em->attempts);
       if (std::string(phase) == "start")
-        claims.push_back({"EM's RMS is ≤ 0.9 of OICP's while the LiDAR's map is sparse",
+        claims.push_back({"the RMS of Cairn's EM is ≤ 0.9 of OICP's while the LiDAR's map is sparse",
                           fmt::format("{:.4f} against {:.4f} m", b.rms_m, a.rms_m), b.rms_m <= 0.9 * a.rms_m});
-      claims.push_back({fmt::format("EM succeeds from ≥ 95 % of the starts ({})", phase),
+      claims.push_back({fmt::format("Cairn's EM succeeds from ≥ 95 % of the starts ({})", phase),
                         fmt::format("{:.1f} %", 100 * b.success), b.success >= 0.95});
       const double now = em->correspondences.value_or(1);
       falling = falling && (counts.empty() || now < before);
       counts += fmt::format("{}{:.2f}", counts.empty() ? "" : ", ", now);
       before = now;
     }
-  if (!counts.empty()) claims.push_back({"EM's correspondences fall as the LiDAR's map fills", counts, falling});
+  if (!counts.empty())
+    claims.push_back({"the correspondences of Cairn's EM fall as the LiDAR's map fills", counts, falling});
 }
 
 /// One for each scene, over the steps of its overlap down to 20 %.

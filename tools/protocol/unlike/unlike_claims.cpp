@@ -60,17 +60,17 @@ void add_book(const std::string& scene, const std::vector<const UnlikeOutcome*>&
     any = true;
   }
   if (!any) return;
-  claims.push_back({scene + ": EM's RMS is below OICP's at the beginning, in the middle and at the end", rms + " m",
-                    em_better, true});
+  claims.push_back({scene + ": the RMS of Cairn's EM is below OICP's at the beginning, in the middle and at the end",
+                    rms + " m", em_better, true});
   if (fusions.size() < 2) return;
-  claims.push_back({scene + ": EM's RMS falls from the beginning to the end",
+  claims.push_back({scene + ": the RMS of Cairn's EM falls from the beginning to the end",
                     fmt::format("{:.4f} to {:.4f} m", first, last), last < first, true});
   const auto count = [](const UnlikeOutcome* o) {
     const MethodRun* em = o->outcome.run("em");
     return em != nullptr ? em->correspondences.value_or(1) : 1;
   };
   const double begins = count(fusions.front()), ends = count(fusions.back());
-  claims.push_back({scene + ": EM's correspondences fall as the maps fill",
+  claims.push_back({scene + ": the correspondences of Cairn's EM fall as the maps fill",
                     fmt::format("{:.2f} to {:.2f}", begins, ends), ends < begins, true});
 }
 

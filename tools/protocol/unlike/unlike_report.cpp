@@ -66,7 +66,7 @@ std::string time_curves(const std::vector<UnlikeOutcome>& all) {
   std::vector<Line> lines;
   for (const std::string& scene : scenes_of(all)) {
     lines.clear();
-    for (const Titled& t : {Titled{"oicp", 4}, Titled{"em", 8}, Titled{"default", 9}})
+    for (const Titled& t : {Titled{"oicp", 4}, Titled{"em_book", 6}, Titled{"em", 8}, Titled{"default", 9}})
       lines.push_back(line_of(all, scene, std::string(title_of(t.method)), t.colour,
                               [&](const UnlikeOutcome& o) { return o.seconds(t.method); }));
     const double last = lines.front().x.empty() ? 1 : lines.front().x.back();

@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "fusion/matching/book/em.hpp"
+#include "fusion/matching/book/em_book.hpp"
 #include "fusion/matching/book/methods.hpp"
 #include "fusion/matching/book/oicp.hpp"
 #include "fusion/matching/book/pmm.hpp"
@@ -74,6 +75,25 @@ TEST(Em, PairsFallAsTheSparseMapFills) {
     EXPECT_LE(pairs, before);
     before = pairs;
   }
+}
+
+/// Which map is the sparse one must not matter: its voxels look for partners, and the pose is of b in a.
+TEST(EmBook, FindsTheSamePoseWhicheverMapIsSparse) {
+  const support::Scene scene = support::corridor();
+  const auto filled = support::two_robots(scene, {0, 3, 20}, {0, 3, 20}, 1, 0.75, 0.2);
+  const auto begun = support::two_robots(scene, {0, 3, 2}, {0, 3, 2}, 5, 0.75, 0.2);
+  const auto dense = MapFeatures::build(*filled.a), sparse = MapFeatures::build(*begun.a);
+  ASSERT_TRUE(dense && sparse);
+  const SE3 start = SE3::from_xyz_rpy((Vector6() << 0.1, -0.15, 0, 0, 0, 0.02).finished());
+  Budget budget = Budget::steps(kAmpleSteps), again = Budget::steps(kAmpleSteps);
+  const auto b_sparse = EmBook(*dense, *sparse).match(UncertainPose{start, default_prior_covariance()}, budget);
+  const auto a_sparse =
+      EmBook(*sparse, *dense).match(UncertainPose{start.inverse(), default_prior_covariance()}, again);
+  ASSERT_TRUE(b_sparse && a_sparse);
+  EXPECT_LT(b_sparse->T_a_b.mean.translation().norm(), 0.05) << "both maps have one frame";
+  const SE3 apart = b_sparse->T_a_b.mean * a_sparse->T_a_b.mean;
+  EXPECT_LT(apart.translation().norm(), 1e-3);
+  EXPECT_LT(rotation_angle(apart), 1e-3);
 }
 
 TEST(Em, APriorOutweighsMapsThatDoNotHoldOneDirection) {

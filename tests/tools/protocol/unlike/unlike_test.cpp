@@ -32,7 +32,8 @@ std::vector<UnlikeOutcome> two_missions(double fused) {
       o.outcome.pair.name = std::string(scene) + '_' + std::to_string(fusion);
       o.outcome.pair.scene = scene;
       o.outcome.pair.kind = kUnlike;
-      o.outcome.runs = {one_start("oicp", 0.3), one_start("em", 0.25 - 0.01 * fusion), one_start("default", 0.2)};
+      o.outcome.runs = {one_start("oicp", 0.3), one_start("em", 0.25 - 0.01 * fusion), one_start("default", 0.2),
+                        one_start("em_book", 0.28)};
       o.outcome.runs[1].correspondences = 4 - fusion;
       o.moment = {fusion, 10.0 * fusion};
       o.attempt = o.outcome.runs[2].attempts[0];
