@@ -7,3 +7,4 @@ if(embree_FOUND)  # its recordings' wheels are those of the simulator
 endif()
 cairn_quality(odometry_delays SOURCES odometry_delays.cpp LINK cairn_odometry cairn_velodyne cairn_recording)
 cairn_quality(visual_accuracy SOURCES flights/visual_accuracy.cpp LINK cairn_visual_odometry cairn_app opencv::imgcodecs opencv::imgproc opencv::core)
+cairn_quality(lidar_landmarks SOURCES flights/lidar_landmarks.cpp LINK cairn_visual_odometry cairn_app cairn_commands opencv::core)
