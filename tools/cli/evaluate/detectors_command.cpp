@@ -47,7 +47,7 @@ std::optional<bool> is_person(const PeopleScan& scan, const Eigen::Vector2d& at)
   const auto away = [&](const PeopleScan::Person& p) { return (p.position_world - at).norm(); };
   const auto nearest = std::ranges::min_element(scan.people, {}, away);
   if (nearest == scan.people.end() || away(*nearest) > kAtNobody_m) return false;
-  if (away(*nearest) < kAtSomebody_m && nearest->returns >= kVisibleReturns) return true;
+  if (away(*nearest) < kAtSomebody_m && nearest->seen >= kVisibleReturns) return true;
   return std::nullopt;
 }
 

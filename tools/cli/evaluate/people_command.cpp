@@ -9,15 +9,18 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "drivers/recording/formats/recording.hpp"
 #include "hal/files/file.hpp"
 #include "onboard/app/cli/working_line.hpp"
 #include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/report/json/report_json.hpp"
 #include "tools/cli/evaluate/people_error.hpp"
 #include "tools/cli/evaluate/people_file.hpp"
+#include "tools/cli/evaluate/people_pictures.hpp"
 #include "tools/cli/evaluate/people_scene.hpp"
 
 namespace cairn::cli {
@@ -63,6 +66,30 @@ Result<std::vector<PersonRow>> tracks_in_world(const fs::path& run, const fs::pa
   return rows;
 }
 
+/// How often the run measured a cloud, at most.
+Result<Duration> map_period(const fs::path& run, const app::RobotProfile& recorded) {
+  const fs::path config = run / "config.yaml";
+  std::error_code ignored;
+  if (!fs::exists(config, ignored)) return from_seconds(1 / recorded.stereo.map_rate_hz);
+  const auto own = app::choose_profile(config, {});
+  if (!own) return own.error();
+  return from_seconds(1 / own->profile.stereo.map_rate_hz);
+}
+
+/// Whom the robot could see, and when: the LiDAR says it, or the label pictures where there is none.
+Result<std::vector<PeopleScan>> visible_people(const fs::path& folder, const fs::path& run,
+                                               const app::RobotProfile& profile, std::span<const PersonRow> truth,
+                                               std::span<const PersonRow> tracks) {
+  const auto recording = recording::load_recording(folder);
+  if (!recording) return at(folder.string(), recording.error());
+  if (has(*recording, recording::kVelodyne)) return people_scans(folder, profile, truth);
+  const auto stamps = label_stamps(folder);
+  if (!stamps) return stamps.error();
+  const auto period = map_period(run, profile);
+  if (!period) return period.error();
+  return people_pictures(folder, profile, truth, judged_stamps(*stamps, tracks, *period));
+}
+
 Result<PeopleMaterial> gather(const PeopleOptions& options) {
   const fs::path file = file_of(options), recording = file.has_parent_path() ? file.parent_path() : fs::path(".");
   const auto truth = read_people(file);
@@ -77,7 +104,7 @@ Result<PeopleMaterial> gather(const PeopleOptions& options) {
     if (!angles) return angles.error();
     material.angles = *std::move(angles);
   }
-  auto scans = people_scans(recording, chosen->profile, *truth);
+  auto scans = visible_people(recording, options.run, chosen->profile, *truth, material.tracks_world);
   if (!scans) return scans.error();
   material.scans = *std::move(scans);
   return material;
@@ -152,8 +179,7 @@ Result<void> write_details(const fs::path& file, const PeopleError& error) {
 }
 
 int evaluate_people(const PeopleOptions& options) {
-  const auto figures =
-      app::while_working("placing the recording's returns in the world", [&] { return compare(options); });
+  const auto figures = app::while_working("finding whom the robot could see", [&] { return compare(options); });
   if (!figures) return app::fail(figures.error());
   if (!options.details.empty())
     if (const auto written = write_details(options.details, figures->in_view); !written)
@@ -172,7 +198,8 @@ void add_evaluate_people_command(app::Commands& commands, CLI::App& evaluate) {
   CLI::App* sub = evaluate.add_subcommand("people", "compares a run's people with those of a simulated recording");
   const auto o = std::make_shared<PeopleOptions>();
   sub->footer(
-      "A person counts while at least 5 returns of the LiDAR are at them. A track less than 0.75 m away finds them. "
+      "A person counts while at least 5 returns of the LiDAR are at them. Without a LiDAR, at least 125 pixels of "
+      "RECORDING/labels must show them. A track less than 0.75 m away finds them. "
       "The first common pose of both trajectories aligns the frames.");
   sub->add_option("run", o->run, "folder of a run: its people.csv and trajectory.tum")
       ->required()

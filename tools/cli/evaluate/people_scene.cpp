@@ -3,21 +3,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <map>
 
-#include "drivers/recording/formats/recording.hpp"
 #include "drivers/recording/formats/trajectory_file.hpp"
 #include "onboard/report/figures/trajectory_error.hpp"
 #include "tools/cli/evaluate/mover_error.hpp"
 #include "tools/cli/evaluate/path.hpp"
+#include "tools/cli/evaluate/people_ways.hpp"
 #include "tools/cli/evaluate/true_scans.hpp"
 
 namespace cairn::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-constexpr Duration kLongestStep = std::chrono::milliseconds(500);  // between two rows of a person
 
 template <class Camera>
 std::optional<ViewAngle> angle_of(const Camera& profile) {
@@ -31,47 +28,19 @@ std::optional<ViewAngle> angle_of(const Camera& profile) {
                    -std::atan2(left->x(), left->z()), -std::atan2(right->x(), right->z()));
 }
 
-bool has(const recording::Recording& recording, recording::SensorKind kind) {
-  return std::ranges::any_of(recording.sources, [&](const auto& source) { return source.kind == kind; });
-}
-
-/// The way of each person, from people.csv.
-class Ways {
- public:
-  explicit Ways(std::span<const PersonRow> rows) {
-    for (const PersonRow& row : rows) ways_[row.id].push_back(row);
-  }
-
-  /// Everybody who is known around `t`, by id.
-  [[nodiscard]] std::vector<PeopleScan::Person> at(Time t) const {
-    std::vector<PeopleScan::Person> people;
-    for (const auto& [id, way] : ways_) {
-      const auto after = std::ranges::lower_bound(way, t, {}, &PersonRow::stamp);
-      if (after == way.end() || (after == way.begin() && after->stamp != t)) continue;
-      if (after->stamp == t) {
-        people.push_back({id, after->position, 0});
-        continue;
-      }
-      const PersonRow& before = *(after - 1);
-      if (after->stamp - before.stamp > kLongestStep) continue;
-      const double share = to_seconds(t - before.stamp) / to_seconds(after->stamp - before.stamp);
-      people.push_back({id, before.position + share * (after->position - before.position), 0});
-    }
-    return people;
-  }
-
- private:
-  std::map<std::int64_t, std::vector<PersonRow>> ways_;
-};
-
 bool in_zone(const PeopleScan& scan, const Eigen::Vector2d& position, const PeopleZone& zone) {
   const Eigen::Vector3d& robot = scan.T_world_base.translation();
   if ((position - robot.head<2>()).norm() > zone.within_m) return false;
-  const Eigen::Vector3d p = scan.T_world_base.inverse() * Eigen::Vector3d(position.x(), position.y(), robot.z());
+  const double z = scan.people_z.value_or(robot.z());
+  const Eigen::Vector3d p = scan.T_world_base.inverse() * Eigen::Vector3d(position.x(), position.y(), z);
   return zone.angles.empty() || std::ranges::any_of(zone.angles, [&](const ViewAngle& a) { return a.sees(p); });
 }
 
 }  // namespace
+
+bool has(const recording::Recording& recording, recording::SensorKind kind) {
+  return std::ranges::any_of(recording.sources, [&](const auto& source) { return source.kind == kind; });
+}
 
 bool ViewAngle::sees(const Eigen::Vector3d& point_base) const {
   const Eigen::Vector3d p = T_camera_base_ * point_base;
@@ -108,7 +77,7 @@ Result<std::vector<PeopleScan>> people_scans(const fs::path& recording, const ap
     for (const TrueScan::Return& r : scan.returns)
       if (r.class_id == MoverTruth::kPersonId)
         for (PeopleScan::Person& person : out.people)
-          if ((r.point.head<2>().cast<double>() - person.position_world).norm() < kReturnsWithin_m) ++person.returns;
+          if ((r.point.head<2>().cast<double>() - person.position_world).norm() < kReturnsWithin_m) ++person.seen;
   });
   if (!done) return done.error();
   return scans;
@@ -137,7 +106,7 @@ JoinedPeople join(std::span<const PeopleScan> scans, std::span<const PersonRow> 
     PeopleFrame& frame = joined.frames.emplace_back(PeopleFrame{scan.stamp, {}, {}});
     for (const PeopleScan::Person& p : scan.people)
       frame.people.push_back(
-          {p.id, p.position_world, p.returns >= kVisibleReturns && in_zone(scan, p.position_world, zone)});
+          {p.id, p.position_world, p.seen >= scan.visible_from && in_zone(scan, p.position_world, zone)});
     for (; track != tracks_world.end() && track->stamp < scan.stamp - kSameScan; ++track) ++joined.without_scan;
     const Time of_this_scan = track == tracks_world.end() ? Time{} : track->stamp;
     for (; track != tracks_world.end() && track->stamp == of_this_scan && track->stamp <= scan.stamp + kSameScan;

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/recording/formats/recording.hpp"
 #include "hal/result.hpp"
 #include "hal/se3.hpp"
 #include "onboard/app/profile/robot_profile.hpp"
@@ -16,6 +17,9 @@
 #include "tools/cli/evaluate/people_file.hpp"
 
 namespace cairn::cli {
+
+/// Whether a source of the recording is of this kind.
+[[nodiscard]] bool has(const recording::Recording& recording, recording::SensorKind kind);
 
 /// What a camera sees, seen from above.
 class ViewAngle {
@@ -37,23 +41,27 @@ class ViewAngle {
 [[nodiscard]] Result<std::vector<ViewAngle>> view_angles(const std::filesystem::path& recording,
                                                          const app::RobotProfile& profile, const std::string& which);
 
-/// The people of a simulated recording at the time of each scan, and how the robot saw them.
+inline constexpr std::uint32_t kVisibleReturns = 5;  ///< the LiDAR's returns that make a person visible
+
+/// The people of a simulated recording at the time of a scan or of a picture, and how the robot saw them.
 struct PeopleScan {
   struct Person {
     std::int64_t id = 0;
     Eigen::Vector2d position_world{0, 0};  ///< metres
-    std::uint32_t returns = 0;             ///< of people, less than kReturnsWithin_m from there
+    /// Returns of people less than kReturnsWithin_m from there, or the pixels that show this person.
+    std::uint32_t seen = 0;
   };
   Time stamp{};
   SE3 T_world_base;
   std::vector<Person> people;
+  std::optional<double> people_z{};              ///< of people's middles, in the world; none: as high as the robot
+  std::uint32_t visible_from = kVisibleReturns;  ///< of Person::seen: who is seen so much is visible
 };
 
 inline constexpr Duration kSameScan = std::chrono::milliseconds(45);  ///< less than half a turn of the LiDAR
 inline constexpr double kReturnsWithin_m = 0.5;                       ///< from above; a person is 0.5 m wide
-inline constexpr std::uint32_t kVisibleReturns = 5;  ///< the LiDAR's returns that make a person visible
 
-/// Errors: those of for_each_true_scan().
+/// Of each scan of the LiDAR. Errors: those of for_each_true_scan().
 [[nodiscard]] Result<std::vector<PeopleScan>> people_scans(const std::filesystem::path& recording,
                                                            const app::RobotProfile& profile,
                                                            std::span<const PersonRow> truth);

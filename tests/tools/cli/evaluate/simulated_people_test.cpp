@@ -70,7 +70,7 @@ class SimulatedPeople : public ::testing::Test {
     ASSERT_TRUE(scans) << to_string(scans.error());
     for (const PeopleScan& scan : *scans)
       for (const PeopleScan::Person& p : scan.people) {
-        if (p.returns < kVisibleReturns) continue;
+        if (p.seen < kVisibleReturns) continue;
         const Eigen::Vector3d in_odom =
             kOdom.inverse() * Eigen::Vector3d(p.position_world.x() + off, p.position_world.y(), 0);
         const auto ns = scan.stamp.time_since_epoch().count();
@@ -98,7 +98,7 @@ class SimulatedPeople : public ::testing::Test {
     int others = 0;
     for (const PeopleScan& scan : *scans) {
       for (std::size_t i = 0; i < scan.people.size(); ++i) {
-        if (scan.people[i].returns < kVisibleReturns) continue;
+        if (scan.people[i].seen < kVisibleReturns) continue;
         add(scan, scan.people[i].position_world, "person", 0.6 + 0.05 * static_cast<double>(i));
         add(scan, scan.people[i].position_world + Eigen::Vector2d(0.7, 0), "silence", 0);
       }
