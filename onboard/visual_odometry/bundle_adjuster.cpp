@@ -85,7 +85,7 @@ Eigen::Index BundleAdjuster::fixed() const {
 }
 
 bool BundleAdjuster::row(const View& view, const Point& point, Row& out) const {
-  if (!view_landmark(geometry_, T_eye_base_, pose_of(view).inverse(), point.p_odom, out.view)) return false;
+  if (!view_landmark(geometry_, T_eye_base_, pose_of(view).inverse(), point.p_odom, {}, out.view)) return false;
   out.error = view.seen - out.view.expected;
   const double pixel = 1 / (config_.pixel_noise * config_.pixel_noise);
   out.weight = {pixel, pixel, view.both_eyes ? 1 / (config_.disparity_noise * config_.disparity_noise) : 0};

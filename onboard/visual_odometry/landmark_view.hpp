@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 
 #include "hal/se3.hpp"
+#include "onboard/perception/stereo/row_motion.hpp"
 #include "onboard/perception/stereo/stereo_geometry.hpp"
 
 namespace cairn::visual_odometry {
@@ -18,10 +19,10 @@ struct LandmarkView {
   Eigen::Matrix3d by_point;             ///< by the landmark's place in odom
 };
 
-/// False where the landmark is nearer than kNearest_m.
+/// Where a row shows the landmark that is exposed after `motion`. False where the landmark is nearer than kNearest_m.
 inline bool view_landmark(const stereo::StereoGeometry& geometry, const SE3& T_eye_base, const SE3& T_base_odom,
-                          const Eigen::Vector3d& p_odom, LandmarkView& out) {
-  const Eigen::Vector3d p_base = T_base_odom * p_odom;
+                          const Eigen::Vector3d& p_odom, const stereo::RowMotion& motion, LandmarkView& out) {
+  const Eigen::Vector3d p_base = motion.at_row(T_base_odom * p_odom);
   const Eigen::Vector3d p_eye = T_eye_base * p_base;
   if (p_eye.z() < kNearest_m) return false;
   const Eigen::Matrix3d by_base = geometry.jacobian(p_eye) * T_eye_base.rotation();

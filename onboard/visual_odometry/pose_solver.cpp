@@ -43,8 +43,9 @@ PoseSolver::PoseSolver(const VisualOdometryConfig& config, const stereo::StereoG
                        const SE3& T_base_eye)
     : config_(config), geometry_(geometry), T_base_eye_(T_base_eye), T_eye_base_(T_base_eye.inverse()) {}
 
-bool PoseSolver::row(const Match& match, const SE3& T_base_odom, Row& out) const {
-  if (!view_landmark(geometry_, T_eye_base_, T_base_odom, match.landmark.p_odom, out.view)) return false;
+bool PoseSolver::row(const Match& match, const SE3& T_base_odom, const Vector6& twist, Row& out) const {
+  if (!view_landmark(geometry_, T_eye_base_, T_base_odom, match.landmark.p_odom, {twist, match.row_s}, out.view))
+    return false;
   out.error = match.seen - out.view.expected;
   const double pixel = config_.pixel_noise * config_.pixel_noise;
   const double disparity = match.both_eyes ? config_.disparity_noise * config_.disparity_noise : kUnseen;
@@ -55,8 +56,8 @@ bool PoseSolver::row(const Match& match, const SE3& T_base_odom, Row& out) const
   return true;
 }
 
-void PoseSolver::linearise(std::span<const Match> matches, const SE3& T_odom_base, double scale, Fit& fit) const {
-  const SE3 T_base_odom = T_odom_base.inverse();
+void PoseSolver::linearise(std::span<const Match> matches, const MotionState& at, double scale, Fit& fit) const {
+  const SE3 T_base_odom = at.T_odom_base.inverse();
   fit.equations = {};
   fit.uses.assign(matches.size(), {});
   fit.fits.assign(matches.size(), 0);
@@ -64,7 +65,7 @@ void PoseSolver::linearise(std::span<const Match> matches, const SE3& T_odom_bas
   double chi2 = 0, numbers = 0, squared_px = 0;
   Row r;
   for (std::size_t i = 0; i < matches.size(); ++i) {
-    if (!row(matches[i], T_base_odom, r)) continue;
+    if (!row(matches[i], T_base_odom, at.twist, r)) continue;
     const double x2 = r.error.dot(r.weight * r.error);
     const double robust = 1 / (1 + x2 / (3 * scale));
     const Eigen::Matrix<double, 6, 3> JtW = robust * r.view.by_pose.transpose() * r.weight;
@@ -89,7 +90,7 @@ Fit PoseSolver::align(std::span<const Match> matches, const odometry::MotionFilt
   const odometry::Degeneracy none;
   double scale = kWideScale;
   while (fit.iterations < config_.max_iterations && budget.one_more()) {
-    linearise(matches, fit.state.T_odom_base, scale, fit);
+    linearise(matches, fit.state, scale, fit);
     const Vector12 step =
         filter.step(fit.state, {fit.equations, none, std::max(1.0, fit.misfit) * config_.correlation_factor});
     fit.state = fit.state + step;
@@ -98,41 +99,41 @@ Fit PoseSolver::align(std::span<const Match> matches, const odometry::MotionFilt
     if (fit.converged) break;
     scale = std::max(1.0, scale / 5);
   }
-  linearise(matches, fit.state.T_odom_base, 1.0, fit);
+  linearise(matches, fit.state, 1.0, fit);
   return fit;
 }
 
-int PoseSolver::consent(std::span<const Match> matches, const SE3& T_odom_base) const {
-  const SE3 T_base_odom = T_odom_base.inverse();
+int PoseSolver::consent(std::span<const Match> matches, const MotionState& state) const {
+  const SE3 T_base_odom = state.T_odom_base.inverse();
   Row r;
   int count = 0;
   for (const Match& match : matches)
-    count += row(match, T_base_odom, r) && r.error.dot(r.weight * r.error) < 4 * kGate ? 1 : 0;
+    count += row(match, T_base_odom, state.twist, r) && r.error.dot(r.weight * r.error) < 4 * kGate ? 1 : 0;
   return count;
 }
 
 /// Gauss–Newton on three matches alone: six or nine numbers, six unknowns.
-bool PoseSolver::from_three(std::span<const Match> matches, const int (&chosen)[3], SE3& T_odom_base) const {
+bool PoseSolver::from_three(std::span<const Match> matches, const int (&chosen)[3], MotionState& state) const {
   Row r;
   for (int step = 0; step < kStepsOfThree; ++step) {
     Matrix6 H = Matrix6::Identity() * 1e-6;
     Vector6 g = Vector6::Zero();
     for (const int i : chosen) {
-      if (!row(matches[static_cast<std::size_t>(i)], T_odom_base.inverse(), r)) return false;
+      if (!row(matches[static_cast<std::size_t>(i)], state.T_odom_base.inverse(), state.twist, r)) return false;
       const auto& J = r.view.by_pose;
       H += J.transpose() * r.weight * J;
       g += J.transpose() * (r.weight * r.error);
     }
     const Vector6 move = H.ldlt().solve(g);
     if (!move.allFinite() || move.head<3>().norm() > 5 || move.tail<3>().norm() > 1.5) return false;
-    T_odom_base = T_odom_base * SE3::exp(move);
+    state.T_odom_base = state.T_odom_base * SE3::exp(move);
     if (move.norm() < kSettled) break;
   }
   return true;
 }
 
-SE3 PoseSolver::vote(std::span<const Match> matches, const SE3& start) const {
-  SE3 best = start;
+SE3 PoseSolver::vote(std::span<const Match> matches, const MotionState& start) const {
+  SE3 best = start.T_odom_base;
   int most = consent(matches, start);
   if (matches.size() < 3) return best;
   std::uint64_t random = matches.size();
@@ -140,11 +141,11 @@ SE3 PoseSolver::vote(std::span<const Match> matches, const SE3& start) const {
     int chosen[3];
     for (int& i : chosen) i = static_cast<int>(next_random(random) % matches.size());
     if (chosen[0] == chosen[1] || chosen[1] == chosen[2] || chosen[0] == chosen[2]) continue;
-    SE3 T_odom_base = start;
-    if (!from_three(matches, chosen, T_odom_base)) continue;
-    if (const int count = consent(matches, T_odom_base); count > most) {
+    MotionState state = start;
+    if (!from_three(matches, chosen, state)) continue;
+    if (const int count = consent(matches, state); count > most) {
       most = count;
-      best = T_odom_base;
+      best = state.T_odom_base;
     }
   }
   return best;

@@ -19,6 +19,7 @@ struct Match {
   std::uint32_t id = 0;
   Eigen::Vector3d seen = Eigen::Vector3d::Zero();  ///< left pixel, disparity
   bool both_eyes = true;                           ///< false: the disparity says nothing
+  double row_s = 0;                                ///< from the frame's stamp to the exposure of the pixel's row
   Landmark landmark;
 };
 
@@ -47,15 +48,16 @@ class PoseSolver {
   [[nodiscard]] Fit align(std::span<const Match> matches, const odometry::MotionFilter& filter,
                           const odometry::MotionState& start, Budget& budget) const;
   /// The pose of most landmarks' consent, whatever was predicted: hypotheses from three matches each, drawn with a
-  /// fixed seed. `start` is the first hypothesis.
-  [[nodiscard]] SE3 vote(std::span<const Match> matches, const SE3& start) const;
+  /// fixed seed. `start` is the first hypothesis; all have its twist.
+  [[nodiscard]] SE3 vote(std::span<const Match> matches, const odometry::MotionState& start) const;
 
  private:
   struct Row;
-  [[nodiscard]] bool row(const Match& match, const SE3& T_eye_odom, Row& out) const;
-  void linearise(std::span<const Match> matches, const SE3& T_odom_base, double scale, Fit& fit) const;
-  [[nodiscard]] bool from_three(std::span<const Match> matches, const int (&chosen)[3], SE3& T_odom_base) const;
-  [[nodiscard]] int consent(std::span<const Match> matches, const SE3& T_odom_base) const;
+  [[nodiscard]] bool row(const Match& match, const SE3& T_base_odom, const Vector6& twist, Row& out) const;
+  void linearise(std::span<const Match> matches, const odometry::MotionState& at, double scale, Fit& fit) const;
+  [[nodiscard]] bool from_three(std::span<const Match> matches, const int (&chosen)[3],
+                                odometry::MotionState& state) const;
+  [[nodiscard]] int consent(std::span<const Match> matches, const odometry::MotionState& state) const;
 
   VisualOdometryConfig config_;
   stereo::StereoGeometry geometry_;

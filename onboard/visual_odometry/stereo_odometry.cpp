@@ -46,6 +46,7 @@ StereoOdometry::StereoOdometry(const VisualOdometryConfig& config, const stereo:
     : config_(config),
       geometry_(geometry),
       T_base_eye_(T_base_eye),
+      T_eye_base_(T_base_eye.inverse()),
       tracker_(config.tracking, geometry),
       map_(geometry, {config.pixel_noise, config.disparity_noise}, config.max_depth_m),
       solver_(config, geometry, T_base_eye),
@@ -91,11 +92,11 @@ Result<VisualUpdate> StereoOdometry::update(const stereo::StereoPair& pair, Budg
 
 /// Follows the features to where their landmarks are expected.
 void StereoOdometry::track(const stereo::StereoPair& pair) {
-  const SE3 T_eye_odom = T_odom_eye().inverse();
+  const SE3 T_base_odom = filter_.state().T_odom_base.inverse();
   tracker_.follow(pair, [&](const Feature& f) -> std::optional<Eigen::Vector3d> {
     const Landmark* landmark = map_.find(f.id);
     if (landmark == nullptr) return std::nullopt;
-    const Eigen::Vector3d p = T_eye_odom * landmark->p_odom;
+    const Eigen::Vector3d p = T_eye_base_ * motion_until(f).at_row(T_base_odom * landmark->p_odom);
     return p.z() > kNearest_m ? std::optional(geometry_.project(p)) : std::nullopt;
   });
 }
@@ -159,13 +160,14 @@ Fit StereoOdometry::locate(double dt_s, Budget& budget) {
       matches_.push_back({.id = f.id,
                           .seen = {f.left.x(), f.left.y(), f.disparity.value_or(0)},
                           .both_eyes = f.disparity.has_value(),
+                          .row_s = geometry_.after_stamp_s(f.left.y()),
                           .landmark = *landmark});
   Fit fit = solver_.align(matches_, filter_, filter_.state(), budget);
   if (good(fit) && 2 * fit.inliers > static_cast<int>(matches_.size())) return fit;
   MotionFilter wide = followed_;
   wide.predict(dt_s, prior_.anything(dt_s));
   odometry::MotionState voted = wide.state();
-  voted.T_odom_base = solver_.vote(matches_, wide.state().T_odom_base);
+  voted.T_odom_base = solver_.vote(matches_, wide.state());
   const Fit again = solver_.align(matches_, wide, voted, budget);
   if (again.inliers <= fit.inliers) return fit;
   filter_ = wide;
@@ -200,7 +202,8 @@ std::optional<Fit> StereoOdometry::find_again(const stereo::StereoPair& pair, do
   matches_ = std::move(place.matches);
   MotionFilter wide = followed_;
   wide.predict(dt_s, prior_.anything(dt_s));
-  odometry::MotionState voted{solver_.vote(matches_, place.T_odom_base), Vector6::Zero()};
+  odometry::MotionState voted{place.T_odom_base, Vector6::Zero()};
+  voted.T_odom_base = solver_.vote(matches_, voted);
   const Fit fit = solver_.align(matches_, wide, voted, budget);
   const auto matches = static_cast<double>(matches_.size());
   if (fit.inliers < config_.min_inliers || fit.inliers < kRecognised * matches) return std::nullopt;
@@ -243,11 +246,37 @@ bool StereoOdometry::wants_keyframe(int inliers) const {
          rotation_angle(since) > config_.keyframe_rad;
 }
 
+stereo::RowMotion StereoOdometry::motion_until(const Feature& f) const {
+  return {filter_.state().twist, geometry_.after_stamp_s(f.left.y())};
+}
+
+/// The last pair's features where they would be, had all rows been exposed with the first one. Landmarks tell how far
+/// away they are; the others' disparities do.
+std::span<const Feature> StereoOdometry::features_at_stamp() {
+  if (geometry_.line_time_s == 0) return tracker_.features();
+  at_stamp_.assign(tracker_.features().begin(), tracker_.features().end());
+  const SE3 T_base_odom = filter_.state().T_odom_base.inverse();
+  for (Feature& f : at_stamp_) {
+    const Landmark* landmark = map_.find(f.id);
+    if (landmark == nullptr && !f.disparity) continue;
+    const stereo::RowMotion motion = motion_until(f);
+    const Eigen::Vector3d p =
+        landmark != nullptr ? Eigen::Vector3d(T_base_odom * landmark->p_odom)
+                            : motion.at_stamp(T_base_eye_ * geometry_.point(f.left.x(), f.left.y(), *f.disparity));
+    const Eigen::Vector3d now = T_eye_base_ * p, at_row = T_eye_base_ * motion.at_row(p);
+    if (now.z() < kNearest_m || at_row.z() < kNearest_m) continue;
+    const Eigen::Vector3f moved = (geometry_.project(now) - geometry_.project(at_row)).cast<float>();
+    f.left += moved.head<2>();
+    if (f.disparity) *f.disparity += moved.z();
+  }
+  return at_stamp_;
+}
+
 /// Moves the last keyframes, this one and their landmarks to where they fit best. The filter takes the newest pose.
 /// Landmarks are as uncertain as the noise of a picture has them: corners before plain walls must still fit.
 void StereoOdometry::adjust(Budget& budget) {
   bundle_.add(filter_.state().T_odom_base);
-  bundle_.see(tracker_.features(), map_);
+  bundle_.see(features_at_stamp(), map_);
   bundle_.adjust(budget);
   const double ratio = config_.pixel_noise / config_.adjustment.pixel_noise;
   bundle_.place(map_, ratio * ratio);
@@ -258,11 +287,11 @@ void StereoOdometry::adjust(Budget& budget) {
 void StereoOdometry::make_keyframe(const stereo::StereoPair& pair, Budget& budget) {
   adjust(budget);
   tracker_.add_corners();
-  for (const Feature& f : tracker_.features())
+  for (const Feature& f : features_at_stamp())
     if (map_.find(f.id) == nullptr) map_.add(f, T_odom_eye(), drift_.epoch());
   tracker_.drop([&](const Feature& f) { return map_.find(f.id) == nullptr; });
   map_.keep(tracker_.features());
-  bundle_.see(tracker_.features(), map_);
+  bundle_.see(features_at_stamp(), map_);
   places_.remember(pair.stamp, pair.left, tracker_.features(), map_, filter_.state().T_odom_base);
   T_odom_keyframe_ = filter_.state().T_odom_base;
   keyframe_landmarks_ = static_cast<int>(map_.size());

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <random>
 
 #include "hal/image.hpp"
@@ -44,9 +45,14 @@ class StereoView {
 
   /// What both eyes see from where the left one is (optical frame).
   void shoot(const SE3& T_world_eye, Time stamp, stereo::StereoPair& pair) {
+    shoot([&](double) { return T_world_eye; }, stamp, pair);
+  }
+  /// The same with a rolling shutter: where the left eye is, so many seconds after the stamp.
+  void shoot(const std::function<SE3(double)>& T_world_eye, Time stamp, stereo::StereoPair& pair) {
+    const SE3 T_left_right(Eigen::Quaterniond::Identity(), {geometry_.baseline_m, 0, 0});
     pair.stamp = stamp;
     expose(T_world_eye, pair.left);
-    expose(T_world_eye * SE3(Eigen::Quaterniond::Identity(), {geometry_.baseline_m, 0, 0}), pair.right);
+    expose([&](double after_s) { return T_world_eye(after_s) * T_left_right; }, pair.right);
   }
 
   /// Both eyes side by side.
@@ -64,11 +70,12 @@ class StereoView {
   }
 
  private:
-  void expose(const SE3& T_world_eye, Image& image) {
+  void expose(const std::function<SE3(double)>& T_world_eye_at, Image& image) {
     std::normal_distribution<double> noise(0, 1.3);
     image.resize(PixelFormat::kMono8, geometry_.width, geometry_.height);
-    const Eigen::Matrix3d R = T_world_eye.rotation();
-    for (int v = 0; v < geometry_.height; ++v)
+    for (int v = 0; v < geometry_.height; ++v) {
+      const SE3 T_world_eye = T_world_eye_at(geometry_.after_stamp_s(v));
+      const Eigen::Matrix3d R = T_world_eye.rotation();
       for (int u = 0; u < geometry_.width; ++u) {
         const Eigen::Vector3d ray((u - geometry_.cx) / geometry_.fx, (v - geometry_.cy) / geometry_.fy, 1);
         const Eigen::Vector3d d = R * ray.normalized();
@@ -78,6 +85,7 @@ class StereoView {
         image.bytes[static_cast<std::size_t>(v) * image.stride + static_cast<std::size_t>(u)] =
             static_cast<std::byte>(std::clamp(std::lround(grey), 0L, 255L));
       }
+    }
   }
 
   const World& world_;
@@ -86,7 +94,10 @@ class StereoView {
 };
 
 /// A small camera whose pictures are quick to render.
-inline stereo::StereoGeometry small_eyes() { return {256, 160, 136, 136, 127.5, 79.5, 0.12}; }
+inline stereo::StereoGeometry small_eyes() {
+  return {
+      .width = 256, .height = 160, .fx = 136, .fy = 136, .cx = 127.5, .cy = 79.5, .baseline_m = 0.12, .line_time_s = 0};
+}
 
 /// 10 m × 8 m × 3 m with two boxes on the floor, seen from inside.
 inline World furnished_room() {

@@ -81,6 +81,7 @@ app::RobotProfile simulated_profile(const SimulationConfig& config) {
   set_size(profile.camera.driver.capture, (config.stereo.separate_eyes ? 1 : 2) * eye.width, eye.height,
            config.stereo.rate_hz);
   set_lens(profile.camera.intrinsics, eye, config.stereo.baseline_m);
+  profile.perception.labelling.line_time_us = 1e6 * config.stereo.line_time_s;
   profile.thermal.base_xyz_rpy = numbers(config.thermal.base_camera_xyz_rpy);
   profile.thermal.driver.model = "lepton3";
   set_size(profile.thermal.driver.capture, thermal.width, thermal.height + ThermalCamera::kTelemetryRows,

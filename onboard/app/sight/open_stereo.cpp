@@ -30,7 +30,8 @@ Result<std::optional<StereoEyes>> open_stereo(const RobotProfile& profile,
   const PictureSize size = picture_size(eyes);
   const auto model = eyes.intrinsics.model(size.width, size.height);
   if (!model) return at("camera.intrinsics", model.error());
-  auto rectifier = stereo::Rectifier::create(*model, eyes.intrinsics.baseline_m);
+  auto rectifier =
+      stereo::Rectifier::create(*model, eyes.intrinsics.baseline_m, 1e-6 * profile.perception.labelling.line_time_us);
   if (!rectifier) return at("camera.intrinsics", rectifier.error());
   auto camera = camera::Camera::create(eyes.driver);
   if (!camera) return at("camera", camera.error());

@@ -3,12 +3,15 @@
 
 #include <utility>
 
+#include "onboard/perception/stereo/row_motion.hpp"
+
 namespace cairn::app {
 
 using scheduler::Tick;
 
 StereoTask::StereoTask(stereo::DenseStereo dense, const StereoSetup& setup, Monitor& monitor)
     : dense_(std::move(dense)),
+      geometry_(setup.geometry),
       T_base_eye_(setup.T_base_camera * cameras::T_camera_optical()),
       max_range_m_(setup.trust.max_range_m),
       monitor_(monitor),
@@ -34,6 +37,7 @@ void StereoTask::measure(ArrivedView& view, Tick& tick) {
   const Eigen::Vector3f t = T_base_eye_.translation().cast<float>();
   out->scan.points_base.clear();
   for (const Eigen::Vector3f& p : points_eye_) out->scan.points_base.emplace_back(R * p + t);
+  stereo::hold_still(geometry_, out->scan.twist, points_eye_, out->scan.points_base);
   teller_.tell(out->scan);
   motions.push(tick);
   ++figures_.clouds;

@@ -37,6 +37,7 @@ class StereoTask final : public scheduler::Task {
   void measure(ArrivedView& view, scheduler::Tick& tick);
 
   stereo::DenseStereo dense_;
+  stereo::StereoGeometry geometry_;
   SE3 T_base_eye_;
   double max_range_m_;
   Monitor& monitor_;

@@ -31,7 +31,7 @@ struct Rectifier::Maps {
   cv::Mat x, y;
 };
 
-Result<Rectifier> Rectifier::create(const cameras::CameraModel& eye, double baseline_m) {
+Result<Rectifier> Rectifier::create(const cameras::CameraModel& eye, double baseline_m, double line_time_s) {
   if (!(baseline_m > 0))
     return Error{Errc::kInvalidConfig,
                  "the distance between the eyes of the stereo camera is not known",
@@ -39,7 +39,7 @@ Result<Rectifier> Rectifier::create(const cameras::CameraModel& eye, double base
                  {},
                  "set camera.intrinsics.baseline_m"};
   const cameras::CameraParameters& p = eye.parameters();
-  const StereoGeometry geometry{p.width, p.height, p.fx, p.fy, p.cx, p.cy, baseline_m};
+  const StereoGeometry geometry{p.width, p.height, p.fx, p.fy, p.cx, p.cy, baseline_m, line_time_s};
   if (!distorts(p.distortion)) return Rectifier(geometry, nullptr);
   auto maps = std::make_shared<Maps>(Maps{cv::Mat(p.height, p.width, CV_32FC1), cv::Mat(p.height, p.width, CV_32FC1)});
   for (int v = 0; v < p.height; ++v)

@@ -15,8 +15,9 @@ namespace cairn::stereo {
 /// whose driver has rectified its pictures already; what is left of the lens' distortion is taken out here.
 class Rectifier {
  public:
-  /// `eye`: of each eye. Error kInvalidConfig: a baseline that is not positive.
-  [[nodiscard]] static Result<Rectifier> create(const cameras::CameraModel& eye, double baseline_m);
+  /// `eye`: of each eye. `line_time_s`: see StereoGeometry. Error kInvalidConfig: a baseline that is not positive.
+  [[nodiscard]] static Result<Rectifier> create(const cameras::CameraModel& eye, double baseline_m,
+                                                double line_time_s = 0);
 
   [[nodiscard]] const StereoGeometry& geometry() const { return geometry_; }
 

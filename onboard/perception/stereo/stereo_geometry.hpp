@@ -11,6 +11,10 @@ struct StereoGeometry {
   int width = 0, height = 0;              ///< pixels of one eye
   double fx = 0, fy = 0, cx = 0, cy = 0;  ///< focal lengths and principal point of both eyes, pixels
   double baseline_m = 0;                  ///< the right eye stands so far to the right of the left one
+  double line_time_s = 0;  ///< rolling shutter: from the exposure of one row to that of the next; 0: all at once
+
+  /// From a picture's stamp, which is the exposure of its first row, to the exposure of this row.
+  [[nodiscard]] double after_stamp_s(double row) const { return line_time_s * row; }
 
   /// Left pixel and disparity of a point with z > 0.
   [[nodiscard]] Eigen::Vector3d project(const Eigen::Vector3d& p) const {

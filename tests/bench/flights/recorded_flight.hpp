@@ -79,7 +79,8 @@ inline Result<Eyes> eyes_of(const std::filesystem::path& recording) {
   const app::PictureSize size = picture_size(camera);
   const auto model = camera.intrinsics.model(size.width, size.height);
   if (!model) return model.error();
-  auto rectifier = stereo::Rectifier::create(*model, camera.intrinsics.baseline_m);
+  auto rectifier = stereo::Rectifier::create(*model, camera.intrinsics.baseline_m,
+                                             1e-6 * chosen->profile.perception.labelling.line_time_us);
   if (!rectifier) return rectifier.error();
   const SE3 T_base_camera = SE3::from_xyz_rpy(Eigen::Map<const Vector6>(camera.base_xyz_rpy.data()));
   return Eyes{std::move(*rectifier), T_base_camera * cameras::T_camera_optical(), chosen->profile.stereo};

@@ -93,7 +93,31 @@ TEST(PoseSolver, TooFewMatchesLeaveTheStart) {
   const PoseSolver solver({}, kSolverEyes, kSolverMount);
   const auto matches = matches_from(moved(0.1, 0), 2, 0, 0, 4);
   const SE3 start = moved(0.05, 0);
-  EXPECT_LT((solver.vote(matches, start).inverse() * start).log().norm(), 1e-12);
+  EXPECT_LT((solver.vote(matches, {start, Vector6::Zero()}).inverse() * start).log().norm(), 1e-12);
+}
+
+/// A robot that turns while the rows of its picture are exposed: what is seen belongs to many poses.
+TEST(PoseSolver, EachRowIsOfItsOwnTime) {
+  const SE3 truth = moved(0.1, 0.03);
+  odometry::MotionState state{.T_odom_base = {}, .twist = (Vector6() << 1.5, 0, 0, 0.1, -0.2, 1.2).finished()};
+  auto matches = matches_from(truth, 60, 0, 0, 5);
+  for (Match& m : matches) {
+    m.row_s = 1e-4 * m.seen.y();
+    const SE3 then = truth * SE3::exp(m.row_s * state.twist);
+    m.seen = kSolverEyes.project((then * kSolverMount).inverse() * m.landmark.p_odom);
+  }
+  const auto off = [&](const std::vector<Match>& seen) {
+    const PoseSolver solver(patient(), kSolverEyes, kSolverMount);
+    MotionFilter filter = vague();
+    filter.believe(state);
+    Budget budget = Budget::steps(20);
+    const Fit fit = solver.align(seen, filter, {solver.vote(seen, state), state.twist}, budget);
+    return (fit.state.T_odom_base.inverse() * truth).log().norm();
+  };
+  auto at_once = matches;
+  for (Match& m : at_once) m.row_s = 0;
+  EXPECT_LT(off(matches), 2e-3);
+  EXPECT_GT(off(at_once), 0.01);
 }
 
 TEST(PoseSolver, TheBudgetLimitsTheSteps) {

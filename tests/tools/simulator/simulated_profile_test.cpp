@@ -57,6 +57,13 @@ TEST(SimulatedProfile, ARobotWithoutALidarMapsAsUavYamlSays) {
   EXPECT_EQ(profile.schedule.mapping.busy_hz, profile.stereo.map_rate_hz);
 }
 
+TEST(SimulatedProfile, SaysHowTheShutterRolls) {
+  SimulationConfig config;
+  EXPECT_EQ(simulated_profile(config).perception.labelling.line_time_us, 0);
+  config.stereo.line_time_s = 3e-5;
+  EXPECT_DOUBLE_EQ(simulated_profile(config).perception.labelling.line_time_us, 30);
+}
+
 TEST(SimulatedProfile, SaysHowTheCamerasSee) {
   const SimulationConfig config;
   const auto profile = simulated_profile(config);

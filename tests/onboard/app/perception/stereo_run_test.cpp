@@ -95,6 +95,21 @@ class StereoRun : public ::testing::Test {
   static inline std::string intrinsics_;
 };
 
+/// The pictures of this flight were taken at once: who thinks otherwise sees another way.
+TEST_F(StereoRun, TheProfilesRollingShutterIsTakenOutOfTheWay) {
+  std::vector<Eigen::Vector3d> ends;
+  for (const char* line_time_us : {"0", "100"}) {
+    const std::string out = std::string("rolling_") + line_time_us;
+    const auto result =
+        run(options(out, intrinsics_, "perception: {labelling: {line_time_us: " + std::string(line_time_us) + "}}\n"));
+    ASSERT_TRUE(result) << to_string(result.error());
+    const auto track = recording::read_tum(*folder_ / out / "trajectory.tum");
+    ASSERT_TRUE(track);
+    ends.push_back(track->back().pose.translation());
+  }
+  EXPECT_GT((ends[0] - ends[1]).norm(), 1e-3);
+}
+
 TEST_F(StereoRun, LocatesItselfAndMapsWhatBothEyesSee) {
   const auto result = run(options("seen"));
   ASSERT_TRUE(result) << to_string(result.error());
