@@ -8,7 +8,8 @@ namespace cairn::peers {
 Exchange::Exchange(RobotId self, std::string name, Epoch epoch, const ExchangeConfig& config)
     : config_(config),
       self_{.id = self, .name = std::move(name)},
-      layers_(self, epoch, config.max_robots, config.max_bytes_per_robot),
+      layers_(self, epoch,
+              {.robots = config.max_robots, .bytes = config.max_bytes_per_robot, .spare_bytes = config.spare_bytes}),
       links_(config.max_robots, config.lease),
       sender_(config) {}
 
@@ -94,7 +95,11 @@ Result<void> Exchange::take(Link& link, const Items& items) {
   link.received_items += items.updates.size();
   link.repeated_items += taken.repeated;
   if (taken.full)
-    return Error{Errc::kLimit, "a robot publishes more than is kept of one", {}, {}, std::to_string(items.robot)};
+    return Error{Errc::kLimit,
+                 "a robot's map is larger than what is kept of it: parts of it are left out",
+                 {},
+                 {},
+                 "robot " + std::to_string(items.robot)};
   if (taken.fresh > 0) links_.owe(items.robot);
   return {};
 }

@@ -4,7 +4,6 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "fusion/peers/items/holding.hpp"
 #include "hal/time.hpp"
 
 namespace cairn::peers {
@@ -21,7 +20,8 @@ struct ExchangeConfig {
   Duration answer = std::chrono::milliseconds(200);         ///< a robot takes so long to answer
   Duration gather = std::chrono::milliseconds(300);         ///< items wait so long for others to fill a datagram
   std::size_t overhead_bytes = 100;                         ///< of RTPS, UDP and IP for each datagram
-  std::size_t max_bytes_per_robot = Holding::kMaxBytes;     ///< that are kept of what one robot publishes
+  std::size_t max_bytes_per_robot = std::size_t{64} << 20;  ///< of memory, for the tiles of each robot: see memory_of()
+  std::size_t spare_bytes = std::size_t{768} << 20;         ///< for robots that need more, together
   std::size_t max_robots = 16;                              ///< more are not listened to
   std::uint32_t voxel_um = 0;  ///< voxels of this robot's map, micrometres; peers with others are ignored; 0: any
 };

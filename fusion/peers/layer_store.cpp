@@ -8,7 +8,7 @@ namespace cairn::peers {
 
 Layer& LayerStore::restart(RobotId robot, Epoch epoch) {
   changes_[robot] = {true, {}};
-  return layers_.insert_or_assign(robot, Layer{epoch, Holding(max_bytes_)}).first->second;
+  return layers_.insert_or_assign(robot, Layer{epoch, Holding()}).first->second;
 }
 
 void LayerStore::begin(Epoch epoch) { restart(self_, epoch); }
@@ -33,9 +33,19 @@ void LayerStore::hear_of(RobotId robot, Epoch epoch) {
 /// Where the items of a robot's epoch go; null if they are not wanted.
 Layer* LayerStore::layer_of(RobotId robot, Epoch epoch) {
   const auto layer = layers_.find(robot);
-  if (layer == layers_.end()) return layers_.size() > max_robots_ ? nullptr : &restart(robot, epoch);
+  if (layer == layers_.end()) return layers_.size() > limits_.robots ? nullptr : &restart(robot, epoch);
   if (layer->second.epoch < epoch) return &restart(robot, epoch);
   return layer->second.epoch == epoch ? &layer->second : nullptr;
+}
+
+std::size_t LayerStore::room_for(RobotId robot) const {
+  std::size_t left = limits_.spare_bytes;
+  for (const auto& [other, layer] : layers_) {
+    if (other == self_ || other == robot) continue;
+    const std::size_t more = std::max(layer.holding.bytes(), limits_.bytes) - limits_.bytes;
+    left -= std::min(left, more);
+  }
+  return limits_.bytes + left;
 }
 
 LayerStore::Taken LayerStore::take(const Items& items) {
@@ -44,10 +54,13 @@ LayerStore::Taken LayerStore::take(const Items& items) {
   if (layer == nullptr) return taken;
   taken.wanted = true;
   layer->holding.settle(items.superseded);
+  const std::size_t room = room_for(items.robot);
   for (const ItemUpdate& update : items.updates) {
-    const auto one = layer->holding.take(update);
-    taken.full = one == Holding::Taken::kFull;
-    if (taken.full) break;
+    const auto one = layer->holding.take(update, room);
+    if (one == Holding::Taken::kFull) {
+      taken.full = true;
+      continue;
+    }
     if (one == Holding::Taken::kNew) changes_[items.robot].items.insert(update.id);
     ++(one == Holding::Taken::kNew ? taken.fresh : taken.repeated);
   }

@@ -29,11 +29,13 @@ using Changes = std::map<RobotId, LayerChange>;
 /// What all robots publish, as far as it is known here; this robot's own too.
 class LayerStore {
  public:
-  /// `max_robots`: others than this one. `max_bytes`: of one robot.
-  LayerStore(RobotId self, Epoch epoch, std::size_t max_robots, std::size_t max_bytes)
-      : self_(self), max_robots_(max_robots), max_bytes_(max_bytes) {
-    begin(epoch);
-  }
+  /// What is kept at most.
+  struct Limits {
+    std::size_t robots = 16;      ///< others than this one
+    std::size_t bytes = 0;        ///< of memory, that the tiles of each robot may take in any case
+    std::size_t spare_bytes = 0;  ///< that the tiles of those which need more may take together
+  };
+  LayerStore(RobotId self, Epoch epoch, const Limits& limits) : self_(self), limits_(limits) { begin(epoch); }
 
   /// This robot begins anew: what it has published is void.
   void begin(Epoch epoch);
@@ -47,7 +49,7 @@ class LayerStore {
   /// What take() has done.
   struct Taken {
     bool wanted = false;  ///< false: of an earlier epoch, or of one robot too many; nothing was taken
-    bool full = false;    ///< true: the robot publishes more than is kept; the items before that were taken
+    bool full = false;    ///< true: the robot publishes more than is kept; tiles beyond that were left out
     std::size_t fresh = 0, repeated = 0;  ///< items that were news, and that were known already
   };
   /// Takes in items of another robot.
@@ -61,9 +63,11 @@ class LayerStore {
  private:
   Layer& restart(RobotId robot, Epoch epoch);
   Layer* layer_of(RobotId robot, Epoch epoch);
+  /// What the tiles of this robot may take now.
+  [[nodiscard]] std::size_t room_for(RobotId robot) const;
 
   RobotId self_;
-  std::size_t max_robots_, max_bytes_;
+  Limits limits_;
   Layers layers_;
   Changes changes_;
 };

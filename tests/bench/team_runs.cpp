@@ -79,7 +79,9 @@ class TeamRun {
       for (auto& arrived : network_.arrived(now_)) {
         RecordedRobot& robot = *robots_[arrived.to - 1];
         robot.received_bytes += arrived.bytes.size();
-        (void)robot.team.receive(arrived.bytes, now_);
+        if (const auto taken = robot.team.receive(arrived.bytes, now_); !taken && refused_++ == 0)
+          std::printf("  %.1f s: robot_%d refuses a datagram: %s\n", to_seconds(now_), static_cast<int>(arrived.to),
+                      to_string(taken.error()).c_str());
       }
       for (auto& robot : robots_) step(*robot);
       if (end == Time::max() && now_.time_since_epoch() % std::chrono::seconds(1) == Duration::zero()) note_errors();
@@ -113,15 +115,16 @@ class TeamRun {
                   team_run::occupied_leaves(map));
     }
     for (RobotId a = 1; a <= robots_.size(); ++a)
-      for (RobotId b = a + 1; b <= robots_.size(); ++b) report_pair(a, b);
+      for (RobotId b = 1; b <= robots_.size(); ++b)
+        if (a < b || (a > b && !robots_[a - 1]->team.poses().T_team_odom.contains(b))) report_pair(a, b);
     report_ages();
     const auto& poses = robots_.front()->team.poses();
     std::printf(
         "  %zu submaps, %td of %zu claims kept; %d refinements, %.2f s each; steps %.1f s, longest %.1f ms; "
-        "fusing %.1f s; inter-robot error along the run: mean %.3f m, max %.3f m\n",
+        "fusing %.1f s; inter-robot error along the run: mean %.3f m, max %.3f m; %d datagrams refused\n",
         poses.submaps.size(), std::ranges::count(poses.kept, true), poses.kept.size(), refinements_,
         to_seconds(refine_time_) / std::max(1, refinements_), to_seconds(step_time_), to_milliseconds(longest_step_),
-        to_seconds(fuse_time_), error_sum_ / std::max(1, errors_), worst_);
+        to_seconds(fuse_time_), error_sum_ / std::max(1, errors_), worst_, refused_);
   }
 
  private:
@@ -240,7 +243,7 @@ class TeamRun {
   fleet::Network network_;
   Time now_{}, stopped_{};
   Duration longest_slice_{}, match_time_{}, refine_time_{}, fuse_time_{}, step_time_{}, longest_step_{};
-  int matches_ = 0, refinements_ = 0;
+  int matches_ = 0, refinements_ = 0, refused_ = 0;
   double error_sum_ = 0, worst_ = 0;
   int errors_ = 0;
   std::map<RobotId, std::size_t> team_sizes_;

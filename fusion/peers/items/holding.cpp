@@ -18,12 +18,13 @@ bool Holding::say(ItemId id, std::span<const std::byte> payload) {
   return true;
 }
 
-Holding::Taken Holding::take(const ItemUpdate& update) {
+Holding::Taken Holding::take(const ItemUpdate& update, std::size_t max_bytes) {
   const auto held = items_.find(update.id);
   const bool known = held != items_.end() && held->second.version >= update.version;
   if (!known) {
+    const std::size_t room = max_bytes + (update.id.kind() == ItemKind::kTile ? 0 : kForOthers);
     const std::size_t before = held != items_.end() ? memory_of(update.id, held->second.payload) : 0;
-    if (bytes_ - before + memory_of(update.id, update.payload) > max_bytes_) return Taken::kFull;
+    if (bytes_ - before + memory_of(update.id, update.payload) > room) return Taken::kFull;
   }
   known_.add(update.settles());
   if (known) return Taken::kKnown;

@@ -42,15 +42,14 @@ class Holding {
   };
   using Items = std::map<ItemId, Item, BySubject>;
   enum class Taken : std::uint8_t { kNew, kKnown, kFull };
-  static constexpr std::size_t kMaxBytes = std::size_t{64}
-                                           << 20;  ///< of items, with what is made of them: see memory_of()
-
-  explicit Holding(std::size_t max_bytes = kMaxBytes) : max_bytes_(max_bytes) {}
 
   /// The robot itself publishes an item. False if it published the same last. Not for another robot's holding.
   bool say(ItemId id, std::span<const std::byte> payload);
-  /// Takes in an update of another robot; `update.version` is above `update.superseded`.
-  Taken take(const ItemUpdate& update);
+  /// Takes in an update of another robot; `update.version` is above `update.superseded`. All that is held may take
+  /// `max_bytes`, see memory_of(); kForOthers more where the update is no tile. Without submaps and edges, tiles are of
+  /// no use.
+  Taken take(const ItemUpdate& update, std::size_t max_bytes);
+  static constexpr std::size_t kForOthers = std::size_t{4} << 20U;  ///< some 9000 of them
 
   /// A tile is found with any submap in its id. The key has the submap that it was published in.
   [[nodiscard]] const Items& items() const { return items_; }
@@ -76,7 +75,7 @@ class Holding {
   Items::iterator under(ItemId id, Items::iterator held);
   void put(ItemId id, Version version, std::span<const std::byte> payload);
 
-  std::size_t max_bytes_, bytes_ = 0;
+  std::size_t bytes_ = 0;
   Items items_;
   ByVersion by_version_;
   VersionSet known_;

@@ -23,7 +23,7 @@ class LayerStoreTest : public testing::Test {
   [[nodiscard]] std::size_t held(RobotId robot) const { return store_.all().at(robot).holding.items().size(); }
 
   std::vector<std::byte> payload_{std::byte{0x84}};
-  LayerStore store_{kOwnId, 5, 2, kMaxBytes};
+  LayerStore store_{kOwnId, 5, {.robots = 2, .bytes = kMaxBytes, .spare_bytes = 0}};
 };
 
 TEST_F(LayerStoreTest, ItsOwnLayerIsThereFromTheBeginning) {
@@ -91,7 +91,7 @@ TEST_F(LayerStoreTest, MoreRobotsAreNotWanted) {
 }
 
 TEST_F(LayerStoreTest, MoreItemsThanAreKeptOfOneRobotAreNotTaken) {
-  LayerStore small(kOwnId, 5, 2, 5000);
+  LayerStore small(kOwnId, 5, {.robots = 2, .bytes = 5000, .spare_bytes = 0});
   std::vector<Version> versions;
   for (Version version = 1; version <= 1000; ++version) versions.push_back(version);
   const auto taken = small.take(items(2, 1, versions));
@@ -99,6 +99,20 @@ TEST_F(LayerStoreTest, MoreItemsThanAreKeptOfOneRobotAreNotTaken) {
   EXPECT_GT(taken.fresh, 0U);
   EXPECT_LT(taken.fresh, 1000U);
   EXPECT_EQ(small.all().at(2).holding.items().size(), taken.fresh);
+}
+
+/// What one robot does not need, another may take, and each has its own share in any case.
+TEST_F(LayerStoreTest, WhatIsSpareIsSharedByThoseWhoNeedMore) {
+  LayerStore store(kOwnId, 5, {.robots = 3, .bytes = 5000, .spare_bytes = 20'000});
+  std::vector<Version> versions;
+  for (Version version = 1; version <= 1000; ++version) versions.push_back(version);
+  const auto bytes_of = [&](RobotId robot) { return store.all().at(robot).holding.bytes(); };
+  EXPECT_TRUE(store.take(items(2, 1, versions)).full);
+  EXPECT_GT(bytes_of(2), 23'000U);
+  EXPECT_LE(bytes_of(2), 25'000U);
+  EXPECT_TRUE(store.take(items(3, 1, versions)).full);
+  EXPECT_GT(bytes_of(3), 4'000U) << "its share";
+  EXPECT_LE(bytes_of(2) + bytes_of(3), 30'000U);
 }
 
 }  // namespace

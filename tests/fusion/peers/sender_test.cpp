@@ -44,7 +44,7 @@ struct Robot {
 
   ExchangeConfig config;
   Identity self{.id = 1, .name = "one"};
-  LayerStore layers{1, 5, 16, 1U << 20U};
+  LayerStore layers{1, 5, {.robots = 16, .bytes = 1U << 20U, .spare_bytes = 0}};
   LinkTable links{16, seconds(3)};
   InterestOf interest_of;
   Sender sender{config};

@@ -30,7 +30,7 @@ class StatusMessagesTest : public testing::Test {
   std::vector<std::byte> payload_{std::byte{0x84}};
   ExchangeConfig config_;
   Identity self_{.id = 1, .name = "one", .place = Hello::Place{.position_m = {1, 2, 3}}};
-  LayerStore layers_{1, 5, 16, 1U << 20U};
+  LayerStore layers_{1, 5, {.robots = 16, .bytes = 1U << 20U, .spare_bytes = 0}};
   LinkTable links_{16, seconds(3)};
   Time now_{seconds(100)};
 };

@@ -29,6 +29,7 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   auto rest = std::as_bytes(std::span(data, size));
   ExchangeConfig config;
   config.max_bytes_per_robot = 20000;
+  config.spare_bytes = 0;
   Exchange robot(1, "robot_1", 7, config);
   Time now{};
   std::vector<Outgoing> out;
@@ -43,7 +44,8 @@ extern "C" int LLVMFuzzerTestOneInput(const unsigned char* data, std::size_t siz
   }
   for (const Outgoing& sent : out)
     require(sent.bytes.size() <= kMaxDatagram && decode_datagram(sent.bytes).has_value());
-  for (const auto& [id, layer] : robot.layers()) require(layer.holding.bytes() <= config.max_bytes_per_robot + 1000);
+  for (const auto& [id, layer] : robot.layers())
+    require(layer.holding.bytes() <= config.max_bytes_per_robot + Holding::kForOthers + 1000);
   (void)robot.take_changes();
   return 0;
 }

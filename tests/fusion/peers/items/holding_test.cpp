@@ -8,6 +8,8 @@
 namespace cairn::peers {
 namespace {
 
+constexpr std::size_t kAll = std::size_t{1} << 30U;  // bytes
+
 std::vector<std::byte> payload(unsigned long value) {
   return std::vector<std::byte>(1 + value % 40, static_cast<std::byte>(value));
 }
@@ -21,7 +23,7 @@ std::vector<ItemUpdate> missing(const Holding& from, const Holding& at, std::siz
 /// Everything arrives.
 void bring_up_to_date(const Holding& from, Holding& to) {
   const Missing missing = from.missing(to.known(), 10000);
-  for (const ItemUpdate& update : missing.updates) to.take(update);
+  for (const ItemUpdate& update : missing.updates) to.take(update, kAll);
   to.settle(missing.superseded);
 }
 
@@ -59,7 +61,7 @@ TEST(Holding, ComesToTheSameWhateverHappensOnTheWay) {
       for (int i = 0; i < 4 && !on_the_way.empty(); ++i) {
         auto& [update, bytes] = on_the_way[random() % on_the_way.size()];
         update.payload = bytes;
-        peer.take(update);  // and may come again
+        peer.take(update, kAll);  // and may come again
       }
       for (const VersionRange& range : peer.known().ranges())
         for (const auto& [id, held] : own.items()) {
@@ -89,7 +91,7 @@ TEST(Holding, ATileIsHeldInTheSubmapItWasSaidInLastWhateverArrivesWhen) {
         on_the_way.push_back({update, {update.payload.begin(), update.payload.end()}});
       auto& [update, bytes] = on_the_way[random() % on_the_way.size()];
       update.payload = bytes;
-      peer.take(update);
+      peer.take(update, kAll);
     }
     bring_up_to_date(own, peer);
     EXPECT_TRUE(same(own, peer));
@@ -105,10 +107,10 @@ TEST(Holding, WhoRelaysClaimsNoMoreThanItKnows) {
   for (int step = 0; step < 500; ++step) {
     own.say(item(random() % 20), payload(random() % 100));
     for (const ItemUpdate& update : missing(own, relay))
-      if (random() % 3 == 0) relay.take(update);
+      if (random() % 3 == 0) relay.take(update, kAll);
     const Missing behind = relay.missing(last.known(), 1 + random() % 10);
     for (const ItemUpdate& update : behind.updates)
-      if (random() % 3 == 0) last.take(update);
+      if (random() % 3 == 0) last.take(update, kAll);
     if (random() % 3 == 0) last.settle(behind.superseded);
     for (const VersionRange& range : last.known().ranges())
       for (const auto& [id, held] : own.items())
@@ -123,24 +125,38 @@ TEST(Holding, WhoRelaysClaimsNoMoreThanItKnows) {
 }
 
 TEST(Holding, TakesNoMoreThanItMay) {
-  Holding own, peer(4000);
+  constexpr std::size_t kMost = 4000;
+  Holding own, peer;
   for (unsigned i = 0; i < 100; ++i) own.say(item(i), payload(1));
   int full = 0;
-  for (const ItemUpdate& update : missing(own, peer)) full += peer.take(update) == Holding::Taken::kFull ? 1 : 0;
+  for (const ItemUpdate& update : missing(own, peer)) full += peer.take(update, kMost) == Holding::Taken::kFull ? 1 : 0;
   EXPECT_GT(full, 50);
-  EXPECT_LE(peer.bytes(), 4000U);
+  EXPECT_LE(peer.bytes(), kMost);
   EXPECT_FALSE(peer.known().complete(own.newest()));
   const auto held = peer.items().begin();
-  EXPECT_EQ(peer.take({held->first, 1000, 0, held->second.payload}), Holding::Taken::kNew);  // what is held may change
+  EXPECT_EQ(peer.take({held->first, 1000, 0, held->second.payload}, kMost),
+            Holding::Taken::kNew);  // what is held may change
+}
+
+/// A map that does not fit must not keep robots from hearing where it lies.
+TEST(Holding, WhatIsNoTileIsTakenWhenTilesFillIt) {
+  Holding own, peer;
+  for (unsigned i = 0; i < 100; ++i) own.say(item(i), payload(1));
+  own.say(ItemId::edge(3), payload(2));
+  for (const ItemUpdate& update : missing(own, peer)) peer.take(update, 4000);
+  EXPECT_TRUE(peer.items().contains(ItemId::edge(3)));
+  for (unsigned i = 0; i < 60'000; ++i) own.say(ItemId::edge(static_cast<std::uint16_t>(i)), payload(2));
+  for (const ItemUpdate& update : missing(own, peer)) peer.take(update, 4000);
+  EXPECT_LE(peer.bytes(), 4000U + Holding::kForOthers);
 }
 
 TEST(Holding, TwoItemsOfOneVersionDoNoHarm) {
   Holding liar;
   const auto bytes = payload(3);
-  liar.take({item(1), 5, 4, bytes});
-  liar.take({item(2), 5, 4, bytes});
-  liar.take({item(2), 6, 0, bytes});
-  liar.take({item(1), 7, 0, bytes});
+  liar.take({item(1), 5, 4, bytes}, kAll);
+  liar.take({item(2), 5, 4, bytes}, kAll);
+  liar.take({item(2), 6, 0, bytes}, kAll);
+  liar.take({item(1), 7, 0, bytes}, kAll);
   EXPECT_EQ(missing(liar, Holding{}).size(), 2U);
 }
 

@@ -45,7 +45,8 @@ TEST(ItemMemory, ALiarsCheckerboardsStayWithinWhatIsKeptOfARobot) {
   constexpr std::size_t kMost = std::size_t{8} << 20U;
   team::TeamConfig config;
   config.id = 1;
-  config.exchange.max_bytes_per_robot = kMost;
+  config.exchange.max_bytes_per_robot = kMost / 2;
+  config.exchange.spare_bytes = kMost / 2;
   config.exchange.bytes_per_second = 1'000'000;
   team::Team honest(config, Epoch{1} << 32U);
   Exchange liar(2, "liar", Epoch{1} << 32U, {.bytes_per_second = 10'000'000, .voxel_um = 200'000});
