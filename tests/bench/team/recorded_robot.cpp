@@ -119,6 +119,7 @@ void RecordedRobot::take_picture(Time now) {
   const Eigen::Matrix3f R = T_base_eye.rotation().cast<float>();
   const Eigen::Vector3f t = T_base_eye.translation().cast<float>();
   for (const Eigen::Vector3f& p : points_eye_) located_.points_base.emplace_back(R * p + t);
+  stereo::hold_still(setup.geometry, located_.twist, points_eye_, located_.points_base);
   extend_map(now);
 }
 
