@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <utility>
 
+#include "onboard/perception/people/ground_below.hpp"
+
 namespace cairn {
 namespace {
 
@@ -198,7 +200,8 @@ void Robot::leave_mates_out(Time stamp) {
 /// What is left in points_odom_ is what stands.
 void Robot::leave_people_out(const LocatedScan& scan, const Eigen::Vector3f& origin_odom) {
   const StageTimer timing(monitor_.stage("people"));
-  const auto height = static_cast<float>(T_base_sensor_.translation().z());
+  if (eyes_) height_ = people::height_above_ground(points_odom_, origin_odom).value_or(height_);
+  const float height = eyes_ ? height_ : static_cast<float>(T_base_sensor_.translation().z());
   people_->observe({scan.stamp, points_odom_, origin_odom, height},
                    [this](const Eigen::Vector3f& point) { return space_of(mapper_.standing(point)); });
   const auto mask = people_->mask();

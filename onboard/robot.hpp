@@ -246,6 +246,7 @@ class Robot {
   void take_back_new_people();
   std::vector<Mate> mates_;  // of the map's epoch
   std::optional<people::People> people_;
+  float height_ = 1;  // of eyes that fly, above the ground, m: where it was seen last
   std::optional<labelling::PointLabeller> labeller_;
   std::optional<mapping::SensorTrust> depth_;
   labelling::LocatedScans recent_;              // of mapping; empty where nothing needs it

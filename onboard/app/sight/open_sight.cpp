@@ -13,10 +13,7 @@ Result<Sight> open_sight(const RunOptions& options, const RobotProfile& profile,
   auto labels = open_perception(options, profile, profile_file, sources, monitor);
   if (!labels) return labels.error();
   PeopleWatch people;
-  if (*eyes) {
-    if (profile.perception.people.follow == "always")
-      monitor.event({}, "people", "nobody is followed: people are found among the points of a LiDAR");
-  } else {
+  if (!*eyes || profile.perception.people.follow == "always") {
     auto watch = open_people(options, profile, profile_file, sources, monitor);
     if (!watch) return watch.error();
     people = std::move(*watch);

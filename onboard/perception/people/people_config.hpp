@@ -10,7 +10,7 @@ namespace cairn::people {
 
 /// How people are found and followed: section `perception.people` of a profile.
 struct PeopleConfig {
-  std::string follow = "auto";  ///< auto: where a detector looks at pictures; always: by scans alone, too; never
+  std::string follow = "auto";  ///< auto: by a detector and a LiDAR; always: also by scans or eyes alone; never
   bool movers = true;           ///< who walks, or came upright, is followed also where no camera sees it
   double farthest_m = 20;       ///< from the LiDAR
   double confirm = 4;           ///< evidence in nats from which somebody is a person; about 50 to 1
