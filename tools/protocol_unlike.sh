@@ -5,14 +5,14 @@
 #   tools/protocol_unlike.sh [--seed K] [--out DIR] [--seconds S] [--fusions N] [--starts N] [--scenes "NAME…"]
 #     --seed      of the drives and their noise; that of the flights is one more (default 72001)
 #     --out       default: protocol_unlike/; recordings of the same seed and length are used again
-#     --seconds   length of the missions (default 24)
-#     --fusions   how often the maps are fused, spread evenly over a mission (default 6)
+#     --seconds   length of the missions (default 60)
+#     --fusions   how often the maps are fused, spread evenly over a mission (default 3)
 #     --starts    from how many of the 125 start poses OICP, EM and Cairn's default match (default 5)
 #     --scenes    default: "carpark street"; also lobby, office and forest
-# It takes about a quarter of an hour of CPU time after the build.
+# It takes about half an hour of CPU time after the build.
 source "$(dirname "${BASH_SOURCE[0]}")/protocol/common.sh"
 
-seed=72001 out=protocol_unlike seconds=24 fusions=6 starts=5 scenes="carpark street"
+seed=72001 out=protocol_unlike seconds=60 fusions=3 starts=5 scenes="carpark street"
 take_options "seed out seconds fusions starts scenes" "$@"
 
 # record SCENE ROBOT SEED OPTION…: five pictures a second are as many as the UGV's network looks at.
