@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "onboard/perception/stereo/row_motion.hpp"
 #include "onboard/visual_odometry/landmark_view.hpp"
+#include "onboard/visual_odometry/still_features.hpp"
 
 namespace cairn::visual_odometry {
 
@@ -46,7 +48,6 @@ StereoOdometry::StereoOdometry(const VisualOdometryConfig& config, const stereo:
     : config_(config),
       geometry_(geometry),
       T_base_eye_(T_base_eye),
-      T_eye_base_(T_base_eye.inverse()),
       tracker_(config.tracking, geometry),
       map_(geometry, {config.pixel_noise, config.disparity_noise}, config.max_depth_m),
       solver_(config, geometry, T_base_eye),
@@ -92,11 +93,12 @@ Result<VisualUpdate> StereoOdometry::update(const stereo::StereoPair& pair, Budg
 
 /// Follows the features to where their landmarks are expected.
 void StereoOdometry::track(const stereo::StereoPair& pair) {
-  const SE3 T_base_odom = filter_.state().T_odom_base.inverse();
+  const SE3 T_base_odom = filter_.state().T_odom_base.inverse(), T_eye_base = T_base_eye_.inverse();
   tracker_.follow(pair, [&](const Feature& f) -> std::optional<Eigen::Vector3d> {
     const Landmark* landmark = map_.find(f.id);
     if (landmark == nullptr) return std::nullopt;
-    const Eigen::Vector3d p = T_eye_base_ * motion_until(f).at_row(T_base_odom * landmark->p_odom);
+    const stereo::RowMotion motion{filter_.state().twist, geometry_.after_stamp_s(f.left.y())};
+    const Eigen::Vector3d p = T_eye_base * motion.at_row(T_base_odom * landmark->p_odom);
     return p.z() > kNearest_m ? std::optional(geometry_.project(p)) : std::nullopt;
   });
 }
@@ -246,37 +248,19 @@ bool StereoOdometry::wants_keyframe(int inliers) const {
          rotation_angle(since) > config_.keyframe_rad;
 }
 
-stereo::RowMotion StereoOdometry::motion_until(const Feature& f) const {
-  return {filter_.state().twist, geometry_.after_stamp_s(f.left.y())};
-}
-
-/// The last pair's features where they would be, had all rows been exposed with the first one. Landmarks tell how far
-/// away they are; the others' disparities do.
-std::span<const Feature> StereoOdometry::features_at_stamp() {
+/// The last pair's, as if all rows had been exposed with the first one.
+std::span<const Feature> StereoOdometry::still_features() {
   if (geometry_.line_time_s == 0) return tracker_.features();
-  at_stamp_.assign(tracker_.features().begin(), tracker_.features().end());
-  const SE3 T_base_odom = filter_.state().T_odom_base.inverse();
-  for (Feature& f : at_stamp_) {
-    const Landmark* landmark = map_.find(f.id);
-    if (landmark == nullptr && !f.disparity) continue;
-    const stereo::RowMotion motion = motion_until(f);
-    const Eigen::Vector3d p =
-        landmark != nullptr ? Eigen::Vector3d(T_base_odom * landmark->p_odom)
-                            : motion.at_stamp(T_base_eye_ * geometry_.point(f.left.x(), f.left.y(), *f.disparity));
-    const Eigen::Vector3d now = T_eye_base_ * p, at_row = T_eye_base_ * motion.at_row(p);
-    if (now.z() < kNearest_m || at_row.z() < kNearest_m) continue;
-    const Eigen::Vector3f moved = (geometry_.project(now) - geometry_.project(at_row)).cast<float>();
-    f.left += moved.head<2>();
-    if (f.disparity) *f.disparity += moved.z();
-  }
-  return at_stamp_;
+  still_.assign(tracker_.features().begin(), tracker_.features().end());
+  hold_still(still_, map_, {geometry_, T_base_eye_, filter_.state()});
+  return still_;
 }
 
 /// Moves the last keyframes, this one and their landmarks to where they fit best. The filter takes the newest pose.
 /// Landmarks are as uncertain as the noise of a picture has them: corners before plain walls must still fit.
 void StereoOdometry::adjust(Budget& budget) {
   bundle_.add(filter_.state().T_odom_base);
-  bundle_.see(features_at_stamp(), map_);
+  bundle_.see(still_features(), map_);
   bundle_.adjust(budget);
   const double ratio = config_.pixel_noise / config_.adjustment.pixel_noise;
   bundle_.place(map_, ratio * ratio);
@@ -287,11 +271,11 @@ void StereoOdometry::adjust(Budget& budget) {
 void StereoOdometry::make_keyframe(const stereo::StereoPair& pair, Budget& budget) {
   adjust(budget);
   tracker_.add_corners();
-  for (const Feature& f : features_at_stamp())
+  for (const Feature& f : still_features())
     if (map_.find(f.id) == nullptr) map_.add(f, T_odom_eye(), drift_.epoch());
   tracker_.drop([&](const Feature& f) { return map_.find(f.id) == nullptr; });
   map_.keep(tracker_.features());
-  bundle_.see(features_at_stamp(), map_);
+  bundle_.see(still_features(), map_);
   places_.remember(pair.stamp, pair.left, tracker_.features(), map_, filter_.state().T_odom_base);
   T_odom_keyframe_ = filter_.state().T_odom_base;
   keyframe_landmarks_ = static_cast<int>(map_.size());

@@ -13,7 +13,6 @@
 #include "onboard/odometry/estimation/motion_source.hpp"
 #include "onboard/odometry/estimation/motion_update.hpp"
 #include "onboard/odometry/motion_prior.hpp"
-#include "onboard/perception/stereo/row_motion.hpp"
 #include "onboard/perception/stereo/stereo_pair.hpp"
 #include "onboard/visual_odometry/bundle_adjuster.hpp"
 #include "onboard/visual_odometry/config.hpp"
@@ -80,15 +79,13 @@ class StereoOdometry final : public odometry::MotionSource {
   void adjust(Budget& budget);
   void begin_apart(const stereo::StereoPair& pair, double dt_s, Budget& budget);
   void begin_map(const stereo::StereoPair& pair, Budget& budget);
-  /// Until a rolling shutter exposed the feature's row.
-  [[nodiscard]] stereo::RowMotion motion_until(const Feature& f) const;
-  [[nodiscard]] std::span<const Feature> features_at_stamp();
+  [[nodiscard]] std::span<const Feature> still_features();
   [[nodiscard]] SE3 T_odom_eye() const { return filter_.state().T_odom_base * T_base_eye_; }
   [[nodiscard]] VisualUpdate report(Time stamp) const;
 
   VisualOdometryConfig config_;
   stereo::StereoGeometry geometry_;
-  SE3 T_base_eye_, T_eye_base_;
+  SE3 T_base_eye_;
   FeatureTracker tracker_;
   LandmarkMap map_;
   PoseSolver solver_;
@@ -99,8 +96,8 @@ class StereoOdometry final : public odometry::MotionSource {
   odometry::MotionFilter followed_;  // at the last pair that was followed
   odometry::DriftHistory drift_;
   std::vector<Match> matches_;
-  std::vector<Feature> corners_;   // of the last pair that was lost at first
-  std::vector<Feature> at_stamp_;  // reused
+  std::vector<Feature> corners_;  // of the last pair that was lost at first
+  std::vector<Feature> still_;    // reused
   std::optional<Time> last_;
   Matrix6 keyframe_error_ = Matrix6::Zero();  // of the next keyframe's landmarks in common, a right perturbation
   Time last_followed_{};
