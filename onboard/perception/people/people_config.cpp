@@ -16,9 +16,8 @@ void declare(config::Section& s, DetectorTrust& t) {
 
 void declare(config::Section& s, PeopleConfig& c) {
   s.choice("follow", c.follow, {"auto", "always", "never"},
-           "people are followed and stay out of the map: auto where a detector looks at pictures and a LiDAR measures, "
-           "always "
-           "also by scans alone, or by the points of both eyes");
+           "people are followed and stay out of the map: auto where a detector looks at pictures and a LiDAR "
+           "measures, always also by scans alone, or by the points of both eyes");
   s.flag("movers", c.movers, "also follow walkers, and upright bodies that came, that the LiDAR alone sees");
   s.number("farthest_m", c.farthest_m, {2, 40}, "m", "nobody is looked for beyond it");
   s.number("confirm", c.confirm, {0.5, 10}, "nat", "evidence from which somebody is a person");
