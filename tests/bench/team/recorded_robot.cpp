@@ -12,6 +12,7 @@
 #include "onboard/app/profile/recorded_profile.hpp"
 #include "onboard/app/profile/robot_profile.hpp"
 #include "onboard/perception/cameras/camera_model.hpp"
+#include "onboard/perception/stereo/row_motion.hpp"
 
 namespace cairn::bench {
 
