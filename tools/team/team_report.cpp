@@ -33,6 +33,7 @@ Json robot_json(const TeamReport& report, Index i) {
           {"pose_error_m", or_nulls(figures.pose_error_m)},
           {"pose_error_deg", or_nulls(figures.pose_error_deg)},
           {"merged_with", figures.merged_with},
+          {"not_merged", figures.not_merged},
           {"iou_world", or_null(figures.iou_world)},
           {"ticks", figures.ticks},
           {"missed_ticks", figures.missed_ticks},
@@ -69,6 +70,15 @@ std::string merged_text(const RobotFigures& figures) {
     text += fmt::format("{}{} ({} m, {} deg)", i == 0 ? "" : ", ", figures.merged_with[i],
                         number_or_dash(figures.pose_error_m[i], 3), number_or_dash(figures.pose_error_deg[i], 2));
   return text.empty() ? "nobody" : text;
+}
+
+/// Pairs that are not merged, and what each of the two says of it.
+std::string not_merged_text(const TeamReport& report) {
+  std::string text;
+  for (const RobotFigures& robot : report.figures.robots)
+    for (const auto& [peer, reason] : robot.not_merged)
+      text += fmt::format("{} is not merged with {}: {}\n", robot.name, peer, reason.empty() ? "no reason" : reason);
+  return text;
 }
 
 /// Robots that were not run in real time show what this machine is worth, not what they are.
@@ -108,6 +118,7 @@ std::string to_table(const TeamReport& report) {
                         1e-6 * static_cast<double>(report.recordings[i].raw_bytes),
                         number_or_dash(figures.iou_world, 3), figures.team_sha256.substr(0, 8), merged_text(figures));
   }
+  text += not_merged_text(report);
   text += warnings(report);
   for (Index i = 0; i < report.figures.disagreements.size(); ++i)
     text += fmt::format("DIFFERENT team maps: {}\n  {}\n", report.figures.disagreements[i],

@@ -37,8 +37,15 @@ std::optional<double> iou_of(const std::vector<RobotResult>& robots, const Robot
 
 RobotFigures figures_of(const std::vector<RobotResult>& robots, const RobotResult& robot,
                         const mapping::SemanticOcTree* world) {
-  RobotFigures figures{robot.name,  robot.team_sha256, robot.merged_with, {}, {}, iou_of(robots, robot, world),
-                       robot.ticks, robot.missed_ticks};
+  RobotFigures figures;
+  figures.name = robot.name;
+  figures.team_sha256 = robot.team_sha256;
+  figures.merged_with = robot.merged_with;
+  figures.iou_world = iou_of(robots, robot, world);
+  figures.ticks = robot.ticks;
+  figures.missed_ticks = robot.missed_ticks;
+  for (const auto& [name, reason] : robot.reasons)
+    if (std::ranges::find(robot.merged_with, name) == robot.merged_with.end()) figures.not_merged[name] = reason;
   for (const std::string& name : robot.merged_with) {
     const RobotResult* other = find(robots, name);
     const auto error = other != nullptr ? error_between(robot, *other) : std::nullopt;

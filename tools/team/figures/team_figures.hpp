@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,6 +19,7 @@ struct RobotFigures {
   std::vector<std::optional<double>> pose_error_m, pose_error_deg;
   std::optional<double> iou_world;  ///< of its team's map
   std::uint64_t ticks = 0, missed_ticks = 0;
+  std::map<std::string, std::string> not_merged;  ///< all others that it heard of: why not, as the robot says
 };
 
 struct TeamFigures {

@@ -55,6 +55,16 @@ TEST(CompareTeam, OfThoseWhoAreRightSaysSo) {
   }
 }
 
+TEST(CompareTeam, SaysWhyOthersAreNotMerged) {
+  auto robots = team_of(3);
+  robots[0].reasons = {{"r1", "merged"}, {"r2", "too little structure in common"}};
+  split_off(robots, 2);
+  const TeamFigures figures = compare_team(robots, nullptr);
+  ASSERT_EQ(figures.robots[0].not_merged.size(), 1U);
+  EXPECT_EQ(figures.robots[0].not_merged.at("r2"), "too little structure in common");
+  EXPECT_TRUE(figures.robots[1].not_merged.empty()) << "it heard of nobody";
+}
+
 TEST(CompareTeam, DifferentMapsOfTheMergedAreNotSound) {
   auto robots = team_of(3);
   robots[2].team_sha256 = "other";
