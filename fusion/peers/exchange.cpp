@@ -95,11 +95,12 @@ Result<void> Exchange::take(Link& link, const Items& items) {
   link.received_items += items.updates.size();
   link.repeated_items += taken.repeated;
   if (taken.full)
-    return Error{Errc::kLimit,
-                 "a robot's map is larger than what is kept of it: parts of it are left out",
-                 {},
-                 {},
-                 "robot " + std::to_string(items.robot)};
+    return Error{
+        Errc::kLimit,
+        "a robot's map is larger than what is kept of it: parts of it are left out",
+        {},
+        {},
+        "robot " + std::to_string(items.robot) + "; larger voxels take less: mapping.resolution_m, on all robots"};
   if (taken.fresh > 0) links_.owe(items.robot);
   return {};
 }

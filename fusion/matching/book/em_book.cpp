@@ -6,6 +6,7 @@
 #include "fusion/matching/book/alignment.hpp"
 
 namespace cairn::matching {
+
 EmBook::EmBook(const MapFeatures& a, const MapFeatures& b)
     : VoxelMatcher(a, b),
       points_b_(centres_of(voxels_b()), static_cast<float>(kGridCell_voxels * resolution())),

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // How well landmarks that a LiDAR has measured stay on the corners that visual odometry follows in one camera.
-//   lidar_landmarks RECORDING [CONFIG]     for recordings with a LiDAR and a camera, such as those of `import
-//   kitti-raw`
+//   lidar_landmarks RECORDING [CONFIG]     for recordings with a LiDAR and a camera: `import kitti-raw` makes some
 // A corner gets its distance from the scan of the picture in which it is found. Later pictures follow it by what it
 // looks like. Two reprojections are compared with where it is found then: from where the LiDAR's odometry says the
 // robot is, and from the pose that the landmarks themselves give, by PoseSolver with one eye. As in visual odometry, a
@@ -27,6 +26,8 @@
 namespace cairn::visual_odometry {
 namespace {
 
+using flights::percentile;
+
 constexpr float kNear_px = 4;         // points that tell a corner's distance are so near to it
 constexpr double kOneSurface = 0.03;  // they lie on one surface if their distances differ by less than this share
 
@@ -35,12 +36,6 @@ T value_of(Result<T> result) {
   if (result) return *std::move(result);
   std::fprintf(stderr, "lidar_landmarks: %s\n", to_string(result.error()).c_str());
   std::exit(2);
-}
-
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::ranges::sort(values);
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
 }
 
 /// The points of a scan where a picture shows them.

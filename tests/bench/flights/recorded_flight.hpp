@@ -24,6 +24,13 @@
 /// Simulated recordings of stereo pictures, for measuring tools.
 namespace cairn::flights {
 
+/// 0 of nothing.
+inline double percentile(std::vector<double> values, double share) {
+  if (values.empty()) return 0;
+  std::ranges::sort(values);
+  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
+}
+
 /// Where the robot was.
 struct Truth {
   std::map<std::int64_t, SE3> poses;  // by nanoseconds

@@ -27,6 +27,7 @@ namespace cairn::visual_odometry {
 namespace {
 
 namespace fs = std::filesystem;
+using flights::percentile;
 
 struct Settings {
   VisualOdometryConfig odometry;
@@ -34,12 +35,6 @@ struct Settings {
   double dark_from_s = -1, dark_for_s = 0;
   double restart_at_s = -1, restart_for_s = 0;
 };
-
-double percentile(std::vector<double> values, double share) {
-  if (values.empty()) return 0;
-  std::ranges::sort(values);
-  return values[static_cast<std::size_t>(share * static_cast<double>(values.size() - 1))];
-}
 
 /// Where a picture was taken, and where odometry said so.
 struct Pose {
