@@ -16,6 +16,8 @@ namespace {
 constexpr double kAnywhere_m = 100;         // along x, y and z: frames begin where robots start
 constexpr double kAnywhereTilt_rad = 0.03;  // 1.7°: how well a LiDAR's mapping holds gravity
 constexpr double kAnywhereHeading_rad = M_PI;
+// From a cell's centre to its corners, in cells, with some room for rounding: √3/2 = 0.87.
+constexpr float kToCorner_cells = 0.9F;
 
 }  // namespace
 
@@ -35,7 +37,7 @@ Judge::Judge(const MapFeatures& a, const MapFeatures& b, const EvidenceConfig& e
       b_(party_of(b, evidence)),
       cell_m_(std::max(a.fine_m(), b.fine_m())),
       near_a_(a.fine(), cell_m_, evidence.reach_cells * cell_m_),
-      near_b_(b.fine(), cell_m_, evidence.reach_cells * cell_m_) {}
+      near_b_(b.fine(), cell_m_, (evidence.pair_cells + kToCorner_cells) * cell_m_) {}
 
 Party party_of(const MapFeatures& map, const EvidenceConfig& config) {
   Party party{.surfels = {},

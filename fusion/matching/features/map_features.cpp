@@ -44,7 +44,8 @@ Result<MapFeatures> MapFeatures::build(const mapping::SemanticOcTree& map, const
   for (auto from = voxels->begin(); from != voxels->end();) {
     const mapping::TileKey tile = tile_of(*from);
     const auto to = std::find_if(from, voxels->end(), [&](const Voxel& v) { return tile_of(v) != tile; });
-    features.replace(tile, {from, to});
+    features.fine_grid_.add_tile({from, to});
+    features.coarse_grid_.add_tile({from, to});
     from = to;
   }
   features.finish();

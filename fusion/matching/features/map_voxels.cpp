@@ -79,12 +79,9 @@ Cube root_of(const mapping::SemanticOcTree& map) {
 
 Result<std::vector<Voxel>> occupied_voxels(const mapping::SemanticOcTree& map, std::size_t max_voxels) {
   if (map.getRoot() == nullptr) return std::vector<Voxel>{};
-  const auto voxels = mapping::listable_voxels(map, max_voxels);
-  if (!voxels) return voxels.error();
-  Collector collector(map, *voxels);
-  collector.voxels().reserve(*voxels);
-  (void)collector.collect(root_of(map));
-  return std::move(collector.voxels());
+  Collector collector(map, mapping::most_listable(map, max_voxels));
+  if (collector.collect(root_of(map))) return std::move(collector.voxels());
+  return mapping::listable_voxels(map, max_voxels).error();
 }
 
 std::vector<Voxel> occupied_voxels(const mapping::SemanticOcTree& map, mapping::TileKey tile) {

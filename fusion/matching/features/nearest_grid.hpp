@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -12,8 +13,8 @@
 namespace cairn::matching {
 
 /// Finds the surfel nearest to a point, up to the size of a cell, with one look-up. Each cell near
-/// a surface keeps the surfel nearest to its centre (brushfire from the surfels outwards). Memory
-/// grows with the surface, not with the volume, because cells are kept in bricks of 8³.
+/// a surface keeps the surfel nearest to its centre, or the first of them. Memory grows with the
+/// surface, not with the volume, because cells are kept in bricks of 8³.
 class NearestGrid {
  public:
   static constexpr int kNone = -1;
@@ -28,19 +29,23 @@ class NearestGrid {
   [[nodiscard]] int nearest(const Eigen::Vector3f& point, float gate_m) const;
 
  private:
-  static constexpr int kBits = 3, kEdge = 1 << kBits;  // cells along the edge of a brick
-  using Brick = std::array<int, kEdge * kEdge * kEdge>;
+  class Filling;
 
+  static constexpr int kBits = 3;
+  static constexpr std::size_t kEdge = 1 << kBits;  // cells along the edge of a brick
+  using Brick = std::array<int, kEdge * kEdge * kEdge>;
+  // Bricks that are allocated at once: 128 kB. A growing vector would copy all of them now and then.
+  static constexpr std::size_t kChunk = 64;
+  using Chunk = std::array<Brick, kChunk>;
+
+  [[nodiscard]] Brick& brick(std::size_t i) { return (*chunks_[i / kChunk])[i % kChunk]; }
+  [[nodiscard]] const Brick& brick(std::size_t i) const { return (*chunks_[i / kChunk])[i % kChunk]; }
   [[nodiscard]] static std::size_t slot(const Eigen::Vector3i& cell);
-  int* entry(const Eigen::Vector3i& cell);  // null beyond kMostBricks
-  void spread(float reach_m);
-  void offer(const Eigen::Vector3i& cell, int surfel, float squared_reach, std::vector<Eigen::Vector3i>& changed);
-  [[nodiscard]] float squared_distance(const Eigen::Vector3i& cell, int surfel) const;
 
   std::span<const Surfel> surfels_;
-  float cell_m_, inverse_cell_;
+  float inverse_cell_;
   CellIndex index_;
-  std::vector<Brick> bricks_;
+  std::vector<std::unique_ptr<Chunk>> chunks_;
 };
 
 }  // namespace cairn::matching

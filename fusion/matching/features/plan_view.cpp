@@ -86,7 +86,14 @@ void PlanView::add_room(const mapping::SemanticNode* node, const Eigen::Vector3i
   const auto voxel = static_cast<float>(map.getResolution());
   const float width = static_cast<float>(edge) * voxel;
   const Eigen::Vector3f centre = (first.cast<float>().array() + 0.5F * static_cast<float>(edge)) * voxel;
-  const Eigen::Vector2f corner = (turn_ * centre).head<2>() - Eigen::Vector2f::Constant(0.5F * width);
+  const Eigen::Vector2f middle = turn_.topRows<2>() * centre;
+  if (edge == 1) {  // nearly all
+    const Eigen::Vector2i cell = cell_of(middle);
+    if (cell.minCoeff() >= 0 && (cell.array() < size_.array()).all())
+      walls[slot(cell)].room_m3 += std::min(width * width, cell_m_ * cell_m_) * width;
+    return;
+  }
+  const Eigen::Vector2f corner = middle - Eigen::Vector2f::Constant(0.5F * width);
   const Eigen::Vector2f inner = Eigen::Vector2f::Constant(0.5F * std::min(width, voxel));
   const Eigen::Vector2i from = cell_of(corner + inner).cwiseMax(0);
   const Eigen::Vector2i to = cell_of(corner - inner + Eigen::Vector2f::Constant(width))

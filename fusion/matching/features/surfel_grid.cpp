@@ -40,7 +40,7 @@ SurfelGrid::SurfelGrid(int voxels_per_cell, float resolution_m, int min_voxels)
 
 SurfelGrid::Cell& SurfelGrid::cell_at(const Eigen::Vector3i& cell) {
   const auto next = static_cast<int>(cells_.size());
-  const int i = index_.find_or_insert(pack(cell), next);
+  const int i = index_.find_or_insert(cell, next);
   if (i == next) {
     cells_.emplace_back();
     cells_.back().cell = cell;
@@ -63,7 +63,7 @@ void SurfelGrid::clear_tile(mapping::TileKey tile) {
     for (int y = 0; y < edge; ++y)
       for (int z = 0; z < edge; ++z) {
         const int i = index_.find(first + Eigen::Vector3i(x, y, z));
-        if (i == CellIndex::kNone) continue;
+        if (i == CellTable::kNone) continue;
         cells_[static_cast<std::size_t>(i)].clear();
         make_stale(i);
       }
@@ -71,6 +71,10 @@ void SurfelGrid::clear_tile(mapping::TileKey tile) {
 
 void SurfelGrid::replace_tile(mapping::TileKey tile, std::span<const Voxel> voxels) {
   clear_tile(tile);
+  add_tile(voxels);
+}
+
+void SurfelGrid::add_tile(std::span<const Voxel> voxels) {
   for (const Voxel& v : voxels) {
     const Eigen::Vector3i key(floor_div(v.key.x(), voxels_per_cell_), floor_div(v.key.y(), voxels_per_cell_),
                               floor_div(v.key.z(), voxels_per_cell_));
@@ -89,31 +93,33 @@ void SurfelGrid::replace_tile(mapping::TileKey tile, std::span<const Voxel> voxe
 }
 
 void SurfelGrid::refresh() {
-  const std::size_t changed = stale_.size();  // their neighbours' fits use them too
+  // The neighbours' fits use them too.
+  const std::size_t changed = stale_.size() == cells_.size() ? 0 : stale_.size();
+  CellTable::Neighbours near(index_);
   for (std::size_t k = 0; k < changed; ++k) {
     const Eigen::Vector3i cell = cells_[static_cast<std::size_t>(stale_[k])].cell;
     for_27([&](const Eigen::Vector3i& step) {
-      const int i = index_.find(cell + step);
-      if (i != CellIndex::kNone) make_stale(i);
+      const int i = near.find(cell + step);
+      if (i != CellTable::kNone) make_stale(i);
     });
   }
   for (const int i : stale_) {
     Cell& cell = cells_[static_cast<std::size_t>(i)];
-    if (cell.count > 0) cell.surfel = fit(cell);
+    if (cell.count > 0) cell.surfel = fit(cell, near);
     cell.stale = false;
   }
   stale_.clear();
   put_in_order();
 }
 
-Surfel SurfelGrid::fit(const Cell& cell) const {
+Surfel SurfelGrid::fit(const Cell& cell, CellTable::Neighbours& near) const {
   Eigen::Vector3f sum = Eigen::Vector3f::Zero();
   Eigen::Matrix3f squares = Eigen::Matrix3f::Zero();
   float evidence = 0;
   int count = 0;
   for_27([&](const Eigen::Vector3i& step) {
-    const int i = index_.find(cell.cell + step);
-    if (i == CellIndex::kNone) return;
+    const int i = near.find(cell.cell + step);
+    if (i == CellTable::kNone) return;
     const Cell& other = cells_[static_cast<std::size_t>(i)];
     const float n = other.evidence;
     const Eigen::Vector3f t = step.cast<float>() * cell_m_;

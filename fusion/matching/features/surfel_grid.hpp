@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "fusion/matching/features/cell_index.hpp"
+#include "fusion/matching/features/cell_table.hpp"
 #include "fusion/matching/features/map_voxels.hpp"
 
 namespace cairn::matching {
@@ -77,6 +77,8 @@ class SurfelGrid {
   [[nodiscard]] float cell_m() const { return cell_m_; }
   /// Sets the tile's occupied voxels, in depth-first order.
   void replace_tile(mapping::TileKey tile, std::span<const Voxel> voxels);
+  /// The same for a tile that has no voxels yet.
+  void add_tile(std::span<const Voxel> voxels);
   /// Computes the surfels that the replaced tiles changed.
   void refresh();
   /// In order of cells: x, then y, then z. Valid after refresh().
@@ -105,14 +107,14 @@ class SurfelGrid {
   void clear_tile(mapping::TileKey tile);
   void put_in_order();
   void make_stale(int i);
-  [[nodiscard]] Surfel fit(const Cell& cell) const;
+  [[nodiscard]] Surfel fit(const Cell& cell, CellTable::Neighbours& near) const;
   [[nodiscard]] Eigen::Vector3f centre(const Cell& cell) const {
     return (cell.cell.cast<float>().array() + 0.5F) * cell_m_;
   }
 
   int voxels_per_cell_, min_voxels_;
   float resolution_m_, cell_m_;
-  CellIndex index_;
+  CellTable index_;
   std::vector<Cell> cells_;
   std::vector<int> stale_;
   // Of cells_, by place; sorted once for each cell that appears.

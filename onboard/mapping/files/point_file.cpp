@@ -32,18 +32,30 @@ std::string ply_header(std::size_t points, std::string_view more) {
          "end_header\n";
 }
 
-}  // namespace
-
-std::uint64_t count_occupied_voxels(const SemanticOcTree& tree) {
+/// `levels`: between the node and a voxel.
+// NOLINTNEXTLINE(misc-no-recursion): as deep as the tree
+std::uint64_t occupied_voxels_of(const SemanticNode& node, unsigned levels, float threshold) {
+  if (!node.present()) return 0;
+  if (node.block() == nullptr) return node.getLogOdds() >= threshold ? std::uint64_t{1} << (3 * levels) : 0;
   std::uint64_t voxels = 0;
-  for (auto leaf = tree.begin_leafs(), end = tree.end_leafs(); leaf != end; ++leaf)
-    if (tree.isNodeOccupied(*leaf)) voxels += std::uint64_t{1} << (3 * (SemanticOcTree::kDepth - leaf.getDepth()));
+  for (unsigned i = 0; i < SemanticNode::kChildren; ++i)
+    voxels += occupied_voxels_of(node.block()[i], levels - 1, threshold);
   return voxels;
 }
 
+}  // namespace
+
+std::uint64_t count_occupied_voxels(const SemanticOcTree& tree) {
+  if (tree.getRoot() == nullptr) return 0;
+  return occupied_voxels_of(*tree.getRoot(), SemanticOcTree::kDepth, tree.getOccupancyThresLog());
+}
+
+std::size_t most_listable(const SemanticOcTree& tree, std::size_t max_points) {
+  return std::min<std::size_t>(max_points, kSpareVoxels + kVoxelsPerNode * tree.size());
+}
+
 Result<std::size_t> listable_voxels(const SemanticOcTree& tree, std::size_t max_points) {
-  const std::uint64_t voxels = count_occupied_voxels(tree);
-  const std::uint64_t most = std::min<std::uint64_t>(max_points, kSpareVoxels + kVoxelsPerNode * tree.size());
+  const std::uint64_t voxels = count_occupied_voxels(tree), most = most_listable(tree, max_points);
   if (voxels <= most) return static_cast<std::size_t>(voxels);
   return Error{
       Errc::kLimit,

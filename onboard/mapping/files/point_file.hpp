@@ -21,8 +21,11 @@ namespace cairn::mapping {
 /// crafted map stand for up to 2⁴⁸ voxels.
 inline constexpr std::uint64_t kSpareVoxels = 2'000'000, kVoxelsPerNode = 64;
 
-/// How many occupied voxels the map has. Errc::kLimit if it has more than `tree` justifies: more than
-/// kSpareVoxels + kVoxelsPerNode · nodes, or more than `max_points`.
+/// How many voxels of the map may be listed: as many as `tree` justifies, kSpareVoxels + kVoxelsPerNode ·
+/// nodes, and at most `max_points`.
+[[nodiscard]] std::size_t most_listable(const SemanticOcTree& tree, std::size_t max_points);
+
+/// How many occupied voxels the map has. Errc::kLimit if it has more than most_listable().
 Result<std::size_t> listable_voxels(const SemanticOcTree& tree, std::size_t max_points = 100'000'000);
 
 /// Calls `visit(point)` or `visit(point, leaf)` for the centre of each occupied voxel, in metres in the map frame

@@ -42,6 +42,34 @@ TEST(NearestGrid, IsNearestUpToTheSizeOfACell) {
   EXPECT_GT(found, 1000);
 }
 
+TEST(NearestGrid, IsExactAtTheCentresOfCells) {
+  const float cell = 0.2F, reach = 0.8F;
+  const auto surfels = random_surfels(300, 2);
+  const NearestGrid grid(surfels, cell, reach);
+  int found = 0;
+  for (int x = -15; x < 15; ++x)
+    for (int y = -15; y < 15; ++y)
+      for (int z = -15; z < 15; ++z) {
+        const Eigen::Vector3f centre = cell * (Eigen::Vector3f(float(x), float(y), float(z)).array() + 0.5F);
+        float nearest = reach;
+        for (const Surfel& s : surfels) nearest = std::min(nearest, (s.point - centre).norm());
+        const int k = grid.nearest(centre, reach);
+        ASSERT_EQ(k != NearestGrid::kNone, nearest < reach) << x << " " << y << " " << z;
+        if (k == NearestGrid::kNone) continue;
+        ++found;
+        EXPECT_NEAR((surfels[static_cast<std::size_t>(k)].point - centre).norm(), nearest, 1e-5F);
+      }
+  EXPECT_GT(found, 1000);
+}
+
+TEST(NearestGrid, OfEquallyNearSurfelsTheFirstIsHeld) {
+  std::vector<Surfel> surfels(3);
+  surfels[0].point = {0.1F, 0.1F, 0.5F};
+  surfels[1].point = {0.1F, 0.1F, -0.3F};
+  surfels[2].point = {0.1F, 0.1F, 0.5F};
+  EXPECT_EQ(NearestGrid(surfels, 0.2F, 0.8F).nearest({0.1F, 0.1F, 0.1F}, 0.7F), 0);
+}
+
 TEST(NearestGrid, AnyFloatIsSafeAndAnEmptyMapHasNoNeighbours) {
   const auto surfels = random_surfels(10, 1);
   const NearestGrid grid(surfels, 0.2F, 0.6F), empty({}, 0.2F, 0.6F);
