@@ -74,6 +74,7 @@ Result<Stage> set_up(const SimulationConfig& config) {
     error.code = Errc::kInvalidConfig;
     return error;
   }
+  add_screens(*world, config.screens);
   auto tracer = Tracer::build(world->mesh);
   if (!tracer) return tracer.error();
   FloorPlan plan = config.flies() ? flight_plan(*world) : FloorPlan(*world);

@@ -13,6 +13,7 @@
 #include "tools/simulator/motion/drive.hpp"
 #include "tools/simulator/motion/flight.hpp"
 #include "tools/simulator/people/crowd.hpp"
+#include "tools/simulator/scenes/screens.hpp"
 #include "tools/simulator/sensors/depth_sensor.hpp"
 #include "tools/simulator/sensors/motor_bus.hpp"
 #include "tools/simulator/sensors/stereo.hpp"
@@ -34,8 +35,9 @@ struct SimulationConfig {
   double seconds = 60.0;
   std::uint64_t seed = 1;  ///< paths, noise, dropouts, clocks; the world itself does not depend on it
   std::filesystem::path out;
-  std::string name = "robot";     ///< robots and their folders are called so, with _1, _2, … behind
-  CrowdConfig people;             ///< who walk about; with none, nothing else changes
+  std::string name = "robot";  ///< robots and their folders are called so, with _1, _2, … behind
+  CrowdConfig people;          ///< who walk about; with none, nothing else changes
+  Screens screens = Screens::kNone;
   bool night = false;             ///< the sun is down and all lamps are off
   std::string profile = "husky";  ///< or uav: it flies, and carries the camera alone
   Sensors sensors;

@@ -30,6 +30,7 @@ constexpr std::array kForRecordings{
     Foreign{"--robots", "start one simulation for each robot, each with its own --to, --can and --estop"},
     Foreign{"--people", "nobody walks in a live world"},
     Foreign{"--people-pause", "nobody walks in a live world"},
+    Foreign{"--screens", "a live world has none"},
     Foreign{"--night", "a live robot has no camera"},
     Foreign{"--profile", "a live robot is a husky"},
     Foreign{"--motion", "the robot moves as its motors are told"},

@@ -25,7 +25,7 @@ struct SimulateOptions {
   simulator::SimulationConfig simulation;
   LiveArguments live;
   std::vector<std::string> sensors;  // by name
-  std::string motion = "gentle";
+  std::string motion = "gentle", screens = "none";
   bool json = false;
 };
 
@@ -112,6 +112,7 @@ int run_live(SimulateOptions options, bool limited) {
 
 int run(SimulateOptions options, const CLI::App& sub) {
   if (options.simulation.flies()) make_uav(options.simulation);
+  options.simulation.screens = simulator::screens_of(options.screens);
   options.simulation.motion = simulator::style_of(simulator::motion_of(options.motion));
   if (!options.sensors.empty()) options.simulation.sensors = sensors(options.sensors);
   if (const auto fit = check_unused_options(sub, options.simulation); !fit) return app::fail(fit.error());
@@ -143,6 +144,12 @@ void add_world_options(CLI::App& sub, simulator::SimulationConfig& s) {
   sub.add_flag("--night", s.night, "the sun is down and all lamps are off");
   sub.add_option("--profile", s.profile, "husky drives; uav flies and carries a camera only")
       ->check(CLI::IsMember({"husky", "uav"}))
+      ->capture_default_str();
+}
+
+void add_screens_option(CLI::App& sub, std::string& screens) {
+  sub.add_option("--screens", screens, "screens of clear glass, or fences, stand about on the open floor")
+      ->check(CLI::IsMember(std::vector<std::string>(simulator::kScreens.begin(), simulator::kScreens.end())))
       ->capture_default_str();
 }
 
@@ -217,6 +224,7 @@ void add_simulate_command(app::Commands& commands) {
   sub->add_option("--seed", s.seed, "seed of paths and noise; the same seed gives the same bytes")
       ->capture_default_str();
   add_world_options(*sub, s);
+  add_screens_option(*sub, options->screens);
   add_motion_option(*sub, options->motion);
   sub->add_option("--sensors", options->sensors, "sensors to record, with commas; default: lidar, for a uav camera")
       ->delimiter(',')

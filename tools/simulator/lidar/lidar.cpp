@@ -15,6 +15,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kDegree = kPi / 180.0;
 constexpr std::uint64_t kClockStream = 10, kShotStream = 11;
+constexpr std::uint64_t kMostPanes = 4, kPaneStreams = 1000;  // of clear glass, one behind the other
+constexpr double kNearest = 0.01, kBehind = 1e-4;             // m; where a ray begins, and behind a pane
 
 template <class T, std::size_t N>
 void store_le(std::array<std::byte, N>& bytes, std::size_t offset, T value) {
@@ -104,20 +106,29 @@ Lidar::Echo Lidar::shoot(Time t, std::size_t channel, std::uint64_t shot) const 
                                   beam.sin_elevation);
   const SE3 T_world_sensor = track_.T_world_base(t) * T_base_sensor_;
   const Ray ray{T_world_sensor * Eigen::Vector3d(0, 0, beam.vertical_offset), T_world_sensor.quaternion() * direction};
-  auto hit = tracer_.trace(ray, 0.01, config_.max_range_m);
-  if (people_ != nullptr) {
-    if (const auto body = people_->trace(ray, t, hit ? hit->distance : config_.max_range_m)) hit = body;
+  double nearest = kNearest, through = 1;
+  for (std::uint64_t panes = 0; panes <= kMostPanes; ++panes) {
+    auto hit = tracer_.trace(ray, nearest, config_.max_range_m);
+    if (people_ != nullptr) {
+      if (const auto body = people_->trace(ray, t, hit ? hit->distance : config_.max_range_m)) hit = body;
+    }
+    if (!hit || hit->distance < config_.min_range_m) return {};
+    const Echo echo = receive(*hit, through, panes, shot);
+    const double passed = transmission(hit->material, hit->cos_incidence);
+    if (echo.distance != 0 || passed == 0) return echo;
+    nearest = hit->distance + kBehind;
+    through *= passed * passed;  // there and back
   }
-  return hit && hit->distance >= config_.min_range_m ? receive(*hit, shot) : Echo{};
+  return {};
 }
 
-Lidar::Echo Lidar::receive(const Hit& hit, std::uint64_t shot) const {
+Lidar::Echo Lidar::receive(const Hit& hit, double through, std::uint64_t panes, std::uint64_t shot) const {
   const MaterialProperties& surface = properties(hit.material);
-  Random random(seed_, kShotStream, shot);
+  Random random(seed_, kShotStream + panes * kPaneStreams, shot);
   if (random.uniform() < config_.dropout) return {};
   const double lit = surface.lobe == 1.0 ? hit.cos_incidence : std::pow(hit.cos_incidence, surface.lobe);
   // Received power over the power that is seen every other time; a smooth step between never and always.
-  const double signal = surface.reflectivity * lit / 0.1 * std::pow(config_.half_range_m / hit.distance, 2);
+  const double signal = through * surface.reflectivity * lit / 0.1 * std::pow(config_.half_range_m / hit.distance, 2);
   if (random.uniform() >= signal * signal / (1.0 + signal * signal)) return {};
   const auto [range_noise, intensity_noise] = random.normal_pair();
   const double distance = hit.distance + config_.range_noise_m * range_noise;

@@ -72,7 +72,8 @@ class Lidar {
   [[nodiscard]] double azimuth(Time t) const;
   [[nodiscard]] std::uint32_t device_microseconds(Time t) const;
   [[nodiscard]] Echo shoot(Time t, std::size_t channel, std::uint64_t shot) const;
-  [[nodiscard]] Echo receive(const Hit& hit, std::uint64_t shot) const;
+  /// `through`: share of the light that is left after `panes` of clear glass, there and back.
+  [[nodiscard]] Echo receive(const Hit& hit, double through, std::uint64_t panes, std::uint64_t shot) const;
 
   const velodyne::Model& model_;
   const Tracer& tracer_;

@@ -76,6 +76,7 @@ constexpr std::array<Look, kMaterials> kLooks{{
     {0.58F, 0.38F, 0.28F, Pattern::kMottled, 0.1, 0.08, 0},     // a rider's skin
     {0.66F, 0.60F, 0.08F, Pattern::kMottled, 0.12, 0.20, 0},    // a rider's clothes
     {0.07F, 0.07F, 0.09F, Pattern::kMottled, 0.12, 0.30, 0},    // a rider's dark parts
+    {0.07F, 0.09F, 0.10F, Pattern::kMottled, 1.0, 0.10, 0.08},  // clear glass
 }};
 
 double hashed(std::int64_t x, std::int64_t y, std::int64_t z) {
@@ -141,7 +142,16 @@ Rgb albedo(Material material, const Vector3d& pattern, const Vector3d& normal, d
   return (clamped * Rgb(look.red, look.green, look.blue)).cwiseMin(0.95F);
 }
 
-Rgb radiance(const Sighting& s, const Climate& climate, const Instant& instant, double pixel_rad) {
+namespace {
+
+/// Light from where a mirror with this normal lets one look.
+Rgb mirrored_light(const Vector3d& direction, const Vector3d& normal, const Climate& climate) {
+  const Vector3d mirrored = direction - 2 * normal.dot(direction) * normal;
+  const bool up = climate.open_air && mirrored.z() > 0;
+  return up ? climate.sky(mirrored) : Rgb(0.3F * climate.light(-mirrored, false));
+}
+
+Rgb surface_radiance(const Sighting& s, const Climate& climate, const Instant& instant, double pixel_rad) {
   if (s.sky()) return climate.sky(s.direction);
   const bool sunlit = climate.may_be_sunlit(s.normal) && instant.sunlit(s.point, s.normal, climate.sun);
   const Rgb diffuse =
@@ -150,10 +160,16 @@ Rgb radiance(const Sighting& s, const Climate& climate, const Instant& instant, 
   if (gloss == 0) return diffuse;
   const double cosine = std::clamp(-s.normal.dot(s.direction), 0.0, 1.0);
   const auto share = static_cast<float>(gloss + (1 - gloss) * std::pow(1 - cosine, 5));
-  const Vector3d mirrored = s.direction + 2 * cosine * s.normal;
-  const bool up = climate.open_air && mirrored.z() > 0;
-  const Rgb seen = up ? climate.sky(mirrored) : Rgb(0.3F * climate.light(-mirrored, false));
-  return (1 - share) * diffuse + share * seen;
+  return (1 - share) * diffuse + share * mirrored_light(s.direction, s.normal, climate);
+}
+
+}  // namespace
+
+Rgb radiance(const Sighting& s, const Climate& climate, const Instant& instant, double pixel_rad) {
+  const Rgb behind = surface_radiance(s, climate, instant, pixel_rad);
+  if (s.through == 1) return behind;
+  const auto through = static_cast<float>(s.through);
+  return through * behind + (1 - through) * mirrored_light(s.direction, s.pane, climate);
 }
 
 }  // namespace cairn::simulator

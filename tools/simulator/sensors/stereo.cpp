@@ -70,7 +70,7 @@ void Stereo::expose_row(const Instant& instant, const SE3& T_world_eye, int eye,
                         std::byte* out, std::byte* labels, SeenPeople* people) const {
   const auto width = static_cast<std::size_t>(config_.lens.width);
   std::vector<Sighting> seen(width);
-  look(instant, config_.lens, T_world_eye, row, seen);
+  look(instant, config_.lens, T_world_eye, row, seen, ClearGlass::kClear);
   const auto noise = static_cast<float>(config_.noise_factor * (climate_.night ? config_.night_noise : config_.noise));
   const double pixel_rad = 1.0 / config_.lens.fx;
   Random random(seed_, shot.n, static_cast<std::uint64_t>(2 * row + eye));

@@ -17,6 +17,23 @@ Vector3d into(const Placement& stand, const Vector3d& p) {
   return {c * x + s * y, c * y - s * x, p.z() - stand.z};
 }
 
+/// Goes on behind clear glass. `s` gets the light that comes through; the distance of the nearest pane.
+double look_through(const Tracer& tracer, const Ray& ray, Surface& surface, Sighting& s) {
+  constexpr int kMostPanes = 4;
+  constexpr double kBehind = 1e-4;  // m
+  const double nearest = surface.distance;
+  for (int pane = 0; pane < kMostPanes && std::isfinite(surface.distance); ++pane) {
+    const double through = transmission(surface.material, std::abs(surface.normal.dot(ray.direction)));
+    if (through == 0) break;
+    if (pane == 0) s.pane = surface.normal;
+    s.through *= through;
+    const double gone = surface.distance + kBehind;
+    tracer.trace(ray.origin + gone * ray.direction, {&ray.direction, 1}, kSight, {&surface, 1});
+    surface.distance += gone;
+  }
+  return nearest;
+}
+
 }  // namespace
 
 Vector3d Lens::direction(int u, int v) const {
@@ -28,7 +45,8 @@ bool Instant::sunlit(const Vector3d& from, const Vector3d& normal, const Vector3
   return !tracer.blocked(ray.origin, sun, kSight) && !trace(people, ray, kSight);
 }
 
-void look(const Instant& instant, const Lens& lens, const SE3& T_world_camera, int row, std::span<Sighting> out) {
+void look(const Instant& instant, const Lens& lens, const SE3& T_world_camera, int row, std::span<Sighting> out,
+          ClearGlass glass) {
   const Vector3d eye = T_world_camera.translation();
   const Eigen::Matrix3d turn = T_world_camera.quaternion().toRotationMatrix();
   std::vector<Vector3d> directions(out.size());
@@ -37,8 +55,14 @@ void look(const Instant& instant, const Lens& lens, const SE3& T_world_camera, i
   instant.tracer.trace(eye, directions, kSight, surfaces);
   for (std::size_t u = 0; u < out.size(); ++u) {
     Sighting& s = out[u];
-    s = {surfaces[u].distance, directions[u], eye, eye, surfaces[u].normal, surfaces[u].material, -1};
+    s = {.direction = directions[u], .point = eye, .pattern = eye};
+    const double pane = glass == ClearGlass::kClear ? look_through(instant.tracer, {eye, directions[u]}, surfaces[u], s)
+                                                    : surfaces[u].distance;
+    s.distance = surfaces[u].distance;
+    s.normal = surfaces[u].normal;
+    s.material = surfaces[u].material;
     const auto body = trace(instant.people, {eye, directions[u]}, std::min(s.distance, kSight));
+    if (body && body->distance < pane) s.through = 1;
     if (body) {
       s.distance = body->distance;
       s.normal = body->normal;

@@ -29,7 +29,9 @@ struct Sighting {
   Eigen::Vector3d pattern{0, 0, 0};  ///< where on the surface: the point, but fixed to a person who walks
   Eigen::Vector3d normal{0, 0, 0};   ///< towards the eye
   Material material{};
-  int person = -1;  ///< of the crowd, or none
+  int person = -1;                ///< of the crowd, or none
+  double through = 1;             ///< share of light that comes through the clear glass before it; 1: none
+  Eigen::Vector3d pane{0, 0, 0};  ///< normal of the nearest such glass, towards the eye
 
   [[nodiscard]] bool sky() const { return !(distance < 1e9); }
   [[nodiscard]] std::uint8_t class_id() const { return sky() ? kSkyClass : properties(material).class_id; }
@@ -47,7 +49,11 @@ struct Instant {
 
 inline constexpr double kSight = 300.0;  ///< m, farther than any world is wide
 
+/// What clear glass is to a camera: a thermal one sees the glass, others see through it.
+enum class ClearGlass : std::uint8_t { kOpaque, kClear };
+
 /// One row of pixels, seen from T_world_camera. `out` has the lens's width.
-void look(const Instant& instant, const Lens& lens, const SE3& T_world_camera, int row, std::span<Sighting> out);
+void look(const Instant& instant, const Lens& lens, const SE3& T_world_camera, int row, std::span<Sighting> out,
+          ClearGlass glass = ClearGlass::kOpaque);
 
 }  // namespace cairn::simulator

@@ -27,7 +27,7 @@ constexpr std::array<Warmth, kMaterials> warmths() {
   set({kAsphalt, kRoadPaint}, {3.0, 20.0, 4.0, 0.95});
   set({kBrick, kStoneWall, kConcrete, kRoofTile, kRender, kPavement, kKerb, kRock}, {1.0, 15.0, 3.0, 0.93});
   set({kGrass, kLeaves, kBark, kSoil}, {-1.0, 5.0, -1.5, 0.97});
-  set({kWindow, kGlass, kVehicleGlass, kTramGlass, kDarkGlass}, {0.5, 4.0, 2.0, 0.85});
+  set({kWindow, kGlass, kVehicleGlass, kTramGlass, kDarkGlass, kClearGlass}, {0.5, 4.0, 2.0, 0.85});
   set({kCarPaintLight, kCarPaintDark, kBusPaint, kTruckPaint, kTramPaint, kMotorcycle}, {1.0, 17.0, -3.0, 0.90});
   set({kMetal, kPole, kRetroreflector, kTrafficLight, kBicycle}, {0.5, 9.0, -2.0, 0.80});
   set({kScreen}, {7.0, 0.0, 7.0, 0.92});

@@ -2,6 +2,7 @@
 #include "tools/simulator/world/material.hpp"
 
 #include <array>
+#include <cmath>
 
 namespace cairn::simulator {
 namespace {
@@ -64,9 +65,18 @@ constexpr std::array<MaterialProperties, kMaterials> kTable{{
     {kRiderClass, 0.55},       // a rider's skin, clothes, and dark parts: hair, shoes, trousers
     {kRiderClass, 0.50},       //
     {kRiderClass, 0.20},       //
+    {kBuilding, 0.30, 400.0},  // clear glass: as other glass
 }};
 
 }  // namespace
+
+double transmission(Material material, double cos_incidence) {
+  if (material != Material::kClearGlass) return 0;
+  // Float glass of 6 mm: both faces throw back 8 % at normal incidence (Schlick, 1994), the glass takes 5 %.
+  constexpr double kThrownBack = 0.08, kTaken = 0.05;
+  const double mirrored = kThrownBack + (1 - kThrownBack) * std::pow(1 - cos_incidence, 5);
+  return (1 - mirrored) * (1 - kTaken);
+}
 
 const MaterialProperties& properties(Material material) { return kTable[static_cast<std::size_t>(material)]; }
 

@@ -62,6 +62,8 @@ enum class Material : std::uint8_t {
   kRiderSkin,
   kRiderClothes,
   kRiderDark,
+  // screens
+  kClearGlass,
 };
 
 /// What a sensor sees of a surface.
@@ -71,9 +73,13 @@ struct MaterialProperties {
   double lobe = 1.0;  ///< the return falls with cos(incidence)^lobe: 1 = Lambertian, hundreds = mirror-like
 };
 
-inline constexpr std::size_t kMaterials = static_cast<std::size_t>(Material::kRiderDark) + 1;
+inline constexpr std::size_t kMaterials = static_cast<std::size_t>(Material::kClearGlass) + 1;
 inline constexpr std::uint8_t kSkyClass = 10, kPersonClass = 11, kRiderClass = 12, kIgnoredClass = 255;
 
 [[nodiscard]] const MaterialProperties& properties(Material material);
+
+/// Share of visible and near infrared light that goes through a pane. 0 for all but clear glass, which
+/// is opaque to a thermal camera. `cos_incidence`: |cosine| between ray and normal.
+[[nodiscard]] double transmission(Material material, double cos_incidence);
 
 }  // namespace cairn::simulator

@@ -121,6 +121,33 @@ TEST(SimulatedLidar, DecodesToTheWallsOfARoomThoughTheRobotMoves) {
   }
 }
 
+TEST(SimulatedLidar, SeesWallsThroughClearGlassAndTheGlassAlmostSquarelyOnly) {
+  Mesh mesh;
+  mesh.box({0, 0, 0, 0}, 12, 8, 3, Material::kPlaster);
+  mesh.quad({3, -4, 0}, {3, 4, 0}, {3, 4, 3}, {3, -4, 3}, Material::kClearGlass);
+  const Tracer tracer = std::move(*Tracer::build(mesh));
+  LidarConfig config = perfect();
+  config.half_range_m = 100;
+  const Trajectory trajectory = at_rest();
+  const Lidar lidar(vlp16(), tracer, trajectory, config, kStartUtcNs, 1);
+  const SE3 T_world_sensor = trajectory.T_world_base(kStart) * SE3::from_xyz_rpy(config.base_sensor_xyz_rpy);
+  int on_glass = 0, behind = 0;
+  decode(lidar, 150, [&](const Scan& scan) {
+    for (std::size_t i = 0; i < scan.cloud.size(); ++i) {
+      const Vector3d point = T_world_sensor * scan.cloud.xyz[i].cast<double>();
+      if (residual(scan, i, T_world_sensor).along_ray > -0.02) {
+        behind += point.x() > 3.1 ? 1 : 0;
+        continue;
+      }
+      ++on_glass;
+      EXPECT_NEAR(point.x(), 3, 0.01);
+      EXPECT_GT((point - T_world_sensor.translation()).normalized().x(), 0.96) << "within 16 degrees of its normal";
+    }
+  });
+  EXPECT_GT(on_glass, 20);
+  EXPECT_GT(behind, 1000);
+}
+
 TEST(SimulatedLidar, MotionDistortsAScan) {
   // The same check with one pose for a whole scan must fail, or nothing was distorted.
   const Tracer tracer = box_room();

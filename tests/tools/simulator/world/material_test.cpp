@@ -16,6 +16,14 @@ TEST(Material, PropertiesArePhysicalAndClassesExist) {
   }
 }
 
+TEST(Material, ClearGlassAloneLetsLightThroughAndMirrorsAtTheEdge) {
+  for (std::size_t i = 0; i < kMaterials; ++i)
+    EXPECT_EQ(transmission(static_cast<Material>(i), 1) > 0, static_cast<Material>(i) == Material::kClearGlass) << i;
+  EXPECT_NEAR(transmission(Material::kClearGlass, 1), 0.874, 1e-3);
+  EXPECT_LT(transmission(Material::kClearGlass, 0.1), 0.4);
+  EXPECT_NEAR(transmission(Material::kClearGlass, 0), 0, 1e-9);
+}
+
 TEST(Material, TableIsInTheOrderOfTheEnum) {
   EXPECT_EQ(properties(Material::kAsphalt).class_id, 0);
   EXPECT_EQ(properties(Material::kDarkGlass).reflectivity, 0.0);
@@ -30,6 +38,7 @@ TEST(Material, TableIsInTheOrderOfTheEnum) {
   EXPECT_EQ(properties(Material::kClothesLight).class_id, kPersonClass);
   EXPECT_EQ(properties(Material::kTramGlass).class_id, 16);
   EXPECT_EQ(properties(Material::kRiderDark).class_id, kRiderClass);
+  EXPECT_GT(properties(Material::kClearGlass).lobe, 100.0);
 }
 
 }  // namespace

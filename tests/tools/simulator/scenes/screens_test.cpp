@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/simulator/scenes/screens.hpp"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+#include "tools/simulator/motion/route.hpp"
+#include "tools/simulator/scenes/make_world.hpp"
+
+namespace cairn::simulator {
+namespace {
+
+class ScreensInEveryScene : public ::testing::TestWithParam<std::tuple<const char*, Screens>> {
+ protected:
+  [[nodiscard]] World with_screens() const {
+    World world = *make_world(std::get<0>(GetParam()));
+    add_screens(world, std::get<1>(GetParam()));
+    return world;
+  }
+};
+
+TEST_P(ScreensInEveryScene, StandWhereRobotsCanPassAndAreTheSameEveryTime) {
+  const World before = *make_world(std::get<0>(GetParam())), world = with_screens();
+  const std::size_t old = before.mesh.triangles().size();
+  ASSERT_GT(world.mesh.triangles().size(), old);
+  ASSERT_EQ(with_screens().mesh.triangles().size(), world.mesh.triangles().size());
+  const FloorPlan floor(before), plan(world);
+  for (std::size_t i = old; i < world.mesh.triangles().size(); ++i) {
+    const Eigen::Vector2d at = world.mesh.triangles()[i].a.head<2>().cast<double>();
+    EXPECT_GT(floor.clearance(at), 1.0);
+    EXPECT_LT(plan.clearance(at), 0.1) << "an obstacle";
+  }
+  const std::size_t reached = RoutePlanner(before, floor, 1).places().size();
+  EXPECT_EQ(RoutePlanner(world, plan, 1).places().size(), reached);
+}
+
+TEST(Screens, NoneChangesNothing) {
+  World world = *make_world("lobby");
+  const std::size_t before = world.mesh.triangles().size();
+  add_screens(world, screens_of("none"));
+  EXPECT_EQ(world.mesh.triangles().size(), before);
+  EXPECT_EQ(screens_of("glass"), Screens::kGlass);
+  EXPECT_EQ(screens_of("fence"), Screens::kFence);
+}
+
+INSTANTIATE_TEST_SUITE_P(Scenes, ScreensInEveryScene,
+                         ::testing::Combine(::testing::Values("lobby", "street", "carpark"),
+                                            ::testing::Values(Screens::kGlass, Screens::kFence)));
+
+}  // namespace
+}  // namespace cairn::simulator
