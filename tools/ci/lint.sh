@@ -2,7 +2,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # Format, shell scripts, lengths of files, and the checks of .clang-tidy (lengths of functions among them):
 #   tools/ci/lint.sh [FILE…]      the checks over these files, or over all
-#   tools/ci/lint.sh --changed    over the .cpp files that changed in the six hours before HEAD, as CI does for its time
+#   tools/ci/lint.sh --changed    over the .cpp files that changed in the three hours before HEAD, as CI does for its time
 #   tools/ci/lint.sh --format     format and shell scripts alone
 #   tools/ci/lint.sh --full       the checks by clang-tidy itself: ten times slower, because it also reads the headers of
 #                                 libraries; it adds bugprone-use-after-move, which clangd leaves out
@@ -50,7 +50,7 @@ case ${1:-} in
   *)
     if [[ ${1:-} == --changed ]]; then
       # Dates are those of the commits, so that the same commit is always checked in the same way.
-      hours_before=$(($(git log -1 --format=%ct) - 6 * 3600))
+      hours_before=$(($(git log -1 --format=%ct) - 3 * 3600))
       base=$(git rev-list -1 --before="$hours_before" HEAD)
       mapfile -t changed < <(git diff --name-only --diff-filter=d "${base:-$(git hash-object -t tree /dev/null)}" -- \
         hal drivers onboard fusion tools examples tests | grep '\.cpp$')

@@ -74,7 +74,8 @@ Result<Stage> set_up(const SimulationConfig& config) {
     error.code = Errc::kInvalidConfig;
     return error;
   }
-  add_screens(*world, config.screens);
+  if (add_screens(*world, config.screens) == 0 && config.screens != Screens::kNone)
+    return Error{Errc::kInvalidConfig, "the scene has no room for screens", config.scene, {}, "choose a wider scene"};
   auto tracer = Tracer::build(world->mesh);
   if (!tracer) return tracer.error();
   FloorPlan plan = config.flies() ? flight_plan(*world) : FloorPlan(*world);

@@ -5,6 +5,8 @@
 #include <numbers>
 #include <vector>
 
+#include "tools/simulator/motion/path.hpp"
+#include "tools/simulator/motion/route.hpp"
 #include "tools/simulator/world/floor_plan.hpp"
 #include "tools/simulator/world/random.hpp"
 
@@ -14,7 +16,7 @@ namespace {
 constexpr std::size_t kMost = 12;
 constexpr int kTries = 4000;
 constexpr double kLength = 3.0, kStep = 0.25;                    // m
-constexpr double kRoom = 1.3;                                    // m around a screen: a robot passes there
+constexpr double kRoom = 1.0;                                    // m around a screen: a robot passes there
 constexpr double kApart = 5.0;                                   // m between the middles of two screens
 constexpr double kPane = 2.2, kAboveFloor = 0.05, kPost = 0.06;  // m
 constexpr double kRail = 1.8, kBar = 0.02, kBars = 0.11;         // m
@@ -48,9 +50,11 @@ Screens screens_of(std::string_view name) {
   return static_cast<Screens>(std::ranges::find(kScreens, name) - kScreens.begin());
 }
 
-void add_screens(World& world, Screens kind) {
-  if (kind == Screens::kNone) return;
+std::size_t add_screens(World& world, Screens kind) {
+  if (kind == Screens::kNone) return 0;
   const FloorPlan plan(world);
+  const Path places = RoutePlanner(world, plan, 1).places();
+  if (places.empty()) return 0;
   Random random(static_cast<std::uint64_t>(world.places.size()), 40);
   const Eigen::Vector3d low = world.bounds.min(), size = world.bounds.sizes();
   std::vector<Eigen::Vector2d> middles;
@@ -59,12 +63,13 @@ void add_screens(World& world, Screens kind) {
     from.yaw = random.uniform() < 0.5 ? 0 : 0.5 * std::numbers::pi;
     const Eigen::Vector2d middle = (from * Eigen::Vector3d(0.5 * kLength, 0, 0)).head<2>();
     if (std::ranges::any_of(middles, [&](const auto& other) { return (other - middle).norm() < kApart; })) continue;
-    if (!has_room(world, plan, from)) continue;
+    if (!has_room(world, plan, from) || !find_path(plan, places.front(), middle)) continue;
     middles.push_back(middle);
     from.z = world.ground(middle.x(), middle.y());
     kind == Screens::kGlass ? glass(world.mesh, from) : fence(world.mesh, from);
   }
   world.bounds.extend(world.mesh.bounds());
+  return middles.size();
 }
 
 }  // namespace cairn::simulator

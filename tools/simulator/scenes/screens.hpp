@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -20,8 +21,8 @@ inline constexpr std::array<std::string_view, 3> kScreens{"none", "glass", "fenc
 /// `name` must be one of kScreens.
 [[nodiscard]] Screens screens_of(std::string_view name);
 
-/// Adds screens of 3 m, up to 12 of them, wherever there is room to walk around them. The same world gets the
-/// same screens.
-void add_screens(World& world, Screens kind);
+/// Adds screens of 3 m, up to 12 of them, wherever there is room to walk around them and robots get there. The
+/// same world gets the same screens. Returns how many.
+std::size_t add_screens(World& world, Screens kind);
 
 }  // namespace cairn::simulator
