@@ -93,9 +93,9 @@ inline constexpr double kMaxSeconds = 3600.0;
 /// of threads and on every x86-64 with FMA and the same C library (whose sin and cos may differ in the last bit without
 /// FMA).
 ///
-/// Errors: kInvalidConfig for a scene, number or duration that cannot be, and for screens without room; kIo when `out` exists and is not an empty
-/// folder, or when the disk refuses; kTruncated when `stop` ended it. `out` appears when all of it is written: after an
-/// error there is nothing.
+/// Errors: kInvalidConfig for a scene, number or duration that cannot be, and for screens without room; kIo when `out`
+/// exists and is not an empty folder, or when the disk refuses; kTruncated when `stop` ended it. `out` appears when all
+/// of it is written: after an error there is nothing.
 Result<std::vector<RobotSummary>> simulate(const SimulationConfig& config, const Progress& progress = {});
 
 }  // namespace cairn::simulator

@@ -19,9 +19,9 @@ const Vector3d kLow(-6, -4, 0), kHigh(6, 4, 3);
 
 const velodyne::Model& vlp16() { return *velodyne::find_model("VLP-16"); }
 
-Tracer box_room() {
+Tracer box_room(Material material = Material::kPlaster) {
   Mesh mesh;
-  mesh.box({0, 0, 0, 0}, 12, 8, 3, Material::kPlaster);
+  mesh.box({0, 0, 0, 0}, 12, 8, 3, material);
   return std::move(*Tracer::build(mesh));
 }
 
@@ -37,12 +37,12 @@ Trajectory on_circle() {
   return {kStart, knots};
 }
 
-LidarConfig perfect() {
+LidarConfig perfect(double half_range_m = 1e4) {
   LidarConfig config;
   config.range_noise_m = 0;
   config.dropout = 0;
   config.intensity_noise = 0;
-  config.half_range_m = 1e4;
+  config.half_range_m = half_range_m;
   return config;
 }
 
@@ -126,8 +126,7 @@ TEST(SimulatedLidar, SeesWallsThroughClearGlassAndTheGlassAlmostSquarelyOnly) {
   mesh.box({0, 0, 0, 0}, 12, 8, 3, Material::kPlaster);
   mesh.quad({3, -4, 0}, {3, 4, 0}, {3, 4, 3}, {3, -4, 3}, Material::kClearGlass);
   const Tracer tracer = std::move(*Tracer::build(mesh));
-  LidarConfig config = perfect();
-  config.half_range_m = 100;
+  const LidarConfig config = perfect(100);
   const Trajectory trajectory = at_rest();
   const Lidar lidar(vlp16(), tracer, trajectory, config, kStartUtcNs, 1);
   const SE3 T_world_sensor = trajectory.T_world_base(kStart) * SE3::from_xyz_rpy(config.base_sensor_xyz_rpy);
@@ -250,9 +249,7 @@ TEST(SimulatedLidar, APacketDependsOnItsNumberAndSeedAlone) {
 TEST(SimulatedLidar, IntensityTellsMaterialsApart) {
   const Trajectory trajectory = at_rest();
   const auto brightest = [&](Material material) {
-    Mesh mesh;
-    mesh.box({0, 0, 0, 0}, 12, 8, 3, material);
-    const Tracer tracer = std::move(*Tracer::build(mesh));
+    const Tracer tracer = box_room(material);
     const Lidar lidar(vlp16(), tracer, trajectory, perfect(), kStartUtcNs, 1);
     float most = 0;
     decode(lidar, 80, [&](const Scan& scan) {
