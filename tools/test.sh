@@ -31,7 +31,7 @@ case ${1:-} in
   --fuzz)
     preset=fuzz groups+=(ci) targets=(--target fuzzers) && shift
     only hal velodyne camera thermal depth recording drive gpio networks cameras peer_link peer_process peers mapping \
-      generations live scheduler people_files
+      live scheduler people_files
     ;;
   --cross)
     # qemu-user knows neither the kernel's receive stamps nor its drop counts, without which no UDP port is opened. It

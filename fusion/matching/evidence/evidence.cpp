@@ -37,8 +37,8 @@ int in_free_space(const FreeSpace& free, std::span<const Surfel> structure, cons
 double share(double part, double whole) { return whole > 0 ? part / whole : 0; }
 
 /// The pairs of the book's overlap and inlier test.
-void count_pairs(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T, float pair_cells,
-                 Evidence& out) {
+void count_pairs(const SurfaceModel& target, const NearestGrid& nearest, const SurfaceModel& source, const SE3& T,
+                 float pair_cells, Evidence& out) {
   const Moved move(T);
   const auto cell = static_cast<float>(std::max(target.cell_m, source.cell_m));
   int pairs = 0, inliers = 0;
@@ -85,8 +85,8 @@ int agreeing_places(std::vector<std::pair<std::uint64_t, int>> met) {
   return places;
 }
 
-Meetings meet(const Party& target, const NearestGrid& nearest, const Party& source, std::span<const Surfel> structure,
-              const SE3& T, const EvidenceConfig& config) {
+Meetings meet(const SurfaceModel& target, const NearestGrid& nearest, const SurfaceModel& source,
+              std::span<const Surfel> structure, const SE3& T, const EvidenceConfig& config) {
   const Moved move(T);
   const auto cell = static_cast<float>(std::max(target.cell_m, source.cell_m));
   const float agree_m = config.agree_cells * cell;
@@ -124,8 +124,9 @@ Meetings meet(const Party& target, const NearestGrid& nearest, const Party& sour
   return m;
 }
 
-double score_of(const Party& target, const NearestGrid& nearest, const Party& source, std::span<const Surfel> of_target,
-                std::span<const Surfel> of_source, const SE3& T, const EvidenceConfig& config) {
+double score_of(const SurfaceModel& target, const NearestGrid& nearest, const SurfaceModel& source,
+                std::span<const Surfel> of_target, std::span<const Surfel> of_source, const SE3& T,
+                const EvidenceConfig& config) {
   const Meetings m = meet(target, nearest, source, of_source, T, config);
   const auto n = static_cast<double>(of_source.size());
   if (m.agree < config.least_agreeing * n) return kApart;
@@ -166,18 +167,18 @@ std::vector<Surfel> facing_free_space(std::span<const Surfel> surfels, const Fre
   return all;
 }
 
-double score(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T,
+double score(const SurfaceModel& target, const NearestGrid& nearest, const SurfaceModel& source, const SE3& T,
              const EvidenceConfig& config) {
   return score_of(target, nearest, source, target.structure, source.structure, T, config);
 }
 
-double first_impression(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T,
-                        const EvidenceConfig& config) {
+double first_impression(const SurfaceModel& target, const NearestGrid& nearest, const SurfaceModel& source,
+                        const SE3& T, const EvidenceConfig& config) {
   return score_of(target, nearest, source, target.few, source.few, T, config);
 }
 
 Evidence weigh(const Indexed& target, const Indexed& source, const SE3& T, const EvidenceConfig& config) {
-  const Party &a = target.party, &b = source.party;
+  const SurfaceModel &a = target.model, &b = source.model;
   Evidence out;
   count_pairs(a, target.nearest, b, T, config.pair_cells, out);
   const Meetings m = meet(a, target.nearest, b, b.weighed, T, config);

@@ -43,8 +43,8 @@ struct EvidenceConfig {
   double least_agreeing = 0.01;
 };
 
-/// One map in a comparison.
-struct Party {
+/// The surfaces of one map, and where it saw free space: what a comparison needs of it.
+struct SurfaceModel {
   std::vector<Surfel> surfels;    ///< all, with facing_free_space() applied
   std::vector<Surfel> sample;     ///< of all surfels
   std::vector<Surfel> structure;  ///< sample of the surfels that are structure
@@ -90,12 +90,13 @@ struct Evidence {
 /// Target structure in the source's free space counts −conflict_weight, too. The mean over the
 /// source's surfels is then discounted by `discredit` for the share of conflicts. Where less than
 /// `least_agreeing` agrees, the score is below every other.
-[[nodiscard]] double score(const Party& target, const NearestGrid& nearest, const Party& source,
+[[nodiscard]] double score(const SurfaceModel& target, const NearestGrid& nearest, const SurfaceModel& source,
                            const SE3& T_target_source, const EvidenceConfig& config = {});
 
 /// A rough score() over a few surfels, for ranking hundreds of poses.
-[[nodiscard]] double first_impression(const Party& target, const NearestGrid& nearest, const Party& source,
-                                      const SE3& T_target_source, const EvidenceConfig& config = {});
+[[nodiscard]] double first_impression(const SurfaceModel& target, const NearestGrid& nearest,
+                                      const SurfaceModel& source, const SE3& T_target_source,
+                                      const EvidenceConfig& config = {});
 
 /// The surfels, with normals of structure turned to the side on which free space was observed,
 /// where that is one side only. Two maps that meet back to back at a wall do not agree there.
@@ -103,9 +104,9 @@ struct Evidence {
 [[nodiscard]] std::vector<Surfel> facing_free_space(std::span<const Surfel> surfels, const FreeSpace& free,
                                                     float cell_m);
 
-/// A party and the look-up of its surfels. Both are the caller's.
+/// A surface model and the look-up of its surfels. Both are the caller's.
 struct Indexed {
-  const Party& party;
+  const SurfaceModel& model;
   const NearestGrid& nearest;
 };
 

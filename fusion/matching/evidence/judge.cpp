@@ -33,28 +33,28 @@ Judge::Judge(const MapFeatures& a, const MapFeatures& b, const EvidenceConfig& e
              const AcceptanceConfig& acceptance)
     : config_(evidence),
       acceptance_(acceptance),
-      a_(party_of(a, evidence)),
-      b_(party_of(b, evidence)),
+      a_(surface_model_of(a, evidence)),
+      b_(surface_model_of(b, evidence)),
       cell_m_(std::max(a.fine_m(), b.fine_m())),
       near_a_(a.fine(), cell_m_, evidence.reach_cells * cell_m_),
       near_b_(b.fine(), cell_m_, (evidence.pair_cells + kToCorner_cells) * cell_m_) {}
 
-Party party_of(const MapFeatures& map, const EvidenceConfig& config) {
-  Party party{.surfels = {},
-              .sample = {},
-              .structure = {},
-              .weighed = {},
-              .few = {},
-              .free = FreeSpace(map.map()),
-              .cell_m = static_cast<double>(map.fine_m())};
-  party.surfels = facing_free_space(map.fine(), party.free, map.fine_m());
-  const auto structure = structure_of(party.surfels);
-  party.structure_m2 = static_cast<double>(structure.size()) * party.cell_m * party.cell_m;
-  party.sample = sample(std::span<const Surfel>(party.surfels), config.surfels);
-  party.structure = sample(std::span<const Surfel>(structure), config.structure);
-  party.weighed = sample(std::span<const Surfel>(structure), config.weighed);
-  party.few = sample(std::span<const Surfel>(structure), config.few);
-  return party;
+SurfaceModel surface_model_of(const MapFeatures& map, const EvidenceConfig& config) {
+  SurfaceModel model{.surfels = {},
+                     .sample = {},
+                     .structure = {},
+                     .weighed = {},
+                     .few = {},
+                     .free = FreeSpace(map.map()),
+                     .cell_m = static_cast<double>(map.fine_m())};
+  model.surfels = facing_free_space(map.fine(), model.free, map.fine_m());
+  const auto structure = structure_of(model.surfels);
+  model.structure_m2 = static_cast<double>(structure.size()) * model.cell_m * model.cell_m;
+  model.sample = sample(std::span<const Surfel>(model.surfels), config.surfels);
+  model.structure = sample(std::span<const Surfel>(structure), config.structure);
+  model.weighed = sample(std::span<const Surfel>(structure), config.weighed);
+  model.few = sample(std::span<const Surfel>(structure), config.few);
+  return model;
 }
 
 std::optional<Error> fault_of(const std::optional<UncertainPose>& initial) {

@@ -31,8 +31,8 @@ class Judge {
   Judge(const MapFeatures& a, const MapFeatures& b, const EvidenceConfig& evidence = {},
         const AcceptanceConfig& acceptance = {});
 
-  [[nodiscard]] const Party& a() const { return a_; }
-  [[nodiscard]] const Party& b() const { return b_; }
+  [[nodiscard]] const SurfaceModel& a() const { return a_; }
+  [[nodiscard]] const SurfaceModel& b() const { return b_; }
   /// The look-up of a's fine surfels.
   [[nodiscard]] const NearestGrid& near_a() const { return near_a_; }
   /// Edge of the larger of the two maps' fine cells, m.
@@ -57,14 +57,14 @@ class Judge {
  private:
   EvidenceConfig config_;
   AcceptanceConfig acceptance_;
-  Party a_, b_;
+  SurfaceModel a_, b_;
   float cell_m_;
   NearestGrid near_a_, near_b_;
 };
 
 /// A map's surfels with facing_free_space() applied, and samples of them. Looks into the map's
 /// tree.
-[[nodiscard]] Party party_of(const MapFeatures& map, const EvidenceConfig& config = {});
+[[nodiscard]] SurfaceModel surface_model_of(const MapFeatures& map, const EvidenceConfig& config = {});
 /// The error for a guess that cannot be used (kInvalidConfig); empty if it can.
 [[nodiscard]] std::optional<Error> fault_of(const std::optional<UncertainPose>& initial);
 /// A result without evidence: the prior, and the reason for which nothing better is known.

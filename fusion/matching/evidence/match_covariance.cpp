@@ -176,7 +176,7 @@ Matrix6 slope_bias(const std::vector<Agreeing>& ground, double variance) {
 
 }  // namespace
 
-Matrix6 covariance(const Party& target, const NearestGrid& nearest, const Party& source, const SE3& T,
+Matrix6 covariance(const SurfaceModel& target, const NearestGrid& nearest, const SurfaceModel& source, const SE3& T,
                    const Matrix6& prior_covariance, const EvidenceConfig& config) {
   const Eigen::Matrix3f R = T.rotation().cast<float>();
   const Eigen::Vector3f t = T.translation().cast<float>();

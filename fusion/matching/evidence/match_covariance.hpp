@@ -14,7 +14,7 @@ namespace cairn::matching {
 /// by one common part of a voxel in each map. So r = b + ε, with one b for each stretch and ε of
 /// variance s_ε²/w: M = s_ε² k Σ w J Jᵀ + s_b² Σ (ΣwJ)(ΣwJ)ᵀ over stretches. Both variances are
 /// taken from the residuals. tests/bench/matching_covariance compares the result with the errors.
-[[nodiscard]] Matrix6 covariance(const Party& target, const NearestGrid& nearest, const Party& source,
+[[nodiscard]] Matrix6 covariance(const SurfaceModel& target, const NearestGrid& nearest, const SurfaceModel& source,
                                  const SE3& T_target_source, const Matrix6& prior_covariance,
                                  const EvidenceConfig& config = {});
 

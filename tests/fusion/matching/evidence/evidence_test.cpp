@@ -20,14 +20,14 @@ struct WeighedPair {
       : maps(support::two_robots(scene, of_a, of_b, 5)),
         features_a(*MapFeatures::build(*maps.a)),
         features_b(*MapFeatures::build(*maps.b)),
-        a(party_of(features_a)),
-        b(party_of(features_b)),
+        a(surface_model_of(features_a)),
+        b(surface_model_of(features_b)),
         nearest(features_a.fine(), 0.2F, 0.8F),
         nearest_b(features_b.fine(), 0.2F, 0.8F) {}
   [[nodiscard]] Evidence weigh(const SE3& T_a_b) const { return matching::weigh({a, nearest}, {b, nearest_b}, T_a_b); }
   support::MapPair maps;
   MapFeatures features_a, features_b;
-  Party a, b;
+  SurfaceModel a, b;
   NearestGrid nearest, nearest_b;
 };
 
@@ -67,7 +67,7 @@ struct Bumpy {
 };
 Bumpy with_bumps(const Eigen::Vector3f& above, const Eigen::Vector3f& normal) {
   const WeighedPair p(support::lobby(), {0, 2.5, 12}, {1.2, 3.6, 12});
-  Party b = p.b;
+  SurfaceModel b = p.b;
   for (const Surfel& s : p.a.surfels) {
     const int i = p.nearest.nearest(s.point + Eigen::Vector3f(0, 0, 0.3F), 0.5F);
     if (!s.level() || i == NearestGrid::kNone || p.a.surfels[static_cast<std::size_t>(i)].structure()) continue;

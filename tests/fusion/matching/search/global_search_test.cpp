@@ -20,8 +20,8 @@ class OfOffice : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     pair = new support::MapPair(support::two_robots(support::office(), {0, 2.2, 14}, {1.0, 3.2, 14}, 3, -2.4));
-    a = new Party(party_of(*MapFeatures::build(*pair->a)));
-    b = new Party(party_of(*MapFeatures::build(*pair->b)));
+    a = new SurfaceModel(surface_model_of(*MapFeatures::build(*pair->a)));
+    b = new SurfaceModel(surface_model_of(*MapFeatures::build(*pair->b)));
   }
   static void TearDownTestSuite() {
     delete b;
@@ -34,11 +34,11 @@ class OfOffice : public testing::Test {
     return (T * middle - pair->T_a_b * middle).norm();
   }
   static support::MapPair* pair;
-  static Party *a, *b;
+  static SurfaceModel *a, *b;
 };
 support::MapPair* OfOffice::pair = nullptr;
-Party* OfOffice::a = nullptr;
-Party* OfOffice::b = nullptr;
+SurfaceModel* OfOffice::a = nullptr;
+SurfaceModel* OfOffice::b = nullptr;
 
 TEST_F(OfOffice, TheTruthIsAmongTheFirstPlacements) {
   const PlanView of_a(a->surfels, *pair->a), of_b(b->surfels, *pair->b);
