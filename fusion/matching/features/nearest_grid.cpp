@@ -18,7 +18,7 @@ Eigen::Vector3i brick_of(const Eigen::Vector3i& cell, int bits) {
 
 }  // namespace
 
-/// Fills a grid: each surfel is offered to all cells in its reach, a row of a brick at once, so that
+/// Fills a grid: each surfel is offered to all cells in its reach, some rows of a brick at once, so that
 /// the compiler can vectorise.
 class NearestGrid::Filling {
  public:
@@ -26,11 +26,10 @@ class NearestGrid::Filling {
       : grid_(grid), cell_m_(cell_m), reach_m_(reach_m), squared_reach_(reach_m * reach_m) {}
 
   void offer(int surfel, const Eigen::Vector3f& point) {
-    const auto brick_of = [&](float offset_m) -> Eigen::Vector3i {
-      const Eigen::Vector3i cell = ((point.array() + offset_m) * grid_.inverse_cell_).floor().cast<int>();
-      return {cell.x() >> kBits, cell.y() >> kBits, cell.z() >> kBits};
+    const auto brick_beside = [&](float offset_m) {
+      return brick_of(((point.array() + offset_m) * grid_.inverse_cell_).floor().cast<int>(), kBits);
     };
-    const Eigen::Vector3i first = brick_of(-reach_m_), last = brick_of(reach_m_);
+    const Eigen::Vector3i first = brick_beside(-reach_m_), last = brick_beside(reach_m_);
     for (int z = first.z(); z <= last.z(); ++z)
       for (int y = first.y(); y <= last.y(); ++y)
         for (int x = first.x(); x <= last.x(); ++x) offer(surfel, point, {x, y, z});

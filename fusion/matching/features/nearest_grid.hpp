@@ -18,7 +18,8 @@ namespace cairn::matching {
 class NearestGrid {
  public:
   static constexpr int kNone = -1;
-  /// Bricks, at most: 400 MB. A bound on memory. In a larger map some surfels are not found.
+  /// Bricks, at most: 400 MB, and as much again while the grid is made. A bound on memory. In a larger map some surfels
+  /// are not found.
   static constexpr std::size_t kMostBricks = 200'000;
 
   /// A cell knows surfels up to `reach_m` away from its centre. `surfels` must outlive the grid.
