@@ -87,7 +87,12 @@ TEST(LoopbackNetwork, ABadRadioBringsEverythingToEveryone) {
   ASSERT_TRUE(end);
   EXPECT_FALSE(end->stopped);
   expect_agreement(folders);
-  for (Index i = 0; i < kRobots; ++i) EXPECT_GT((*network)->radio().counters(i).lost, 0U);
+  std::uint64_t sent = 0, lost = 0;  // of all: one robot may have sent too few for one to be lost
+  for (Index i = 0; i < kRobots; ++i) {
+    sent += (*network)->radio().counters(i).tx_packets;
+    lost += (*network)->radio().counters(i).lost;
+  }
+  EXPECT_GT(lost, 0U) << "of " << sent;
   network->reset();
   for (const fs::path& robot : folders) EXPECT_FALSE(fs::exists(robot / "radio.sock"));
 }
