@@ -15,6 +15,8 @@ class DomainClaim {
   static Result<DomainClaim> make();
   DomainClaim(DomainClaim&& other) noexcept : domain_(other.domain_), socket_(std::exchange(other.socket_, -1)) {}
   DomainClaim& operator=(DomainClaim&&) = delete;
+  DomainClaim(const DomainClaim&) = delete;
+  DomainClaim& operator=(const DomainClaim&) = delete;
   ~DomainClaim();
 
   [[nodiscard]] unsigned domain() const { return domain_; }

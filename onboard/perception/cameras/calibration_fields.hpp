@@ -36,8 +36,8 @@ class CalibrationFaults {
 /// One mapping of a calibration file. Each getter reports what is wrong with its key. Must not outlive the faults.
 class CalibrationFields {
  public:
-  CalibrationFields(YAML::Node node, std::string prefix, CalibrationFaults& faults)
-      : node_(std::move(node)), prefix_(std::move(prefix)), faults_(&faults) {}
+  CalibrationFields(const YAML::Node& node, std::string prefix, CalibrationFaults& faults)
+      : node_(node), prefix_(std::move(prefix)), faults_(&faults) {}
 
   [[nodiscard]] bool has(const std::string& key) const { return find(key).IsDefined(); }
   /// The first of these keys that is there; the first of all where none is.

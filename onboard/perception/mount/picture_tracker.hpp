@@ -34,6 +34,8 @@ class PictureTracker {
   explicit PictureTracker(const TrackerConfig& config = {});
   PictureTracker(PictureTracker&&) noexcept;
   PictureTracker& operator=(PictureTracker&&) noexcept;
+  PictureTracker(const PictureTracker&) = delete;
+  PictureTracker& operator=(const PictureTracker&) = delete;
   ~PictureTracker();
 
   /// Where a pixel of the reference is expected in the new picture; none: it is out of view.

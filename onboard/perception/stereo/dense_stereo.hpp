@@ -37,6 +37,8 @@ class DenseStereo {
   DenseStereo(const DenseStereoConfig& config, const StereoGeometry& geometry);
   DenseStereo(DenseStereo&&) noexcept;
   DenseStereo& operator=(DenseStereo&&) noexcept;
+  DenseStereo(const DenseStereo&) = delete;
+  DenseStereo& operator=(const DenseStereo&) = delete;
   ~DenseStereo();
 
   /// Fills `points` in the optical frame, metres, row by row. None is farther than `max_range_m` along the view.
