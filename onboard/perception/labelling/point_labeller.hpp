@@ -9,6 +9,7 @@
 #include "hal/result.hpp"
 #include "onboard/perception/labelling/labelling_config.hpp"
 #include "onboard/perception/labelling/located_scans.hpp"
+#include "onboard/perception/labelling/occlusion.hpp"
 #include "onboard/perception/labelling/projection.hpp"
 
 namespace cairn::labelling {
@@ -35,24 +36,12 @@ class PointLabeller {
                                  std::vector<LabelledPoint>& out);
 
  private:
-  /// The nearest thing around a pixel, and its label.
-  struct Nearest {
-    float depth;
-    std::uint8_t class_id;
-  };
-  void fill_nearest(const LabelImage& labels, std::span<const Projected> seen);
-  void clear_nearest(std::span<const Projected> seen);
-  [[nodiscard]] bool hidden(const Projected& p, std::uint8_t class_id) const;
   [[nodiscard]] std::size_t label_of(const LabelImage& labels, const Projected& p) const;
   [[nodiscard]] bool at_border(const LabelImage& labels, const Projected& p) const;
-  [[nodiscard]] std::size_t pixel_of(const Projected& p) const;
 
   LabellingConfig config_;
   Projection projection_;
-  int window_;                    // pixels to each side
-  int between_;                   // pixels above and below, for gaps between lasers
-  int rim_;                       // the larger of both: what nearest_ has around the picture
-  std::vector<Nearest> nearest_;  // in the window's columns around each pixel; infinitely far between two scans
+  Occlusion occlusion_;
 };
 
 }  // namespace cairn::labelling
