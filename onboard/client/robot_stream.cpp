@@ -107,6 +107,7 @@ Result<StreamMessage> RobotStream::decode() {
   if (record->kind == RecordKind::kCamera) return as_message(clients::decode_camera(record->body));
   if (record->kind == RecordKind::kWheels) return as_message(clients::decode_wheels(record->body));
   if (record->kind == RecordKind::kScan) return assembled(scans_, clients::decode_scan(record->body));
+  if (record->kind == RecordKind::kThermal) return assembled(thermals_, clients::decode_thermal(record->body));
   if (record->kind == RecordKind::kPicture) return assembled(pictures_, clients::decode_picture(record->body));
   return StreamMessage();
 }

@@ -41,8 +41,9 @@ inline constexpr const char* kRobotSocket = "/run/cairn/robot.sock";
 struct CoreGone {};
 
 /// What next() found; std::monostate: nothing came in time.
-using StreamMessage = std::variant<std::monostate, HelloMessage, PoseMessage, StateMessage, TilesMessage, ScanMessage,
-                                   EventMessage, PeopleMessage, CameraMessage, PictureMessage, WheelsMessage, CoreGone>;
+using StreamMessage =
+    std::variant<std::monostate, HelloMessage, PoseMessage, StateMessage, TilesMessage, ScanMessage, ThermalMessage,
+                 EventMessage, PeopleMessage, CameraMessage, PictureMessage, WheelsMessage, CoreGone>;
 
 /// A subscription to robot.sock. It survives the end of a core, and finds the next one. One thread uses it.
 class RobotStream {
@@ -78,6 +79,7 @@ class RobotStream {
   std::optional<std::uint32_t> sequence_;  // of the last record
   std::uint64_t lost_ = 0;
   ScanAssembly scans_;
+  ThermalAssembly thermals_;
   PictureAssembly pictures_;
   std::vector<std::byte> bytes_;  // reused
 };

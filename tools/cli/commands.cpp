@@ -17,6 +17,7 @@
 #include "tools/cli/stream/people_command.hpp"
 #include "tools/cli/stream/pose_command.hpp"
 #include "tools/cli/team/team_command.hpp"
+#include "tools/cli/thermal/thermal_command.hpp"
 #include "tools/cli/top/top_command.hpp"
 #ifdef CAIRN_HAS_SIMULATOR
 #include "tools/cli/simulate/simulate_command.hpp"
@@ -44,6 +45,7 @@ void add_tool_commands(app::Commands& commands) {
   add_top_command(commands);
   add_pose_command(commands);
   add_people_command(commands);
+  add_thermal_command(commands);
   add_drive_commands(commands);
 }
 

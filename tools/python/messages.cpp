@@ -16,6 +16,7 @@ using client::PeopleMessage;
 using client::PoseMessage;
 using client::ScanMessage;
 using client::StateMessage;
+using client::ThermalMessage;
 using client::WheelsMessage;
 using Person = PeopleMessage::Person;
 
@@ -99,6 +100,36 @@ void add_scan(py::module_& module) {
       .def_readonly("epoch", &ScanMessage::epoch, kEpoch)
       .def_readonly("lost", &ScanMessage::lost, "the pose is only a prediction")
       .def("__repr__", repr_of({"stamp_ns", "epoch", "lost"}));
+}
+
+/// Columns `first` to `first + count` of x y z value, shape (N, count).
+py::array_t<float> columns_of(const ThermalMessage& cloud, std::size_t first, std::size_t count) {
+  std::vector<float> numbers;
+  numbers.reserve(count * cloud.points.size());
+  for (const ThermalPoint& p : cloud.points) {
+    const std::array<float, 4> row{p.point_base.x(), p.point_base.y(), p.point_base.z(), p.value};
+    numbers.insert(numbers.end(), row.begin() + static_cast<std::ptrdiff_t>(first),
+                   row.begin() + static_cast<std::ptrdiff_t>(first + count));
+  }
+  const auto points = static_cast<py::ssize_t>(cloud.points.size());
+  if (count == 1) return to_array(std::move(numbers), {points});
+  return to_array(std::move(numbers), {points, static_cast<py::ssize_t>(count)});
+}
+
+void add_thermal(py::module_& module) {
+  py::class_<ThermalMessage>(module, "ThermalCloud", "What the thermal camera measured at the points of a scan.")
+      .def_property_readonly("stamp_ns", &stamp_of<ThermalMessage>, "of the picture, in robot time")
+      .def_property_readonly(
+          "T_odom_base", [](const ThermalMessage& m) { return m.T_odom_base.matrix(); }, "(4, 4)")
+      .def_property_readonly(
+          "xyz", [](const ThermalMessage& m) { return columns_of(m, 0, 3); },
+          "points in base_link, m; float32, shape (N, 3)")
+      .def_property_readonly(
+          "value", [](const ThermalMessage& m) { return columns_of(m, 3, 1); },
+          "deg C, or counts, of each point; float32, shape (N,)")
+      .def_readonly("celsius", &ThermalMessage::celsius, "False: values are raw counts")
+      .def_readonly("epoch", &ThermalMessage::epoch, kEpoch)
+      .def("__repr__", repr_of({"stamp_ns", "epoch", "celsius"}));
 }
 
 void add_people(py::module_& module) {
@@ -188,6 +219,7 @@ void add_messages(py::module_& module) {
   add_pose(module);
   add_state(module);
   add_scan(module);
+  add_thermal(module);
   add_people(module);
   add_camera(module);
   add_wheels(module);

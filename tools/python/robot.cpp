@@ -22,7 +22,7 @@ using client::Costmap;
 using client::CostmapConfig;
 using clients::Stream;
 
-constexpr std::array<std::pair<std::string_view, Stream>, 11> kStreams{{{"pose", Stream::kPose},
+constexpr std::array<std::pair<std::string_view, Stream>, 12> kStreams{{{"pose", Stream::kPose},
                                                                         {"state", Stream::kState},
                                                                         {"own_map", Stream::kOwnTiles},
                                                                         {"team_map", Stream::kTeamTiles},
@@ -32,7 +32,8 @@ constexpr std::array<std::pair<std::string_view, Stream>, 11> kStreams{{{"pose",
                                                                         {"team_people", Stream::kTeamPeople},
                                                                         {"cameras", Stream::kCameras},
                                                                         {"pictures", Stream::kPictures},
-                                                                        {"wheels", Stream::kWheels}}};
+                                                                        {"wheels", Stream::kWheels},
+                                                                        {"thermal", Stream::kThermal}}};
 constexpr Duration kGlance = std::chrono::milliseconds(100);  // how long Ctrl-C may have to wait
 
 Stream stream_of(const std::string& name) {
@@ -169,9 +170,10 @@ namespace {
 constexpr const char* kAboutConnect =
     "Reads a running core through its robot.sock. `streams` names what is wanted: pose, state, own_map, team_map, "
     "scan,\n"
-    "events, people, team_people, cameras, pictures, wheels. `pose_hz`: predictions, too, so often a second (200 at "
+    "events, people, team_people, cameras, pictures, wheels, thermal. `pose_hz`: predictions, too, so often a second "
+    "(200 at "
     "most).\n"
-    "`scan_hz`, `picture_hz`: at most so many a second; 0: all. Error: no core is there.";
+    "`scan_hz` (of thermal clouds, too), `picture_hz`: at most so many a second; 0: all. Error: no core is there.";
 
 py::array_t<std::uint8_t> cost_of(const Costmap& map) {
   return to_array(map.cost, {py::ssize_t{map.cells}, py::ssize_t{map.cells}});

@@ -25,6 +25,7 @@ enum class RecordKind : std::uint8_t {
   kCamera = 8,
   kPicture = 9,
   kWheels = 10,
+  kThermal = 11,
   // robot.sock, client → core
   kSubscribe = 32,
   // command.sock, client → core

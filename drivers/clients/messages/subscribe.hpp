@@ -20,8 +20,9 @@ enum class Stream : std::uint32_t {
   kCameras = 256,     ///< which cameras there are, once
   kPictures = 512,
   kWheels = 1024,
+  kThermal = 2048,  ///< thermal clouds
 };
-inline constexpr std::uint32_t kAllStreams = 2047;
+inline constexpr std::uint32_t kAllStreams = 4095;
 
 /// What a client of robot.sock wants from now on. A second one replaces the first.
 struct SubscribeMessage {
@@ -30,7 +31,7 @@ struct SubscribeMessage {
 
   std::uint32_t streams = 0;  ///< bits of Stream
   double pose_hz = 0;         ///< 0: the pose of each scan; otherwise predictions, too, so often a second
-  double scan_hz = 0;         ///< 0: all scans; otherwise at most so many a second
+  double scan_hz = 0;         ///< 0: all scans and thermal clouds; otherwise at most so many a second
   float picture_hz = 0;       ///< 0: all pictures; otherwise at most so many a second, of each camera
   /// What the client has of a map already. It gets what is newer, or everything if the core knows no such session.
   struct Resume {

@@ -154,6 +154,15 @@ Result<PcdCloud> to_cloud(std::vector<Row> rows, const PcdField* time, std::stri
   return out;
 }
 
+/// `columns`: the lines that describe them.
+std::vector<std::byte> header_of(const std::string& columns, std::size_t points) {
+  const std::string n = std::to_string(points);
+  const std::string header = "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\n" + columns + "\nWIDTH " + n +
+                             "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n + "\nDATA binary\n";
+  const auto bytes = std::as_bytes(std::span(header));
+  return {bytes.begin(), bytes.end()};
+}
+
 }  // namespace
 
 Result<PcdCloud> parse_pcd(std::span<const std::byte> file, std::string_view name) {
@@ -172,14 +181,23 @@ Result<PcdCloud> parse_pcd(std::span<const std::byte> file, std::string_view nam
   return to_cloud(std::move(*rows), chosen[kTime], name);
 }
 
+std::vector<std::byte> to_pcd(std::span<const std::string_view> fields, std::span<const float> values) {
+  std::string names = "FIELDS", sizes = "\nSIZE", types = "\nTYPE", counts = "\nCOUNT";
+  for (const std::string_view field : fields) {
+    names += " " + std::string(field);
+    sizes += " 4";
+    types += " F";
+    counts += " 1";
+  }
+  std::vector<std::byte> out = header_of(names + sizes + types + counts, values.size() / fields.size());
+  for (const float value : values) append_le(out, value);
+  return out;
+}
+
 std::vector<std::byte> to_pcd(const PointCloud& cloud) {
-  const std::string n = std::to_string(cloud.size());
-  const std::string header =
-      "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS x y z intensity ring time return_type\n"
-      "SIZE 4 4 4 4 2 4 1\nTYPE F F F F U F U\nCOUNT 1 1 1 1 1 1 1\nWIDTH " +
-      n + "\nHEIGHT 1\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS " + n + "\nDATA binary\n";
-  const auto head = std::as_bytes(std::span(header));
-  std::vector<std::byte> out(head.begin(), head.end());
+  std::vector<std::byte> out = header_of(
+      "FIELDS x y z intensity ring time return_type\nSIZE 4 4 4 4 2 4 1\nTYPE F F F F U F U\nCOUNT 1 1 1 1 1 1 1",
+      cloud.size());
   for (std::size_t i = 0; i < cloud.size(); ++i) {
     for (const float v : {cloud.xyz[i].x(), cloud.xyz[i].y(), cloud.xyz[i].z(), cloud.intensity[i]}) append_le(out, v);
     append_le(out, static_cast<std::uint16_t>(cloud.ring[i]));

@@ -59,4 +59,7 @@ inline constexpr std::size_t kMaxPcdBytes = std::size_t{256} << 20U;
 /// Binary PCD with x y z intensity ring time return_type; time in seconds since the first firing.
 [[nodiscard]] std::vector<std::byte> to_pcd(const PointCloud& cloud);
 
+/// Binary PCD of floats. `values`: those of the first point in the order of `fields`, then those of the next.
+[[nodiscard]] std::vector<std::byte> to_pcd(std::span<const std::string_view> fields, std::span<const float> values);
+
 }  // namespace cairn::recording

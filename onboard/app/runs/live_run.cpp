@@ -8,6 +8,7 @@
 #include "onboard/app/runs/connect_inputs.hpp"
 #include "onboard/app/runs/real_time.hpp"
 #include "onboard/app/runs/shown_cameras.hpp"
+#include "onboard/app/sight/open_thermal.hpp"
 #include "onboard/scheduler/execution/executive.hpp"
 
 namespace cairn::app {
@@ -109,6 +110,7 @@ Result<void> LiveRun::open_streams() {
   const auto cameras = shown_cameras(profile, context_.door.recording.sources);
   show(cameras, tasks_.receive, *outlets_);
   streams_->show(cameras);
+  show_thermal();
   streams_->set_wheel_radius(profile.drive.driver.wheel_radius_m);
   tasks_.mapping.serve(outlets_->own);
   tasks_.mapping.tell_people(outlets_->people);
@@ -116,6 +118,15 @@ Result<void> LiveRun::open_streams() {
   tasks_.team->team().serve(outlets_->team, outlets_->T_team_odom);
   tasks_.team->team().tell_people(outlets_->team_people);
   return {};
+}
+
+/// Why there are no thermal clouds is told to those who want them.
+void LiveRun::show_thermal() {
+  auto parts = open_thermal(context_.profile, context_.door.recording.sources);
+  if (!parts) return streams_->show(nullptr, to_string(parts.error()));
+  (void)tasks_.receive.show(recording::kThermal, outlets_->thermal);
+  streams_->show(std::make_unique<ThermalStream>(std::move(parts->camera), std::move(parts->lifter), context_.monitor),
+                 {});
 }
 
 /// A disk that cannot keep the schedule costs the exact replay, not the results.

@@ -41,6 +41,7 @@ class LiveRun {
   Result<void> keep_labels(const std::filesystem::path& folder);
   Result<void> keep_boxes(const std::filesystem::path& folder);
   Result<void> open_streams();
+  void show_thermal();
   void add_live_only_tasks(Generations* generations);
   [[nodiscard]] safety::Pulse add_saving(Generations& generations);
   scheduler::ScheduledTask& add_live_only(const scheduler::TaskSpec& spec, scheduler::Task& task);

@@ -66,7 +66,7 @@ void ClientHub::take(LocalServer::ClientId id, Time now) {
   client->wants = *wants;
   client->fresh = true;
   client->predictions = RateLimit(wants->pose_hz);
-  client->scans = RateLimit(wants->scan_hz);
+  client->scans = client->thermals = RateLimit(wants->scan_hz);
   for (PictureCursor& picture : client->pictures) picture.limit = RateLimit(static_cast<double>(wants->picture_hz));
 }
 

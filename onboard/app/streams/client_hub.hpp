@@ -40,9 +40,10 @@ struct StreamClient {
   clients::SubscribeMessage wants;
   bool fresh = false;          ///< its subscription has just come
   std::uint32_t sequence = 0;  ///< of its next record
-  RateLimit predictions, scans;
+  RateLimit predictions, scans, thermals;
   std::array<TileCursor, 2> tiles;                    ///< by clients::TileMap
   std::optional<std::uint32_t> scan_points;           ///< of the present scan, that it has; none: it gets no more of it
+  std::optional<std::uint32_t> thermal_points;        ///< the same of the present thermal cloud
   std::array<PictureCursor, kShownCameras> pictures;  ///< by camera
 };
 

@@ -1,27 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include <cstddef>
-#include <vector>
+#include <optional>
+#include <span>
 
-#include "onboard/app/streams/client_hub.hpp"
+#include "drivers/clients/messages/clouds/scan.hpp"
+#include "onboard/app/streams/cloud_stream.hpp"
 #include "onboard/app/streams/outlets/stream_outlets.hpp"
 
 namespace cairn::app {
 
-/// Scans on their way to the clients that want them: one at a time, in parts, over several ticks if need be. A client
-/// that has not taken a scan when the next one is there loses the rest of it.
-class ScanStream {
- public:
-  /// Sends what clients take now, in at most `records` records for all of them.
-  void serve(ClientHub& hub, SpscQueue<LocatedScan>& scans, std::size_t records);
-
- private:
-  void begin(ClientHub& hub, const LocatedScan& scan);
-  bool send(ClientHub& hub, StreamClient& client, const LocatedScan& scan, std::size_t& records);
-
-  bool begun_ = false;             // the scan in front
-  std::vector<std::byte> record_;  // reused
+/// For CloudStream: located scans.
+struct ScanKind {
+  using Cloud = LocatedScan;
+  static clients::ScanPart part_of(const LocatedScan& scan) {
+    return {.stamp = scan.stamp, .lost = scan.lost, .epoch = scan.epoch, .T_odom_base = scan.T_odom_base.mean};
+  }
+  static std::span<const Eigen::Vector3f> points_of(const LocatedScan& scan) { return scan.points_base; }
+  static std::optional<std::uint32_t>& sent(StreamClient& client) { return client.scan_points; }
+  static bool due(StreamClient& client, const LocatedScan& scan) {
+    return client.wants.wants(clients::Stream::kScan) && client.scans.due(scan.stamp);
+  }
 };
+
+using ScanStream = CloudStream<ScanKind>;
 
 }  // namespace cairn::app

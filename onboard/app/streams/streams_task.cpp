@@ -15,7 +15,7 @@ using clients::Stream;
 using clients::TileMap;
 
 // In one tick. Encoding a tile takes a microsecond, making and sending a full record some tens.
-constexpr std::size_t kTiles = 512, kTileRecords = 8, kScanRecords = 16, kPictureRecords = 16;
+constexpr std::size_t kTiles = 512, kTileRecords = 8, kCloudRecords = 16, kPictureRecords = 16;
 constexpr double kEvents_hz = 10;
 constexpr Duration kClosingStep = std::chrono::milliseconds(1);
 
@@ -37,27 +37,33 @@ std::size_t StreamsTask::serve(Time now) {
   send_people();
   send_wheels();
   hub_.receive(now);
-  greet_subscribers();
+  greet_subscribers(now);
   send_predictions(now);
   send_state(now);
   send_events(now);
-  scans_.serve(hub_, outlets_.scans, kScanRecords);
+  send_clouds();
   send_pictures();
   return send_tiles(now);
 }
 
-void StreamsTask::greet_subscribers() {
-  for (StreamClient& client : hub_.clients()) {
-    if (!std::exchange(client.fresh, false)) continue;
-    own_.begin(client);
-    team_.begin(client);
-    if (client.wants.wants(Stream::kState)) hub_.send(client, state_);
-    if (client.wants.wants(Stream::kEvents))
-      for (const clients::EventMessage& event : events_.so_far()) hub_.send(client, event);
-    if (client.wants.wants(Stream::kCameras))
-      for (const ShownCamera& camera : cameras_) hub_.send(client, camera.message);
-  }
-  outlets_.scans_wanted.store(hub_.anybody_wants(Stream::kScan), std::memory_order_relaxed);
+void StreamsTask::greet(StreamClient& client, Time now) {
+  own_.begin(client);
+  team_.begin(client);
+  if (client.wants.wants(Stream::kState)) hub_.send(client, state_);
+  if (client.wants.wants(Stream::kEvents))
+    for (const clients::EventMessage& event : events_.so_far()) hub_.send(client, event);
+  if (client.wants.wants(Stream::kCameras))
+    for (const ShownCamera& camera : cameras_) hub_.send(client, camera.message);
+  if (client.wants.wants(Stream::kThermal) && thermal_ == nullptr)
+    monitor_.event(now, "clients", "a client gets no thermal clouds of this robot: " + why_no_thermal_);
+}
+
+void StreamsTask::greet_subscribers(Time now) {
+  for (StreamClient& client : hub_.clients())
+    if (std::exchange(client.fresh, false)) greet(client, now);
+  const bool thermal = thermal_ != nullptr && hub_.anybody_wants(Stream::kThermal);
+  outlets_.scans_wanted.store(thermal || hub_.anybody_wants(Stream::kScan), std::memory_order_relaxed);
+  outlets_.thermal.wanted.store(thermal, std::memory_order_relaxed);
   outlets_.wheels_wanted.store(hub_.anybody_wants(Stream::kWheels), std::memory_order_relaxed);
   const bool pictures = hub_.anybody_wants(Stream::kPictures);
   for (PictureOutlet& outlet : outlets_.pictures) outlet.wanted.store(pictures, std::memory_order_relaxed);
@@ -89,6 +95,18 @@ void StreamsTask::send_pictures() {
     const std::size_t i = camera.message.camera;
     pictures_[i].serve(hub_, outlets_.pictures[i].pictures, camera.latency, records);
   }
+}
+
+/// Scans are shown to the thermal camera before they are sent, and its clouds follow.
+void StreamsTask::send_clouds() {
+  const bool thermal = outlets_.thermal.wanted.load(std::memory_order_relaxed);
+  scans_.serve(hub_, outlets_.scans, kCloudRecords, [&](const LocatedScan& scan) {
+    if (thermal) thermal_->add(scan);
+  });
+  if (thermal_ == nullptr) return;
+  for (; const Packet* picture = outlets_.thermal.pictures.front(); outlets_.thermal.pictures.pop())
+    if (thermal) thermal_->add(*picture);
+  thermal_->serve(hub_, kCloudRecords);
 }
 
 void StreamsTask::send_predictions(Time now) {

@@ -4,7 +4,9 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -17,6 +19,7 @@
 #include "onboard/app/streams/picture_stream.hpp"
 #include "onboard/app/streams/pose_predictor.hpp"
 #include "onboard/app/streams/scan_stream.hpp"
+#include "onboard/app/streams/thermal_stream.hpp"
 #include "onboard/app/streams/tile_stream.hpp"
 #include "onboard/scheduler/tick.hpp"
 
@@ -36,6 +39,12 @@ class StreamsTask final : public scheduler::Task {
 
   /// The cameras of which clients may have pictures: each at its number in the outlets. To be called before the run.
   void show(std::vector<ShownCamera> cameras) { cameras_ = std::move(cameras); }
+  /// What makes thermal clouds; without it, `why_not` is what a client's wish for them leaves as an event. To be called
+  /// before the run.
+  void show(std::unique_ptr<ThermalStream> thermal, std::string why_not) {
+    thermal_ = std::move(thermal);
+    why_no_thermal_ = std::move(why_not);
+  }
   /// Of a wheel, in metres; 0: not known. To be called before the run.
   void set_wheel_radius(double radius_m) { wheel_radius_m_ = radius_m; }
 
@@ -48,11 +57,13 @@ class StreamsTask final : public scheduler::Task {
 
  private:
   std::size_t serve(Time now);
-  void greet_subscribers();
+  void greet_subscribers(Time now);
+  void greet(StreamClient& client, Time now);
   void send_poses();
   void send_people();
   void send_wheels();
   void send_pictures();
+  void send_clouds();
   void send_predictions(Time now);
   void send_state(Time now);
   void send_events(Time now);
@@ -65,6 +76,8 @@ class StreamsTask final : public scheduler::Task {
   EventFeed events_;
   PosePredictor predictor_;
   ScanStream scans_;
+  std::unique_ptr<ThermalStream> thermal_;
+  std::string why_no_thermal_ = "there is no thermal camera";
   std::vector<ShownCamera> cameras_;
   std::array<PictureStream, kShownCameras> pictures_{PictureStream(0), PictureStream(1), PictureStream(2)};
   double wheel_radius_m_ = 0;

@@ -40,7 +40,7 @@ bool ReceiveTask::show(recording::SensorKind kind, PictureOutlet& outlet) {
   const auto camera = std::ranges::find_if(
       sensors_, [&](const Sensor& sensor) { return sensor.kind == kind && sensor.pictures[0] != nullptr; });
   if (camera == sensors_.end()) return false;
-  camera->shown = &outlet;
+  camera->shown.push_back(&outlet);
   return true;
 }
 
@@ -123,7 +123,7 @@ void ReceiveTask::take_undecoded(const Packet& packet, Sensor& sensor, Tick& tic
                    "a picture without a pulse of the trigger: it has the time of its arrival");
   }
   const Packet& picture = pulse ? exposed_ : packet;
-  if (sensor.shown != nullptr) show(picture, *sensor.shown);
+  for (PictureOutlet* outlet : sensor.shown) show(picture, *outlet);
   for (auto* port : sensor.pictures)
     if (port != nullptr) hand_on(picture, *port, tick);
 }

@@ -76,7 +76,7 @@ class ReceiveTask final : public scheduler::Task {
     PicturePorts pictures;                   // where its packets go
     recording::SensorKind kind;
     std::optional<Duration> triggered{};  // from the pulse to what counts as arrival
-    PictureOutlet* shown = nullptr;       // null: to no client
+    std::vector<PictureOutlet*> shown{};  // to clients
     safety::StuckWatch stuck{};
     safety::PictureSample sample{};
     safety::RejectionWatch rejection{};

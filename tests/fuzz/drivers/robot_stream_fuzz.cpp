@@ -6,12 +6,13 @@
 #include <vector>
 
 #include "drivers/clients/messages/camera.hpp"
+#include "drivers/clients/messages/clouds/scan.hpp"
+#include "drivers/clients/messages/clouds/thermal.hpp"
 #include "drivers/clients/messages/event.hpp"
 #include "drivers/clients/messages/hello.hpp"
 #include "drivers/clients/messages/people.hpp"
 #include "drivers/clients/messages/picture.hpp"
 #include "drivers/clients/messages/pose.hpp"
-#include "drivers/clients/messages/scan.hpp"
 #include "drivers/clients/messages/state.hpp"
 #include "drivers/clients/messages/tiles.hpp"
 #include "drivers/clients/messages/wheels.hpp"
@@ -34,6 +35,13 @@ std::vector<std::byte> written(const TilesMessage& message) {
 std::vector<std::byte> written(const ScanPart& part) {
   std::vector<Eigen::Vector3f> points(part.total, Eigen::Vector3f::Zero());
   std::ranges::copy(part.points_base, points.begin() + part.first);
+  std::vector<std::byte> out;
+  encode(part, points, out);
+  return out;
+}
+std::vector<std::byte> written(const ThermalPart& part) {
+  std::vector<ThermalPoint> points(part.total);
+  std::ranges::copy(part.points, points.begin() + part.first);
   std::vector<std::byte> out;
   encode(part, points, out);
   return out;
@@ -67,6 +75,7 @@ void look(RecordKind kind, Body body) {
   if (kind == RecordKind::kState) look(body, decode_state);
   if (kind == RecordKind::kTiles) look(body, decode_tiles);
   if (kind == RecordKind::kScan) look(body, decode_scan);
+  if (kind == RecordKind::kThermal) look(body, decode_thermal);
   if (kind == RecordKind::kEvent) look(body, decode_event);
   if (kind == RecordKind::kPeople) look(body, decode_people);
   if (kind == RecordKind::kCamera) look(body, decode_camera);

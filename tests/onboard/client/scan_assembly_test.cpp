@@ -35,5 +35,23 @@ TEST(ScanAssembly, AScanThatLacksAPartIsLeftOut) {
   EXPECT_TRUE(scans.take(scan_part(3, 5, 0, 5)));
 }
 
+TEST(ThermalAssembly, PartsMakeACloudAndOneThatLacksAPartIsLeftOut) {
+  const auto part = [](std::int64_t stamp, std::uint32_t first) {
+    clients::ThermalPart made{.stamp = Time{Duration{stamp}}, .celsius = true, .epoch = 9, .total = 2, .first = first};
+    made.points = {{{1, 2, 3}, 20.F + static_cast<float>(first)}};
+    return made;
+  };
+  ThermalAssembly clouds;
+  EXPECT_FALSE(clouds.take(part(1, 0)));
+  EXPECT_FALSE(clouds.take(part(2, 1)));
+  EXPECT_FALSE(clouds.take(part(3, 0)));
+  const auto cloud = clouds.take(part(3, 1));
+  ASSERT_TRUE(cloud);
+  EXPECT_TRUE(cloud->celsius);
+  EXPECT_EQ(cloud->epoch, 9U);
+  ASSERT_EQ(cloud->points.size(), 2U);
+  EXPECT_EQ(cloud->points[1].value, 21);
+}
+
 }  // namespace
 }  // namespace cairn::client

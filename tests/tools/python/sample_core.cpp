@@ -6,7 +6,8 @@
 #include <cstdio>
 
 #include "drivers/camera/frame.hpp"
-#include "drivers/clients/messages/scan.hpp"
+#include "drivers/clients/messages/clouds/scan.hpp"
+#include "drivers/clients/messages/clouds/thermal.hpp"
 #include "drivers/clients/sockets/local_server.hpp"
 #include "fusion/peers/items/tile_codec.hpp"
 #include "onboard/client/robot_stream.hpp"
@@ -35,9 +36,10 @@ class Speaker {
     encode(message, bytes_);
     end();
   }
-  void say_scan(const clients::ScanPart& part, const std::vector<Eigen::Vector3f>& points) {
-    clients::begin_record(clients::ScanPart::kKind, sequence_++, bytes_);
-    encode(part, points, bytes_);
+  template <class Part, class Point>
+  void say_cloud(const Part& part, const std::vector<Point>& points) {
+    clients::begin_record(Part::kKind, sequence_++, bytes_);
+    encode(part, std::span<const Point>(points), bytes_);
     end();
   }
   void say_picture(const clients::PicturePart& part, const std::vector<std::byte>& bytes) {
@@ -96,7 +98,9 @@ void say_everything(Speaker& core) {
   core.say(state);
   clients::ScanPart scan;
   scan.total = 2;
-  core.say_scan(scan, {{1, 2, 3}, {4, 5, 6}});
+  core.say_cloud(scan, std::vector<Eigen::Vector3f>{{1, 2, 3}, {4, 5, 6}});
+  core.say_cloud(clients::ThermalPart{.stamp = Time{std::chrono::seconds(2)}, .celsius = true, .epoch = 2},
+                 std::vector<ThermalPoint>{{{1, 2, 3}, 20.5F}, {{4, 5, 6}, 36}});
   client::PeopleMessage people;
   people.people.push_back({.id = 7, .sightings = 3, .seen = true, .position_odom = {5, 6, 0}, .velocity_odom = {1, 0}});
   core.say(people);

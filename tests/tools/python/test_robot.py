@@ -8,7 +8,7 @@ import unittest
 import cairn
 import numpy as np
 
-ALL = ["pose", "state", "own_map", "scan", "events", "people", "pictures", "wheels"]
+ALL = ["pose", "state", "own_map", "scan", "events", "people", "pictures", "wheels", "thermal"]
 
 
 class RobotTest(unittest.TestCase):
@@ -50,6 +50,10 @@ class RobotTest(unittest.TestCase):
         self.assertEqual((state.mode, state.cause, state.faults), ("hold", "lidar_silent", ["lidar_silent"]))
         self.assertIsNone(state.T_team_odom)
         np.testing.assert_array_equal(messages["Scan"].xyz, [[1, 2, 3], [4, 5, 6]])
+        warm = messages["ThermalCloud"]
+        self.assertEqual((warm.stamp_ns, warm.celsius, warm.epoch), (2_000_000_000, True, 2))
+        np.testing.assert_array_equal(warm.xyz, [[1, 2, 3], [4, 5, 6]])
+        np.testing.assert_array_equal(warm.value, [20.5, 36])
         person = messages["People"].people[0]
         self.assertEqual((person.id, person.sightings, person.seen), (7, 3, True))
         np.testing.assert_allclose(person.velocity, [1, 0])

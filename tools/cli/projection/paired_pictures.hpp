@@ -9,13 +9,10 @@
 #include <vector>
 
 #include "drivers/camera/camera.hpp"
-#include "drivers/recording/recording_reader.hpp"
-#include "hal/monitor.hpp"
-#include "hal/workers.hpp"
 #include "onboard/app/profile/robot_profile.hpp"
-#include "onboard/odometry/odometry.hpp"
 #include "onboard/perception/alignment/depth_edges.hpp"
 #include "onboard/perception/labelling/located_scans.hpp"
+#include "tools/cli/projection/odometry_player.hpp"
 
 namespace cairn::cli {
 
@@ -40,9 +37,10 @@ class PairedPictures {
 
   [[nodiscard]] std::size_t pictures() const { return pictures_; }          ///< taken, after `every`
   [[nodiscard]] std::size_t without_scan() const { return without_scan_; }  ///< of those: no scan or pose near them
-  [[nodiscard]] std::size_t unreadable() const { return unreadable_; }      ///< packets that could not be decoded
-  /// Scans whose pose the odometry could not find; it has the LiDAR alone, no wheels.
-  [[nodiscard]] std::size_t scans_without_pose() const { return scans_without_pose_; }
+  /// Packets that could not be read or decoded.
+  [[nodiscard]] std::size_t unreadable() const { return unreadable_ + player_->unreadable(); }
+  /// See OdometryPlayer.
+  [[nodiscard]] std::size_t scans_without_pose() const { return player_->scans_without_pose(); }
 
  private:
   using Use = std::function<Result<void>(const PicturePair&)>;
@@ -52,30 +50,22 @@ class PairedPictures {
     std::vector<alignment::DepthEdge> edges;
   };
 
-  PairedPictures(const app::RobotProfile& profile, std::unique_ptr<recording::RecordingReader> reader,
-                 camera::Camera camera);
-  void take_scan(const Scan& scan);
+  PairedPictures(const app::RobotProfile& profile, std::unique_ptr<OdometryPlayer> player, camera::Camera camera);
+  void take_scan(const Scan& scan, const odometry::OdometryUpdate& motion, std::uint32_t epoch);
   void take_picture(const Packet& packet, int every);
   [[nodiscard]] Result<void> serve(bool all, const Use& use);
   [[nodiscard]] Result<void> serve_one(const Image& picture, const Use& use);
 
-  std::unique_ptr<recording::RecordingReader> reader_;
-  Monitor monitor_;
-  Workers workers_;
+  std::unique_ptr<OdometryPlayer> player_;
   SE3 T_base_lidar_;
-  int most_steps_;
   bool side_by_side_;
-  std::unique_ptr<ScanDecoder> lidar_;
   camera::Camera camera_;
-  SourceId lidar_id_{}, camera_id_{};
-  odometry::LidarOdometry odometry_;
   alignment::DepthEdgeFinder finder_;
   labelling::LocatedScans scans_;
   std::deque<ScanEdges> edges_;
   std::deque<Image> waiting_;
   Duration half_sweep_{};
-  std::uint32_t epoch_ = 0;
-  std::size_t decoded_ = 0, pictures_ = 0, without_scan_ = 0, unreadable_ = 0, scans_without_pose_ = 0;
+  std::size_t decoded_ = 0, pictures_ = 0, without_scan_ = 0, unreadable_ = 0;
 };
 
 }  // namespace cairn::cli

@@ -31,6 +31,7 @@ Result<std::unique_ptr<RobotTopics>> RobotTopics::open(RosParticipant& participa
   const auto people = Writer<MarkerArray>::open(participant, at + "people", TopicUse::kEvent);
   const auto team_people = Writer<MarkerArray>::open(participant, at + "team_people", TopicUse::kEvent);
   const auto joint_states = Writer<JointState>::open(participant, at + "joint_states", TopicUse::kEvent);
+  const auto thermal_points = Writer<PointCloud2>::open(participant, at + "thermal_points", TopicUse::kStream);
   const auto map = MapFeed::open(participant, at + "map", clients::TileMap::kOwn, options.map, options.map_period);
   if (!odom) return odom.error();
   if (!tf) return tf.error();
@@ -41,8 +42,10 @@ Result<std::unique_ptr<RobotTopics>> RobotTopics::open(RosParticipant& participa
   if (!people) return people.error();
   if (!team_people) return team_people.error();
   if (!joint_states) return joint_states.error();
+  if (!thermal_points) return thermal_points.error();
   if (!map) return map.error();
-  const Writers writers{*odom, *tf, *tf_static, *points, *diagnostics, *costmap, *people, *team_people, *joint_states};
+  const Writers writers{*odom,    *tf,     *tf_static,   *points,       *diagnostics,
+                        *costmap, *people, *team_people, *joint_states, *thermal_points};
   std::unique_ptr<RobotTopics> topics(new RobotTopics(participant, std::move(options), writers, *map));
   topics->utc_.greeted(LiveClock::realtime_offset(), LiveClock::realtime_offset());
   return topics;
@@ -97,6 +100,11 @@ Result<void> RobotTopics::write(const client::TilesMessage& tiles) {
 
 Result<void> RobotTopics::write(const client::ScanMessage& scan) {
   (void)writers_.points.write(points_of(scan, frames_, utc_.value(), arena_));
+  return {};
+}
+
+Result<void> RobotTopics::write(const client::ThermalMessage& cloud) {
+  (void)writers_.thermal_points.write(points_of(cloud, frames_, utc_.value(), arena_));
   return {};
 }
 
@@ -190,9 +198,10 @@ void RobotTopics::write_diagnostics(Time now, const std::vector<Diagnosis>& othe
 }
 
 Diagnosis RobotTopics::traffic() const {
-  const auto& [odom, tf, tf_static, points, diagnostics, costmap, people, team_people, joint_states] = writers_;
+  const auto& [odom, tf, tf_static, points, diagnostics, costmap, people, team_people, joint_states, thermal_points] =
+      writers_;
   std::uint64_t lost = odom.lost() + tf.lost() + points.lost() + costmap.lost() + people.lost() + team_people.lost() +
-                       joint_states.lost() + own_.writer().lost();
+                       joint_states.lost() + thermal_points.lost() + own_.writer().lost();
   std::uint64_t pictures = 0;
   for (const auto& [number, camera] : cameras_) {
     lost += camera.lost();
@@ -216,6 +225,7 @@ client::SubscribeMessage RobotTopics::wants() const {
     wants.add(stream);
   if (team_) wants.add(Stream::kTeamTiles);
   if (writers_.points.read_by_anybody()) wants.add(Stream::kScan);
+  if (writers_.thermal_points.read_by_anybody()) wants.add(Stream::kThermal);
   if (writers_.people.read_by_anybody()) wants.add(Stream::kPeople);
   if (writers_.team_people.read_by_anybody()) wants.add(Stream::kTeamPeople);
   if (writers_.joint_states.read_by_anybody()) wants.add(Stream::kWheels);

@@ -53,6 +53,7 @@ class RobotTopics {
     Writer<OccupancyGrid> costmap;
     Writer<MarkerArray> people, team_people;
     Writer<JointState> joint_states;
+    Writer<PointCloud2> thermal_points;
   };
   RobotTopics(RosParticipant& participant, TopicOptions options, Writers writers, MapFeed own)
       : participant_(&participant),
@@ -66,6 +67,7 @@ class RobotTopics {
   Result<void> write(const client::StateMessage& state);
   Result<void> write(const client::TilesMessage& tiles);
   Result<void> write(const client::ScanMessage& scan);
+  Result<void> write(const client::ThermalMessage& cloud);
   Result<void> write(const client::EventMessage& event);
   Result<void> write(const client::PeopleMessage& people);
   Result<void> write(const client::CameraMessage& camera);

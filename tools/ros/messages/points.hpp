@@ -10,4 +10,9 @@ namespace cairn::ros {
 [[nodiscard]] PointCloud2 points_of(const client::ScanMessage& scan, const Frames& frames, Duration utc_offset,
                                     Arena& arena);
 
+/// A thermal cloud in base_link at the picture's time: x y z in metres and temperature in °C, or counts where the
+/// camera does not tell their unit; float32, unordered.
+[[nodiscard]] PointCloud2 points_of(const client::ThermalMessage& cloud, const Frames& frames, Duration utc_offset,
+                                    Arena& arena);
+
 }  // namespace cairn::ros

@@ -52,11 +52,12 @@ struct WheelNews {
 /// What the tasks of a live run hand to the task that serves robot.sock. They never wait for it.
 struct StreamOutlets {
   SpscQueue<PoseNews> poses{64};                      ///< from odometry, one for each scan
-  std::atomic<bool> scans_wanted{false};              ///< a client wants scans
+  std::atomic<bool> scans_wanted{false};              ///< a client wants scans, or clouds that are made of them
   SpscQueue<PeopleNews> people{16};                   ///< from mapping, one for each scan while people are followed
   SpscQueue<PeopleNews> team_people{32};              ///< from the team's task, whenever a peer said something
   SpscQueue<LocatedScan> scans{4};                    ///< from odometry, while they are wanted
   std::array<PictureOutlet, kShownCameras> pictures;  ///< by camera
+  PictureOutlet thermal;                              ///< of the thermal camera, for clouds
   std::atomic<bool> wheels_wanted{false};             ///< a client wants to know of the wheels
   SpscQueue<WheelNews> wheels{64};                    ///< from the drive's task, while they are wanted
   TileOutlet own;                                     ///< from mapping

@@ -3,7 +3,10 @@
 
 #include <gmock/gmock.h>
 
+#include <array>
+#include <cstring>
 #include <random>
+#include <string_view>
 
 #include "hal/bytes.hpp"
 #include "tests/drivers/recording/files.hpp"
@@ -46,6 +49,25 @@ TEST(Pcd, WrittenAndReadAgainIsTheSame) {
   EXPECT_TRUE(again->has_time);
   for (std::size_t i = 0; i < cloud.size(); ++i)
     EXPECT_NEAR(again->cloud.offset_ns[i], cloud.offset_ns[i], 8) << "a float has 24 bits for 0.1 s";
+}
+
+TEST(Pcd, ColumnsOfAnyNameAreWritten) {
+  const std::array<std::string_view, 4> fields{"x", "y", "z", "temperature"};
+  const std::array<float, 8> values{1, 2, 3, 20.5F, 4, 5, 6, 36};
+  const auto file = to_pcd(fields, values);
+  const auto header = parse_pcd_header(file, "f.pcd");
+  ASSERT_TRUE(header) << to_string(header.error());
+  EXPECT_EQ(header->points, 2U);
+  EXPECT_EQ(header->point_bytes, 16U);
+  ASSERT_NE(header->field("temperature"), nullptr);
+  EXPECT_EQ(header->field("temperature")->offset, 12U);
+  float last = 0;
+  std::memcpy(&last, file.data() + file.size() - sizeof last, sizeof last);
+  EXPECT_EQ(last, 36);
+  const auto cloud = parse_pcd(file, "f.pcd");
+  ASSERT_TRUE(cloud) << to_string(cloud.error());
+  EXPECT_EQ(cloud->cloud.xyz[1], Eigen::Vector3f(4, 5, 6));
+  EXPECT_EQ(parse_pcd_header(to_pcd(fields, {}), "f.pcd")->points, 0U);
 }
 
 TEST(Pcd, EveryTypeOfFieldIsRead) {

@@ -116,6 +116,7 @@ struct Reader {
   static bool take(const clients::PeopleMessage& /*people*/) { return true; }
   static bool take(const clients::CameraMessage& /*camera*/) { return true; }
   static bool take(const client::PictureMessage& /*picture*/) { return true; }
+  static bool take(const client::ThermalMessage& /*cloud*/) { return true; }
   static bool take(const clients::WheelsMessage& /*wheels*/) { return true; }
   bool take(std::monostate& /*nothing*/) { return false; }  // a core that hangs
   bool take(client::CoreGone& /*end*/) { return false; }

@@ -16,14 +16,17 @@
 
 namespace cairn::cli::test {
 
-/// Runs a command while the streams of a core are served. `each_tick` may fill the outlets.
-inline Outcome run_beside_core(void (*add)(app::Commands&), std::vector<std::string> arguments,
-                               const std::function<void(app::StreamOutlets&, int tick)>& each_tick) {
+/// Runs a command while the streams of a core are served. `each_tick` may fill the outlets. `prepare` is called before.
+inline Outcome run_beside_core(
+    void (*add)(app::Commands&), std::vector<std::string> arguments,
+    const std::function<void(app::StreamOutlets&, int tick)>& each_tick,
+    const std::function<void(app::StreamsTask&)>& prepare = [](app::StreamsTask&) {}) {
   const TemporaryFolder folder;
   Monitor monitor;
   app::StreamOutlets outlets;
   auto hub = app::ClientHub::open(folder / "", {.robot = "husky", .session = 9, .resolution_m = 0.2}, monitor).value();
   app::StreamsTask task(std::move(hub), 9, 0, outlets, monitor);
+  prepare(task);
   arguments.insert(arguments.end(), {"--socket", (folder / "robot.sock").string()});
   int ticks = 0;
   const LiveClock clock;

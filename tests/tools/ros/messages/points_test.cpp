@@ -51,5 +51,22 @@ TEST(RosPoints, SayWhetherOneIsNone) {
   EXPECT_EQ(empty.data._length, 0U);
 }
 
+TEST(RosPoints, OfAThermalCloudHaveTemperatures) {
+  Arena arena;
+  client::ThermalMessage cloud{.stamp = Time{Duration{7}}, .celsius = true};
+  cloud.points = {{{1, 2, 3}, 20.5F}, {{4, 5, 6}, 36}};
+  const PointCloud2 message = points_of(cloud, Frames("a/"), Duration{}, arena);
+  EXPECT_STREQ(message.header.frame_id, "a/base_link");
+  EXPECT_EQ(message.width, 2U);
+  EXPECT_EQ(message.point_step, 16U);
+  EXPECT_EQ(message.data._length, 32U);
+  ASSERT_EQ(message.fields._length, 4U);
+  EXPECT_STREQ(message.fields._buffer[3].name, "temperature");
+  EXPECT_EQ(coordinate(message, 0, 3), 20.5F);
+  EXPECT_EQ(coordinate(message, 1, 2), 6);
+  cloud.celsius = false;
+  EXPECT_STREQ(points_of(cloud, Frames(), Duration{}, arena).fields._buffer[3].name, "counts");
+}
+
 }  // namespace
 }  // namespace cairn::ros

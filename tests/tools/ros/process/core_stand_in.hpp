@@ -6,10 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "drivers/clients/messages/clouds/scan.hpp"
 #include "drivers/clients/messages/command.hpp"
 #include "drivers/clients/messages/hello.hpp"
 #include "drivers/clients/messages/picture.hpp"
-#include "drivers/clients/messages/scan.hpp"
 #include "drivers/clients/messages/subscribe.hpp"
 #include "drivers/clients/messages/tiles.hpp"
 #include "drivers/clients/sockets/local_server.hpp"

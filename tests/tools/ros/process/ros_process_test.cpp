@@ -47,6 +47,8 @@ TEST_F(RosProcessTest, WritersAreThoseOfRos) {
       {"rt/husky_1/odom", endpoint_of("nav_msgs::msg::dds_::Odometry_", ros_type<Odometry>(), kVolatile)},
       {"rt/tf", endpoint_of("tf2_msgs::msg::dds_::TFMessage_", ros_type<TfMessage>(), kVolatile)},
       {"rt/tf_static", endpoint_of("tf2_msgs::msg::dds_::TFMessage_", ros_type<TfMessage>(), kLatched)},
+      {"rt/husky_1/thermal_points",
+       endpoint_of("sensor_msgs::msg::dds_::PointCloud2_", ros_type<PointCloud2>(), kVolatile)},
       {"rt/husky_1/points", endpoint_of("sensor_msgs::msg::dds_::PointCloud2_", ros_type<PointCloud2>(), kVolatile)},
       {"rt/diagnostics",
        endpoint_of("diagnostic_msgs::msg::dds_::DiagnosticArray_", ros_type<DiagnosticArray>(), kVolatile)},

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "drivers/clients/messages/scan.hpp"
+#include "drivers/clients/messages/clouds/scan.hpp"
 
 #include <limits>
 

@@ -19,7 +19,7 @@ struct ScanPart {
   Time stamp{};                                ///< of the scan's end
   bool lost = false;                           ///< the pose is only a prediction
   std::uint32_t epoch = 0;                     ///< see PoseMessage
-  SE3 T_odom_base;                             ///< at `stamp`
+  SE3 T_odom_base{};                           ///< at `stamp`
   std::uint32_t total = 0;                     ///< points of the whole scan
   std::uint32_t first = 0;                     ///< how many came before
   std::vector<Eigen::Vector3f> points_base{};  ///< deskewed, in base_link at `stamp`, in metres
