@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "hal/huge_pages.hpp"
+#include "onboard/odometry/local_map/huge_pages.hpp"
 
 namespace cairn::odometry {
 

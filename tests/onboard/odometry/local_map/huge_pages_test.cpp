@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "hal/huge_pages.hpp"
+#include "onboard/odometry/local_map/huge_pages.hpp"
 
 #include <gtest/gtest.h>
 #include <sys/mman.h>
@@ -10,7 +10,7 @@
 #include <string>
 #include <utility>
 
-namespace cairn {
+namespace cairn::odometry {
 namespace {
 
 constexpr std::size_t kPage = std::size_t{2} << 20;
@@ -70,4 +70,4 @@ TEST(HugePageVector, RefusesWhatNoMemoryHolds) {
 }
 
 }  // namespace
-}  // namespace cairn
+}  // namespace cairn::odometry

@@ -7,7 +7,7 @@
 #include <new>
 #include <vector>
 
-namespace cairn {
+namespace cairn::odometry {
 
 /// For large tables that are read at random. Linux translates addresses by pages of 4 kB. The processor remembers about
 /// two thousand translations, 8 MB; beyond that a lookup waits for the translation, too. On pages of 2 MB it does not.
@@ -47,4 +47,4 @@ struct HugePageAllocator {
 template <class T>
 using HugePageVector = std::vector<T, HugePageAllocator<T>>;
 
-}  // namespace cairn
+}  // namespace cairn::odometry
