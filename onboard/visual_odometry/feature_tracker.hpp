@@ -35,6 +35,8 @@ class FeatureTracker {
   FeatureTracker(const TrackingConfig& config, const stereo::StereoGeometry& geometry);
   FeatureTracker(FeatureTracker&&) noexcept;
   FeatureTracker& operator=(FeatureTracker&&) noexcept;
+  FeatureTracker(const FeatureTracker&) = delete;
+  FeatureTracker& operator=(const FeatureTracker&) = delete;
   ~FeatureTracker();
 
   /// Where the pixel and disparity of a feature are expected now; none: as they were.

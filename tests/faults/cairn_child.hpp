@@ -22,19 +22,7 @@ namespace cairn::faults {
 class CairnChild {
  public:
   CairnChild(std::vector<std::string> arguments, std::filesystem::path says, std::string_view program = "cairn")
-      : says_(std::move(says)) {
-    arguments.insert(arguments.begin(), places::program(program));
-    std::vector<char*> words;
-    for (std::string& argument : arguments) words.push_back(argument.data());
-    words.push_back(nullptr);
-    pid_ = ::fork();
-    if (pid_ != 0) return;
-    const int said = ::open(says_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
-    ::dup2(said, STDOUT_FILENO);
-    ::dup2(said, STDERR_FILENO);
-    ::execv(words[0], words.data());
-    ::_exit(127);
-  }
+      : says_(std::move(says)), pid_(start(std::move(arguments), program, says_)) {}
   CairnChild(const CairnChild&) = delete;
   CairnChild& operator=(const CairnChild&) = delete;
   ~CairnChild() {
@@ -62,8 +50,23 @@ class CairnChild {
   }
 
  private:
+  static ::pid_t start(std::vector<std::string> arguments, std::string_view program,
+                       const std::filesystem::path& says) {
+    arguments.insert(arguments.begin(), places::program(program));
+    std::vector<char*> words;
+    for (std::string& argument : arguments) words.push_back(argument.data());
+    words.push_back(nullptr);
+    const ::pid_t pid = ::fork();
+    if (pid != 0) return pid;
+    const int said = ::open(says.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0644);
+    ::dup2(said, STDOUT_FILENO);
+    ::dup2(said, STDERR_FILENO);
+    ::execv(words[0], words.data());
+    ::_exit(127);
+  }
+
   std::filesystem::path says_;
-  ::pid_t pid_ = -1;
+  ::pid_t pid_;
   int status_ = 0;
 };
 

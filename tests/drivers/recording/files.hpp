@@ -15,7 +15,7 @@ namespace cairn::recording::test {
 
 namespace fs = std::filesystem;
 
-using support::TemporaryFolder;
+using support::TemporaryFolder;  // NOLINT(misc-unused-using-decls): those who include this use it
 
 inline std::string slurp(const fs::path& path) {
   std::ifstream in(path, std::ios::binary);
