@@ -30,7 +30,8 @@ Result<void> check(const SimulationConfig& config) {
   if (!(config.seconds > 0 && config.seconds <= kMaxSeconds)) error.detail += "seconds must be above 0, at most 3600; ";
   if (!is_robot_name(config.name)) error.detail += "a name has 1 to 32 letters, digits, - and _; ";
   if (config.profile != "husky" && config.profile != "uav") error.detail += "the profiles are husky and uav; ";
-  if (config.flies() && !config.sensors.camera_alone()) error.detail += "a uav carries the camera alone; ";
+  if (config.flies() && !config.sensors.can_fly())
+    error.detail += "a uav carries the camera, and besides it at most a depth camera; ";
   if (config.motion.gait.carried_m > 0 && config.sensors.drive)
     error.detail += "what a person carries has no wheels: leave out the sensor drive; ";
   if (config.out.empty()) error.detail += "no output folder given; ";
@@ -106,6 +107,7 @@ void make_uav(SimulationConfig& config) {
   config.profile = "uav";
   config.sensors = {.lidar = false, .camera = true};
   config.stereo.base_camera_xyz_rpy << 0.10, 0.06, -0.03, 0.0, 0.5236, 0.0;
+  config.depth.base_camera_xyz_rpy << 0.10, 0.0, -0.06, 0.0, 0.5236, 0.0;
 }
 
 Result<std::vector<RobotSummary>> simulate(const SimulationConfig& config, const Progress& progress) {

@@ -26,7 +26,8 @@ struct Sensors {
   bool lidar = true, camera = false, thermal = false, depth = false, drive = false, gpio = false;
 
   [[nodiscard]] static Sensors all() { return {true, true, true, true, true, true}; }
-  [[nodiscard]] bool camera_alone() const { return camera && !lidar && !thermal && !depth && !drive && !gpio; }
+  /// A uav finds its way by the camera, and can carry little else.
+  [[nodiscard]] bool can_fly() const { return camera && !lidar && !thermal && !drive && !gpio; }
 };
 
 struct SimulationConfig {
@@ -39,7 +40,7 @@ struct SimulationConfig {
   CrowdConfig people;          ///< who walk about; with none, nothing else changes
   Screens screens = Screens::kNone;
   bool night = false;             ///< the sun is down and all lamps are off
-  std::string profile = "husky";  ///< or uav: it flies, and carries the camera alone
+  std::string profile = "husky";  ///< or uav: it flies, with the camera and perhaps a depth camera
   Sensors sensors;
   unsigned threads = 1;  ///< changes nothing but the time it takes
   MotionStyle motion;    ///< of a husky
@@ -56,7 +57,7 @@ struct SimulationConfig {
   [[nodiscard]] bool labelled() const { return people.count > 0 || sensors.camera; }
 };
 
-/// Turns the robots into quadrotors: the camera alone, below the middle and 30° down.
+/// Turns the robots into quadrotors with the camera alone: below the middle and 30° down, as a depth camera would be.
 void make_uav(SimulationConfig& config);
 
 /// What one robot did.

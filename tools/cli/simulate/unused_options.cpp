@@ -44,7 +44,7 @@ Error unused(const char* option, const std::string& remedy) {
 Result<void> check_unused_options(const CLI::App& sub, const SimulationConfig& config) {
   for (const SensorOption& o : kSensorOptions) {
     if (sub.count(o.option) == 0 || o.used(config.sensors)) continue;
-    if (config.flies()) return unused(o.option, "a uav carries the camera alone; leave the option out");
+    if (config.flies()) return unused(o.option, "a uav does not carry it; leave the option out");
     return unused(o.option, "add " + std::string(o.sensors) + " to --sensors, or leave the option out");
   }
   if (sub.count("--people-pause") > 0 && config.people.count == 0)
