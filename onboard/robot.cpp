@@ -4,14 +4,10 @@
 #include <algorithm>
 #include <utility>
 
-#include "onboard/perception/people/ground_below.hpp"
-
 namespace cairn {
 namespace {
 
-constexpr double kMateUnsure = 0.3;                   // m: where a teammate is, is known so well
 constexpr double kMoversFrom = 0.3, kMoversTo = 2.2;  // m above base_link: there things come and go
-constexpr double kMateGround = 0.05;                  // m above its base_link: the ground below it belongs to the map
 
 /// Of overload: the first of so many, in order.
 void keep_every(int stride, std::vector<Eigen::Vector3f>& points) {
@@ -19,20 +15,6 @@ void keep_every(int stride, std::vector<Eigen::Vector3f>& points) {
   std::size_t kept = 0;
   for (std::size_t i = 0; i < points.size(); i += static_cast<std::size_t>(stride)) points[kept++] = points[i];
   points.resize(kept);
-}
-
-people::Space space_of(mapping::Standing standing) {
-  switch (standing) {
-    case mapping::Standing::kFree:
-      return people::Space::kFree;
-    case mapping::Standing::kOccupied:
-      return people::Space::kNew;
-    case mapping::Standing::kSettled:
-      return people::Space::kSettled;
-    case mapping::Standing::kUnknown:
-      break;
-  }
-  return people::Space::kUnknown;
 }
 
 }  // namespace
@@ -92,6 +74,8 @@ void Robot::set_up_cameras(const RobotConfig& config) {
   for (const PeopleSetup::MountedEye& eye : config.people->eyes)
     people_->set_eye(eye.eye, eye.camera, eye.T_base_camera);
   recent_ = labelling::LocatedScans({.age = people::Track::kMemory});
+  people_by_depth_ = config.people->by_depth;
+  if (people_by_depth_) clouds_ = labelling::LocatedScans({.age = people::Track::kMemory});
 }
 
 Result<TrackPoint> Robot::locate(const Scan& scan, Budget& budget, LocatedScan& located, const DriveState* wheels) {
@@ -146,10 +130,24 @@ void Robot::begin_map(const LocatedScan& first) {
   auto before = mapper_.begin_anew();
   map_began_.reset();
   if (people_) people_->clear();
+  clouds_.clear();
   mates_.clear();
   const bool next = first.epoch == mapped_epoch_ + 1;
   earlier_.keep(std::exchange(mapped_epoch_, first.epoch), std::move(before),
                 next ? first.T_odom_before : std::nullopt);
+}
+
+void Robot::announce(const LocatedScan& scan) {
+  if (scan.lost) return;
+  if (scan.epoch != mapped_epoch_) begin_map(scan);
+  if (!map_began_) map_began_ = scan.stamp;
+  remember(scan);
+}
+
+/// Nothing changes if it is remembered already.
+void Robot::remember(const LocatedScan& scan) {
+  if (labeller_ || depth_ || people_)
+    (void)recent_.add(scan.stamp, scan.T_odom_base.mean, scan.twist, scan.epoch, scan.points_base);
 }
 
 Result<void> Robot::extend_map(const LocatedScan& scan, const MapShare& share) {
@@ -164,7 +162,10 @@ Result<void> Robot::extend_map(const LocatedScan& scan, const MapShare& share) {
     for (const Eigen::Vector3f& p : scan.points_base) points_odom_.emplace_back(R * p + t);
   const Eigen::Vector3f origin_odom = (T_odom_base * T_base_sensor_.translation()).cast<float>();
   leave_mates_out(scan.stamp);
-  if (people_) leave_people_out(scan, origin_odom);
+  if (people_by_depth_)
+    leave_known_people_out(scan.stamp);
+  else if (people_)
+    leave_people_out(scan.stamp, origin_odom, static_cast<float>(T_base_sensor_.translation().z()));
   keep_every(share.every_point, points_odom_);
   const double base = T_odom_base.translation().z();
   const auto inserted =
@@ -174,86 +175,8 @@ Result<void> Robot::extend_map(const LocatedScan& scan, const MapShare& share) {
   cleared_voxels_ += inserted->cleared;
   if (!map_began_) map_began_ = scan.stamp;
   if (people_) take_back_new_people();  // of earlier scans: this one left them out already
-  if (labeller_ || depth_ || people_)
-    (void)recent_.add(scan.stamp, T_odom_base, scan.twist, scan.epoch, scan.points_base);
+  remember(scan);
   return {};
-}
-
-void Robot::note_mates(std::span<const Mate> mates, std::uint32_t epoch) {
-  mates_.clear();
-  if (epoch == mapped_epoch_) mates_.assign(mates.begin(), mates.end());
-}
-
-void Robot::leave_mates_out(Time stamp) {
-  for (const Mate& mate : mates_) {
-    if (std::chrono::abs(stamp - mate.stamp) > kMateLife || mate.radius_m <= 0) continue;
-    const Eigen::Vector2d middle = mate.position.head<2>() + to_seconds(stamp - mate.stamp) * mate.velocity;
-    const double radius = mate.radius_m + kMateUnsure;
-    std::erase_if(points_odom_, [&](const Eigen::Vector3f& p) {
-      const double height = static_cast<double>(p.z()) - mate.position.z();
-      return height > kMateGround && height < mate.height_m + kMateUnsure &&
-             (p.head<2>().cast<double>() - middle).squaredNorm() < radius * radius;
-    });
-  }
-}
-
-/// What is left in points_odom_ is what stands.
-void Robot::leave_people_out(const LocatedScan& scan, const Eigen::Vector3f& origin_odom) {
-  const StageTimer timing(monitor_.stage("people"));
-  if (eyes_) height_ = people::height_above_ground(points_odom_, origin_odom).value_or(height_);
-  const float height = eyes_ ? height_ : static_cast<float>(T_base_sensor_.translation().z());
-  people_->observe({scan.stamp, points_odom_, origin_odom, height},
-                   [this](const Eigen::Vector3f& point) { return space_of(mapper_.standing(point)); });
-  const auto mask = people_->mask();
-  std::size_t kept = 0;
-  for (std::size_t i = 0; i < points_odom_.size(); ++i)
-    if (mask[i] == 0) points_odom_[kept++] = points_odom_[i];
-  points_odom_.resize(kept);
-}
-
-/// Of a cloud without clusters: those whom scans have shown.
-void Robot::leave_known_people_out(Time stamp) {
-  for (const people::Person& person : people_->people()) {
-    const Eigen::Vector2d position = person.position + to_seconds(stamp - person.stamp) * person.velocity;
-    std::erase_if(points_odom_, [&](const Eigen::Vector3f& p) { return people_->in_body(p, position, person.ground); });
-  }
-}
-
-/// Somebody is known to be a person only after some steps; until then, the scans put a ghost into the map.
-void Robot::take_back_new_people() {
-  for (const people::Track* track : people_->take_new()) {
-    for (const people::Step& step : track->steps()) {
-      const labelling::PlacedScan* scan = recent_.nearest(step.stamp);
-      if (scan == nullptr || scan->stamp != step.stamp) continue;
-      const Eigen::Matrix3f R = scan->T_odom_base.rotation().cast<float>();
-      const Eigen::Vector3f t = scan->T_odom_base.translation().cast<float>();
-      points_odom_.clear();
-      for (const Eigen::Vector3f& p : scan->points_base)
-        if (const Eigen::Vector3f point = R * p + t; people_->in_body(point, step.position, step.ground))
-          points_odom_.push_back(point);
-      mapper_.take_back(points_odom_);
-    }
-  }
-}
-
-std::span<const people::Person> Robot::people() const {
-  return people_ ? people_->people() : std::span<const people::Person>();
-}
-
-Result<bool> Robot::see_people(people::Eye eye, const Detections& boxes) {
-  if (!people_ || !people_->has(eye))
-    return Error{Errc::kUnsupported, "boxes came of a camera that is not set up", {}, {}, {}};
-  const auto T_odom_base = T_odom_base_at(boxes.stamp);
-  if (!T_odom_base) return T_odom_base.error();
-  if (!*T_odom_base) return false;
-  people_->hear(eye, boxes, recent_.nearest(boxes.stamp)->stamp, **T_odom_base);
-  if (people_->offset(eye).moved())
-    monitor_.event(boxes.stamp, "people",
-                   eye == people::Eye::kThermal
-                       ? "camera_moved: boxes of the thermal camera are beside the people: check its mount, intrinsics"
-                       : "camera_moved: boxes of the colour camera are beside the people: check its mount, intrinsics");
-  take_back_new_people();
-  return true;
 }
 
 Result<std::optional<SE3>> Robot::T_odom_base_at(Time t) const {
@@ -267,21 +190,25 @@ Result<std::optional<SE3>> Robot::T_odom_base_at(Time t) const {
   return T_odom_base;
 }
 
-Result<bool> Robot::extend_map(const DepthCloud& cloud) {
+Result<std::optional<SE3>> Robot::extend_map(const DepthCloud& cloud) {
   if (!depth_) return Error{Errc::kUnsupported, "a depth cloud came, but none is to be mapped", {}, {}, {}};
   const auto T_odom_base = T_odom_base_at(cloud.stamp);
-  if (!T_odom_base) return T_odom_base.error();
-  if (!*T_odom_base) return false;
+  if (!T_odom_base || !*T_odom_base) return T_odom_base;
   const StageTimer timing(monitor_.stage("depth_update"));
   const Eigen::Matrix3f R = (*T_odom_base)->rotation().cast<float>();
   const Eigen::Vector3f t = (*T_odom_base)->translation().cast<float>();
+  const Eigen::Vector3f origin_odom = R * cloud.origin_base + t;
   points_odom_.clear();
   for (const Eigen::Vector3f& p : cloud.points_base) points_odom_.emplace_back(R * p + t);
   leave_mates_out(cloud.stamp);
-  if (people_) leave_known_people_out(cloud.stamp);
-  const auto inserted = mapper_.insert(points_odom_, R * cloud.origin_base + t, *depth_);
+  if (people_by_depth_)
+    leave_people_out(cloud.stamp, origin_odom, cloud.origin_base.z());
+  else if (people_)
+    leave_known_people_out(cloud.stamp);
+  const auto inserted = mapper_.insert(points_odom_, origin_odom, *depth_);
   if (!inserted) return inserted.error();
-  return true;
+  if (people_by_depth_) keep_cloud(cloud, **T_odom_base);
+  return T_odom_base;
 }
 
 Result<std::optional<mapping::LabelReport>> Robot::label_map(const LabelImage& labels) {

@@ -45,6 +45,7 @@ struct PeopleSetup {
   };
   people::PeopleConfig config;
   std::vector<MountedEye> eyes;
+  bool by_depth = false;  ///< people are looked for in the clouds of a depth camera; otherwise in located scans
 };
 
 /// A robot without a LiDAR: both eyes of its camera tell its motion, and its map is made of what they see.
@@ -144,14 +145,18 @@ class Robot {
   /// The same by what both eyes see. `located` gets no points: they are for who measures them. Errors: kUnsupported
   /// (the robot has a LiDAR), and those of StereoOdometry::update().
   Result<TrackPoint> locate(const stereo::StereoPair& pair, Budget& budget, LocatedScan& located);
+  /// Tells where the robot is at the scan that extend_map() gets next. So clouds up to it can come before it: people
+  /// whom they show are no part of the map yet. Of extend_map()'s thread.
+  void announce(const LocatedScan& scan);
   /// Adds a scan to the map, where its pose is trusted, but for the points of people. On an error (kLimit: the map's
   /// memory) the map is as before.
   Result<void> extend_map(const LocatedScan& scan, const MapShare& share = {});
 
-  /// Adds what a depth camera saw, with the noise of RobotConfig::depth, from where the robot was then. False while the
-  /// scan after it is still to come. Of the other extend_map()'s thread. Errors: kNotFound (no scans around it, or the
-  /// map of them has ended), kUnsupported (no RobotConfig::depth), and those of Mapper::insert().
-  Result<bool> extend_map(const DepthCloud& cloud);
+  /// Adds what a depth camera saw, with the noise of RobotConfig::depth, but for the points of people. Returns where
+  /// the robot was then; none while the scan after it is still to come. Of the other extend_map()'s thread. Errors:
+  /// kNotFound (no scans around it, or the map of them has ended), kUnsupported (no RobotConfig::depth), and those of
+  /// Mapper::insert().
+  Result<std::optional<SE3>> extend_map(const DepthCloud& cloud);
   /// Labels the map by what a picture shows: the points of the scan nearest to the exposure, seen from where the camera
   /// was then. Nothing while the scan after the picture is still to come. Occupancy does not change. Of extend_map()'s
   /// thread. Errors: kNotFound (no scans around the picture, or the map of them has ended), kMalformed, kUnsupported
@@ -160,11 +165,13 @@ class Robot {
 
   /// Whether the map has a scan, and `t` is before its first one. Of extend_map()'s thread.
   [[nodiscard]] bool before_map(Time t) const { return map_began_ && t < *map_began_; }
-  /// Takes what a detector saw in a picture of `eye`. False while the scan after the picture is still to come. Of
-  /// extend_map()'s thread. Errors: kNotFound (no scans around the picture, or the map of them has ended), kUnsupported
-  /// (the robot has no such eye).
+  /// Takes what a detector saw in a picture of `eye`. False while the scan after the picture is still to come, or the
+  /// cloud in which people are looked for; that one is waited for 0.4 s of scans. Of extend_map()'s thread. Errors:
+  /// kNotFound (no scans or clouds around the picture, or the map of them has ended), kUnsupported (the robot has no
+  /// such eye).
   Result<bool> see_people(people::Eye eye, const Detections& boxes);
-  /// The people around the robot at the last scan that extended the map. Of extend_map()'s thread.
+  /// The people around the robot at the last scan that extended the map, or the last cloud with by_depth. Of
+  /// extend_map()'s thread.
   [[nodiscard]] std::span<const people::Person> people() const;
   /// See People.
   [[nodiscard]] std::span<const people::Answered> answered() const {
@@ -179,6 +186,8 @@ class Robot {
   void note_mates(std::span<const Mate> mates, std::uint32_t epoch);
   static constexpr Duration kMateLife = std::chrono::milliseconds(700);
   [[nodiscard]] bool follows_people() const { return people_.has_value(); }
+  /// Whether it looks for them in the clouds of its depth camera.
+  [[nodiscard]] bool follows_people_by_depth() const { return people_by_depth_; }
 
   /// The next scan decides whether the robot is where the previous run ended. Grant it every
   /// iteration.
@@ -240,16 +249,23 @@ class Robot {
   std::vector<Eigen::Vector3f> points_odom_;  // reused
   /// Where the robot was; nothing while the scan after `t` is still to come.
   [[nodiscard]] Result<std::optional<SE3>> T_odom_base_at(Time t) const;
+  void remember(const LocatedScan& scan);
   void leave_mates_out(Time stamp);
   void leave_known_people_out(Time stamp);
-  void leave_people_out(const LocatedScan& scan, const Eigen::Vector3f& origin_odom);
+  void leave_people_out(Time stamp, const Eigen::Vector3f& origin_odom, float mount_height);
   void take_back_new_people();
+  void take_back(const labelling::PlacedScan* scan, const people::Step& body);
+  void keep_cloud(const DepthCloud& cloud, const SE3& T_odom_base);
+  [[nodiscard]] const labelling::LocatedScans& looked_at() const { return people_by_depth_ ? clouds_ : recent_; }
+  [[nodiscard]] Result<const labelling::PlacedScan*> looked_at_around(Time t) const;
   std::vector<Mate> mates_;  // of the map's epoch
   std::optional<people::People> people_;
-  float height_ = 1;  // of eyes that fly, above the ground, m: where it was seen last
+  bool people_by_depth_ = false;  // as PeopleSetup has it
+  float height_ = 1;              // of eyes that fly, above the ground, m: where it was seen last
   std::optional<labelling::PointLabeller> labeller_;
   std::optional<mapping::SensorTrust> depth_;
   labelling::LocatedScans recent_;              // of mapping; empty where nothing needs it
+  labelling::LocatedScans clouds_;              // the same, of clouds in which people are looked for
   std::vector<LabelledPoint> labelled_points_;  // reused
 };
 

@@ -11,7 +11,7 @@ void CloudJoiner::add(DepthCloud& cloud) {
   waiting_.add(cloud);
 }
 
-void CloudJoiner::join() {
+void CloudJoiner::join(const Joined& joined) {
   for (; !waiting_.empty(); waiting_.pop()) {
     if (robot_.before_map(waiting_.front().stamp)) {
       ++figures_.apart;  // at every start
@@ -25,6 +25,7 @@ void CloudJoiner::join() {
     }
     ++figures_.clouds;
     figures_.points += waiting_.front().points_base.size();
+    joined(waiting_.front().stamp, **put);
   }
 }
 

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <functional>
+
 #include "hal/monitor.hpp"
 #include "hal/relaxed_counter.hpp"
 #include "onboard/app/perception/waiting_list.hpp"
@@ -25,8 +27,10 @@ class CloudJoiner {
 
   /// Takes the cloud; what is left in `cloud` is memory to be used again.
   void add(DepthCloud& cloud);
+  /// Of a cloud that is in the map now: when it was seen, and where the robot was.
+  using Joined = std::function<void(Time stamp, const SE3& T_odom_base)>;
   /// Puts into the map what has its scans by now. Call it after the scan of the tick is in the map.
-  void join();
+  void join(const Joined& joined);
 
   [[nodiscard]] const Figures& figures() const { return figures_; }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <utility>
 
+#include "onboard/app/door/fitted.hpp"
 #include "onboard/app/sight/eye_profile.hpp"
 #include "onboard/perception/networks/open_networks.hpp"
 #include "onboard/perception/networks/recorded/box_file.hpp"
@@ -80,12 +81,25 @@ bool wants_eye(Eye which, const RunOptions& options, const RobotProfile& profile
          profile.perception.people.follow != "never";
 }
 
+bool people_by_depth(const RobotProfile& profile, std::span<const recording::SourceEntry> sources) {
+  if (!has_kind(sources, recording::kDepth) || profile.depth.map.rate_hz <= 0) return false;
+  const std::string& points = profile.perception.people.points;
+  return points == "depth" || (points == "auto" && !has_lidar(sources));
+}
+
 Result<PeopleWatch> open_people(const RunOptions& options, const RobotProfile& profile, const fs::path& profile_file,
                                 std::span<const recording::SourceEntry> sources, Monitor& monitor) {
   PeopleWatch watch;
   const people::PeopleConfig& config = profile.perception.people;
   if (config.follow == "never") return watch;
-  watch.setup = PeopleSetup{.config = config, .eyes = {}};
+  const bool by_depth = people_by_depth(profile, sources);
+  if (config.points == "depth" && !by_depth) {
+    monitor.event({}, "people",
+                  "nobody is followed: perception.people.points is depth, and the map gets no clouds of a depth "
+                  "camera; set depth.map.rate_hz, or points to scans");
+    return watch;
+  }
+  watch.setup = PeopleSetup{.config = config, .eyes = {}, .by_depth = by_depth};
   if (options.networks != NetworkUse::kOff)
     for (const Eye eye : {Eye::kVisible, Eye::kThermal})
       if (const auto added = add_eye(eye, options, profile, profile_file, sources, monitor, watch); !added)

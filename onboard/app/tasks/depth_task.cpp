@@ -7,8 +7,10 @@ namespace cairn::app {
 
 using scheduler::Tick;
 
-DepthTask::DepthTask(depth::DepthCamera camera, const SE3& T_base_camera, Duration period, Monitor& monitor)
+DepthTask::DepthTask(depth::DepthCamera camera, std::optional<stereo::DepthPlanes> planes, const SE3& T_base_camera,
+                     Duration period, Monitor& monitor)
     : camera_(std::move(camera)),
+      planes_(std::move(planes)),
       T_base_camera_(T_base_camera),
       pace_(period),
       monitor_(monitor),
@@ -37,8 +39,10 @@ void DepthTask::look(const Packet& packet, Tick& tick) {
   const Eigen::Vector3f t = T_base_camera_.translation().cast<float>();
   out->cloud.stamp = (*scan)->valid.end;
   out->cloud.origin_base = t;
-  out->cloud.points_base.clear();
-  for (const Eigen::Vector3f& p : (*scan)->cloud.xyz) out->cloud.points_base.emplace_back(R * p + t);
+  std::vector<Eigen::Vector3f>& points = out->cloud.points_base;
+  points.assign((*scan)->cloud.xyz.begin(), (*scan)->cloud.xyz.end());
+  if (planes_) planes_->smooth(points);
+  for (Eigen::Vector3f& p : points) p = R * p + t;
   clouds.push(tick);
   ++figures_.images;
 }

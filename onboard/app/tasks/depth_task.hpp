@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <optional>
+
 #include "drivers/depth/depth_camera.hpp"
 #include "hal/monitor.hpp"
 #include "hal/relaxed_counter.hpp"
 #include "onboard/app/perception/picture_pace.hpp"
 #include "onboard/app/tasks/messages.hpp"
+#include "onboard/perception/stereo/depth_planes.hpp"
 #include "onboard/safety/stuck.hpp"
 #include "onboard/scheduler/ports.hpp"
 
@@ -26,8 +29,10 @@ class DepthTask final : public scheduler::Task {
     RelaxedCounter refused;  ///< no depth pictures
   };
 
-  /// `period`: at least so long from one cloud to the next. `monitor` must outlive the task.
-  DepthTask(depth::DepthCamera camera, const SE3& T_base_camera, Duration period, Monitor& monitor);
+  /// `period`: at least so long from one cloud to the next. `planes`: what takes noise out of the points; none: they
+  /// stay as they were measured. `monitor` must outlive the task.
+  DepthTask(depth::DepthCamera camera, std::optional<stereo::DepthPlanes> planes, const SE3& T_base_camera,
+            Duration period, Monitor& monitor);
 
   void tick(scheduler::Tick& tick) override;
 
@@ -37,6 +42,7 @@ class DepthTask final : public scheduler::Task {
   void look(const Packet& packet, scheduler::Tick& tick);
 
   depth::DepthCamera camera_;
+  std::optional<stereo::DepthPlanes> planes_;
   SE3 T_base_camera_;
   PicturePace pace_;
   Monitor& monitor_;

@@ -58,13 +58,17 @@ void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
   ++scans_at_[static_cast<std::size_t>(level)];
   const safety::ShedPlan plan = safety::plan_of(level);
   if (count_++ % static_cast<std::uint64_t>(plan.scan_stride) != 0) return;
+  if (robot_.follows_people_by_depth()) {
+    robot_.announce(motion.scan);
+    join_clouds(tick);
+  }
   const auto extended = robot_.extend_map(motion.scan, {plan.point_stride});
   if (!extended)
     monitor_.event(motion.scan.stamp, "mapping", to_string(extended.error()));
   else if (copier_)
     copier_->mapped(motion.scan);
   if (extended && !motion.scan.lost) {
-    note_people(motion.scan);
+    if (!robot_.follows_people_by_depth()) note_people(motion.scan.stamp, motion.scan.T_odom_base.mean);
     rejoin_plan_.went_to(motion.scan.T_odom_base.mean, motion.scan.epoch);
   }
   note_changes(motion.scan, tick);
@@ -72,24 +76,32 @@ void MappingTask::extend(const ArrivedMotion& motion, Tick& tick) {
   if (tick.takes_time()) latency_.record(tick.figure_now() - motion.arrival);
 }
 
-void MappingTask::note_people(const LocatedScan& scan) {
-  people_log_.add(robot_.people(), scan.T_odom_base.mean.translation().head<2>());
+void MappingTask::note_people(Time stamp, const SE3& T_odom_base) {
+  people_log_.add(robot_.people(), T_odom_base.translation().head<2>());
   if (people_outlet_ == nullptr || !robot_.follows_people()) return;
   PeopleNews* out = people_outlet_->back();
   if (out == nullptr) return;
-  out->stamp = scan.stamp;
-  out->epoch = scan.epoch;
+  out->stamp = stamp;
+  out->epoch = robot_.map_epoch();
   out->people.assign(robot_.people().begin(), robot_.people().end());
   people_outlet_->push();
 }
 
-/// Clouds first: what they add can be labelled.
+void MappingTask::join_clouds(Tick& tick) {
+  while (ArrivedCloud* arrived = clouds.take(tick)) cloud_joiner_.add(arrived->cloud);
+  cloud_joiner_.join([this](Time stamp, const SE3& T_odom_base) {
+    if (robot_.follows_people_by_depth()) note_people(stamp, T_odom_base);
+  });
+}
+
+/// Clouds first: what they add can be labelled. Boxes are told of people whom clouds have shown.
 void MappingTask::take_pictures(Tick& tick) {
   for (auto* port : {&boxes, &thermal_boxes})
     while (ArrivedBoxes* arrived = port->take(tick)) box_joiner_.add(arrived->eye, arrived->boxes);
-  box_joiner_.join(tick.release());
-  while (ArrivedCloud* arrived = clouds.take(tick)) cloud_joiner_.add(arrived->cloud);
-  cloud_joiner_.join();
+  const bool by_depth = robot_.follows_people_by_depth();
+  if (!by_depth) box_joiner_.join(tick.release());
+  join_clouds(tick);
+  if (by_depth) box_joiner_.join(tick.release());
   while (ArrivedLabels* arrived = labels.take(tick)) label_joiner_.add(arrived->labels);
   label_joiner_.join(tick);
 }

@@ -46,8 +46,8 @@ class MappingTask final : public scheduler::Task {
   /// Live: changed tiles go to `outlet`, too, and first those of a resumed map. That changes nothing for the port. To
   /// be called before the run; `outlet` must outlive the task.
   void serve(TileOutlet& outlet);
-  /// Live: after each scan, the people around the robot go to `outlet`. What finds no room is left out. To be called
-  /// before the run; `outlet` must outlive the task.
+  /// Live: after each scan or cloud in which they were looked for, the people around the robot go to `outlet`. What
+  /// finds no room is left out. To be called before the run; `outlet` must outlive the task.
   void tell_people(SpscQueue<PeopleNews>& outlet) { people_outlet_ = &outlet; }
   /// After the run: `outlet` gets all tiles as they are now, as far as it has room. True: it has them all.
   bool serve_rest();
@@ -77,7 +77,8 @@ class MappingTask final : public scheduler::Task {
 
  private:
   void extend(const ArrivedMotion& motion, scheduler::Tick& tick);
-  void note_people(const LocatedScan& scan);
+  void note_people(Time stamp, const SE3& T_odom_base);
+  void join_clouds(scheduler::Tick& tick);
   void take_pictures(scheduler::Tick& tick);
   void rejoin(scheduler::Tick& tick);
   safety::Shed decide(const ArrivedMotion& motion, scheduler::Tick& tick);

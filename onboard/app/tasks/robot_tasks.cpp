@@ -152,7 +152,12 @@ void RobotTasks::add_depth(const RobotProfile& profile, bool live, Monitor& moni
   auto camera = depth::DepthCamera::create(profile.depth.driver);
   if (!camera) return monitor.event({}, "depth", "the map gets no clouds: " + to_string(camera.error()));
   const SE3 T_base_depth = SE3::from_xyz_rpy(Eigen::Map<const Vector6>(profile.depth.base_xyz_rpy.data()));
-  depth.emplace(std::move(*camera), T_base_depth, from_seconds(1 / profile.depth.map.rate_hz), monitor);
+  const depth::Config& c = profile.depth.driver;
+  std::optional<stereo::DepthPlanes> planes;
+  if (robot.follows_people_by_depth())
+    planes.emplace(stereo::DepthGrid{c.capture.width, c.capture.height, c.fx, c.fy, c.cx, c.cy, c.step_px});
+  depth.emplace(std::move(*camera), std::move(planes), T_base_depth, from_seconds(1 / profile.depth.map.rate_hz),
+                monitor);
   graph.add(spec, *depth);
   const std::size_t reserve = live ? 0 : 3 * kWaitingPictures;
   graph.connect(receive.depths, depth->pictures, {.capacity = kWaitingPictures, .reserve = reserve});

@@ -70,6 +70,7 @@ class People {
   [[nodiscard]] std::span<const std::uint8_t> mask() const { return mask_; }
   /// See Tracker.
   [[nodiscard]] std::span<const Person> people() const { return tracker_.people(); }
+  [[nodiscard]] std::span<const Person> newcomers() const { return tracker_.newcomers(); }
   [[nodiscard]] std::vector<const Track*> take_new() { return tracker_.take_new(); }
   /// Whether a point of odom is within a body that stands at `position`.
   [[nodiscard]] bool in_body(const Eigen::Vector3f& point_odom, const Eigen::Vector2d& position, float ground) const;

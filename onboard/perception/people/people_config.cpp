@@ -18,6 +18,9 @@ void declare(config::Section& s, PeopleConfig& c) {
   s.choice("follow", c.follow, {"auto", "always", "never"},
            "people are followed and stay out of the map: auto where a detector looks at pictures and a LiDAR "
            "measures, always also by scans alone, or by the points of both eyes");
+  s.choice("points", c.points, {"auto", "scans", "depth"},
+           "where people are looked for: in scans (without a LiDAR the points of both eyes), or in the clouds of the "
+           "depth camera that the map gets; auto: in clouds where there are some, and no LiDAR");
   s.flag("movers", c.movers, "also follow walkers, and upright bodies that came, that the LiDAR alone sees");
   s.number("farthest_m", c.farthest_m, {2, 40}, "m", "nobody is looked for beyond it");
   s.number("confirm", c.confirm, {0.5, 10}, "nat", "evidence from which somebody is a person");

@@ -11,6 +11,7 @@ namespace cairn::people {
 /// How people are found and followed: section `perception.people` of a profile.
 struct PeopleConfig {
   std::string follow = "auto";  ///< auto: by a detector and a LiDAR; always: also by scans or eyes alone; never
+  std::string points = "auto";  ///< where people are looked for: scans, or the clouds of a depth camera (depth)
   bool movers = true;           ///< who walks, or came upright, is followed also where no camera sees it
   double farthest_m = 20;       ///< from the LiDAR
   double confirm = 4;           ///< evidence in nats from which somebody is a person; about 50 to 1

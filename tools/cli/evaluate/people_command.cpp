@@ -17,6 +17,7 @@
 #include "hal/files/file.hpp"
 #include "onboard/app/cli/working_line.hpp"
 #include "onboard/app/profile/recorded_profile.hpp"
+#include "onboard/app/sight/open_people.hpp"
 #include "onboard/report/json/report_json.hpp"
 #include "tools/cli/evaluate/people_error.hpp"
 #include "tools/cli/evaluate/people_file.hpp"
@@ -66,28 +67,30 @@ Result<std::vector<PersonRow>> tracks_in_world(const fs::path& run, const fs::pa
   return rows;
 }
 
-/// How often the run measured a cloud, at most.
-Result<Duration> map_period(const fs::path& run, const app::RobotProfile& recorded) {
+/// What the run itself says it ran with, or else what its recording says.
+Result<app::RobotProfile> profile_of(const fs::path& run, const app::RobotProfile& recorded) {
   const fs::path config = run / "config.yaml";
   std::error_code ignored;
-  if (!fs::exists(config, ignored)) return from_seconds(1 / recorded.stereo.map_rate_hz);
-  const auto own = app::choose_profile(config, {});
+  if (!fs::exists(config, ignored)) return recorded;
+  auto own = app::choose_profile(config, {});
   if (!own) return own.error();
-  return from_seconds(1 / own->profile.stereo.map_rate_hz);
+  return std::move(own->profile);
 }
 
-/// Whom the robot could see, and when: the LiDAR says it, or the label pictures where there is none.
+/// Whom the robot could see, and when: the LiDAR says it, or the label pictures where no LiDAR's scans were looked at.
 Result<std::vector<PeopleScan>> visible_people(const fs::path& folder, const fs::path& run,
                                                const app::RobotProfile& profile, std::span<const PersonRow> truth,
                                                std::span<const PersonRow> tracks) {
   const auto recording = recording::load_recording(folder);
   if (!recording) return at(folder.string(), recording.error());
-  if (has(*recording, recording::kVelodyne)) return people_scans(folder, profile, truth);
+  const auto own = profile_of(run, profile);
+  if (!own) return own.error();
+  const bool by_depth = app::people_by_depth(*own, recording->sources);
+  if (has(*recording, recording::kVelodyne) && !by_depth) return people_scans(folder, profile, truth);
   const auto stamps = label_stamps(folder);
   if (!stamps) return stamps.error();
-  const auto period = map_period(run, profile);
-  if (!period) return period.error();
-  return people_pictures(folder, profile, truth, judged_stamps(*stamps, tracks, *period));
+  const Duration period = from_seconds(1 / (by_depth ? own->depth.map.rate_hz : own->stereo.map_rate_hz));
+  return people_pictures(folder, profile, truth, judged_stamps(*stamps, tracks, period));
 }
 
 Result<PeopleMaterial> gather(const PeopleOptions& options) {
@@ -198,7 +201,8 @@ void add_evaluate_people_command(app::Commands& commands, CLI::App& evaluate) {
   CLI::App* sub = evaluate.add_subcommand("people", "compares a run's people with those of a simulated recording");
   const auto o = std::make_shared<PeopleOptions>();
   sub->footer(
-      "A person counts while at least 5 returns of the LiDAR are at them. Without a LiDAR, at least 125 pixels of "
+      "A person counts while at least 5 returns of the LiDAR are at them. Without a LiDAR, or where the run looked for "
+      "people in the clouds of a depth camera, at least 125 pixels of "
       "RECORDING/labels must show them. A track less than 0.75 m away finds them. "
       "The first common pose of both trajectories aligns the frames.");
   sub->add_option("run", o->run, "folder of a run: its people.csv and trajectory.tum")

@@ -105,7 +105,7 @@ Result<std::vector<Time>> label_stamps(const fs::path& recording) {
   std::ranges::sort(stamps);
   if (!stamps.empty()) return stamps;
   return Error{Errc::kNotFound,
-               "the recording has no LiDAR, and no label pictures say whom its camera saw",
+               "no label pictures say whom the recording's camera saw",
                folder.string(),
                {},
                "take a recording of `cairn simulate` with a camera and --people"};

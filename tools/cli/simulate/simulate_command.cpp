@@ -142,7 +142,8 @@ void add_world_options(CLI::App& sub, simulator::SimulationConfig& s) {
       ->check(CLI::Range(0.0, 3600.0))
       ->capture_default_str();
   sub.add_flag("--night", s.night, "the sun is down and all lamps are off");
-  sub.add_option("--profile", s.profile, "husky drives; uav flies, with the camera and, if --sensors says so, a depth camera")
+  sub.add_option("--profile", s.profile,
+                 "husky drives; uav flies, with the camera and, if --sensors says so, a depth camera")
       ->check(CLI::IsMember({"husky", "uav"}))
       ->capture_default_str();
 }

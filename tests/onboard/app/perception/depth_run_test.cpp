@@ -55,7 +55,7 @@ class DepthRun : public test::RoomRun {
     recorded.sources.push_back({"depth", recording::kDepth, "depth/data.csv", "depth", "", kDepthMount});
     ASSERT_TRUE(recording::save_recording(folder, recorded));
   }
-  static RunOptions with_rate(const std::string& out, const std::string& rate) {
+  static RunOptions with_rate(const std::string& out, const std::string& rate, const std::string& more = "") {
     RunOptions o = options(out);
     o.config = write(out + ".yaml",
                      "lidar: {T_base_lidar: [0.2, 0, 0.6, 0, 0, 0.1]}\n"
@@ -63,7 +63,7 @@ class DepthRun : public test::RoomRun {
                      "  capture: {width: 64, height: 48}\n"
                      "  T_base_depth: [0.3, 0, 0.5, 0, -1.2, 0]\n"
                      "  fx: 40\n  fy: 40\n  cx: 31.5\n  cy: 23.5\n  step_px: 1\n  map: {rate_hz: " +
-                         rate + "}\n");
+                         rate + "}\n" + more);
     return o;
   }
   static report::RunReport report_of(const RunOptions& o) {
@@ -103,6 +103,21 @@ TEST_F(DepthRun, IsTheSameForAnyNumberOfThreadsAndWithoutARateItChangesNothing) 
   const auto none = report_of(with_rate("none", "0"));
   EXPECT_FALSE(none.depth);
   EXPECT_NE(none.output_sha256, hash);
+}
+
+TEST_F(DepthRun, LooksForPeopleInItsCloudsWhereTheProfileSaysSo) {
+  const std::string points = "perception: {people: {follow: always, points: ";
+  RunOptions one = with_rate("by_depth_1", "20", points + "depth}}\n");
+  RunOptions three = with_rate("by_depth_3", "20", points + "depth}}\n");
+  one.threads = 1;
+  three.threads = 3;
+  const auto report = report_of(one);
+  ASSERT_TRUE(report.people);
+  EXPECT_GE(report.depth->images, 5U);
+  EXPECT_EQ(report.output_sha256, report_of(three).output_sha256);
+  const auto by_scans = report_of(with_rate("by_scans", "20", points + "scans}}\n"));
+  EXPECT_NE(report.output_sha256, by_scans.output_sha256) << "its points are put onto planes";
+  EXPECT_FALSE(report_of(with_rate("no_clouds", "0", points + "depth}}\n")).people);
 }
 
 }  // namespace

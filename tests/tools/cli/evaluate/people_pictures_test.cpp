@@ -221,6 +221,22 @@ TEST_F(PictureRecording, TheRunSaysHowOftenItMapped) {
   EXPECT_EQ(evaluate().json()["scans"], 2);
 }
 
+TEST_F(PictureRecording, JudgesTheCloudsOfADepthCameraAlsoBesideALidar) {
+  auto about = recording::load_recording(recording()).value();
+  about.sources.push_back({"lidar", recording::kVelodyne, "lidar.pcap", "VLP-16", "", Vector6::Zero()});
+  about.sources.push_back({"depth", recording::kDepth, "depth/data.csv", "depth", "", Vector6::Zero()});
+  write("recording/lidar.pcap", "");
+  fs::create_directories(recording() / "depth");
+  write("recording/depth/data.csv", "#timestamp [ns],filename\n");
+  ASSERT_TRUE(recording::save_recording(recording(), about));
+  write("run/config.yaml",
+        std::string(kProfile) + "depth: {map: {rate_hz: 2}}\nperception: {people: {points: depth}}\n");
+  const Outcome o = evaluate();
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  EXPECT_EQ(o.json()["scans"], 4) << "2 a second";
+  EXPECT_EQ(o.json()["people"], 4);
+}
+
 TEST_F(PictureRecording, FaultsSayWhatIsMissing) {
   fs::rename(recording() / "world.ot", folder_ / "elsewhere.ot");
   EXPECT_THAT(evaluate().err, HasSubstr("world.ot"));
@@ -230,7 +246,7 @@ TEST_F(PictureRecording, FaultsSayWhatIsMissing) {
   fs::remove_all(recording() / "labels");
   const Outcome o = evaluate();
   EXPECT_NE(o.exit_code, 0);
-  EXPECT_THAT(o.err, HasSubstr("labels: the recording has no LiDAR, and no label pictures say whom its camera saw"));
+  EXPECT_THAT(o.err, HasSubstr("labels: no label pictures say whom the recording's camera saw"));
 }
 
 }  // namespace
