@@ -55,7 +55,7 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget, c
   const double dt_s = relocaliser_.moving_time_s(tracking_.seconds_since_followed(prepared.stamp));
   const MotionFilter before = filter_;
   Fit fit = align(selected, dt_s, budget);
-  if (tracking_.is_fragment(prepared.duration_s) && (!tracking_.fits(fit) || second_look_.doubtful(fit))) {
+  if (tracking_.is_fragment(prepared.duration_s) && misled(fit)) {
     filter_ = before;
     return Error{Errc::kTruncated, "a piece of a revolution does not fit the map of the recent past: it is left out"};
   }

@@ -107,6 +107,9 @@ class LidarOdometry final : public MotionSource {
   }
   /// To the scan that comes now: by wheels where they tell more than the twist, otherwise steadily.
   void predict(double dt_s, const OpenMotion* open);
+  [[nodiscard]] bool misled(const Fit& piece) const {
+    return !tracking_.fits(piece) || second_look_.misled(piece, filter_, map_.settled());
+  }
   [[nodiscard]] bool follow(const Fit& fit, const SE3& motion, double dt_s);
   [[nodiscard]] bool lose(Track track, const Fit& fit, double dt_s);
   void correct(const Fit& fit, double dt_s);

@@ -37,6 +37,8 @@ constexpr double kFound = 1.25;
 constexpr double kPoor = 0.4;
 constexpr double kFine_m = 0.125, kFineYaw_rad = 0.03;
 constexpr int kFineSteps = 5;
+// 95 % of chi² with six degrees of freedom.
+constexpr double kSurprise = 12.6;
 
 // What a scan tells of the twist while the robot stands, at most. Chosen by hand. In a street, a robot that drove 5 m
 // unseen fitted 0.85 m from its last place, with 0.5 m/s and 0.28 rad/s.
@@ -84,6 +86,10 @@ bool SecondLook::needed(const Fit& first, double dt_s) const {
 bool SecondLook::unusual(const Fit& fit) const { return fit.telling_share() < usual_share_ - kUnusual * usual_spread_; }
 
 bool SecondLook::doubtful(const Fit& fit) const { return fit.telling_share() < config_.doubtful_share * usual_share_; }
+
+bool SecondLook::misled(const Fit& piece, const MotionFilter& predicted, bool settled) const {
+  return doubtful(piece) || (settled && predicted.squared_surprise(piece.state.T_odom_base) > kSurprise);
+}
 
 /// Floors and ceilings fit wherever the robot is, but not at a wrong tilt or height.
 bool SecondLook::tilted(const Fit& fit) const {

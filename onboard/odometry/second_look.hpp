@@ -28,6 +28,9 @@ class SecondLook {
 
   /// The fit is worse than those of the last scans.
   [[nodiscard]] bool doubtful(const Fit& fit) const;
+  /// The fit of a piece of a revolution is doubtful, or in a `settled` map less likely than 5 %, as was `predicted`. A
+  /// piece sees few surfaces, and one that is mistaken for another moves it as a whole.
+  [[nodiscard]] bool misled(const Fit& piece, const MotionFilter& predicted, bool settled) const;
   /// A fit so long after the last one that was followed may be of a place that looks alike: it is believed only if it
   /// is nearly as good as usual. `blind`: of a robot that nothing has told its way since, the motion that the fit
   /// means; null: something has. A blind robot is believed to have stood, or turned, and to be at rest.

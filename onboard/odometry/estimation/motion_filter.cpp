@@ -181,6 +181,12 @@ UncertainPose MotionFilter::pose() const {
   return {.mean = state_.T_odom_base, .covariance = uncertainty_.total.topLeftCorner<6, 6>()};
 }
 
+double MotionFilter::squared_surprise(const SE3& T_odom_base) const {
+  const Vector6 off = (state_.T_odom_base.inverse() * T_odom_base).log();
+  const Matrix6 P = uncertainty_.local.topLeftCorner<6, 6>();
+  return off.dot(P.ldlt().solve(off));
+}
+
 bool MotionFilter::placed_within(double position_m, double heading_rad) const {
   const Matrix12& P = uncertainty_.local;
   return std::sqrt(std::max(P(0, 0), P(1, 1))) <= position_m && std::sqrt(P(5, 5)) <= heading_rad;

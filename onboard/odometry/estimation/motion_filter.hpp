@@ -107,6 +107,9 @@ class MotionFilter {
   [[nodiscard]] UncertainPose place_of_odom(bool found) const;
   /// Motion to T_odom_base from where the base was before the last predict().
   [[nodiscard]] SE3 motion_to(const SE3& T_odom_base) const { return before_.T_odom_base.inverse() * T_odom_base; }
+  /// By how much this pose is off the state, in standard deviations of the local uncertainty, squared: chi² with six
+  /// degrees of freedom.
+  [[nodiscard]] double squared_surprise(const SE3& T_odom_base) const;
   /// Covariance of exp(δ) in T_previous_now·exp(δ) for the last predict() and update().
   [[nodiscard]] const Matrix6& step_covariance() const { return step_covariance_; }
 

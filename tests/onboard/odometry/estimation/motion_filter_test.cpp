@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <cmath>
 #include <random>
 
@@ -115,6 +116,19 @@ TEST(MotionFilter, PredictionCarriesStateAndCovarianceAsNumericalDerivativesDo) 
     const Matrix F = numerical_transition(x, kDt);
     EXPECT_LT(relative_difference(filter.uncertainty().local, carried(F, before.local)), 1e-6);
     EXPECT_LT(relative_difference(filter.uncertainty().total, carried(F, before.total)), 1e-6);
+  }
+}
+
+TEST(MotionFilter, SurpriseCountsStandardDeviationsOfThePose) {
+  Random random(7);
+  for (int i = 0; i < 20; ++i) {
+    MotionFilter filter = random_filter(random);
+    const SE3& here = filter.state().T_odom_base;
+    EXPECT_EQ(filter.squared_surprise(here), 0);
+    const Matrix6 P = filter.uncertainty().local.topLeftCorner<6, 6>();
+    const Eigen::SelfAdjointEigenSolver<Matrix6> axes(P);
+    const Vector6 three_sigma = 3 * std::sqrt(axes.eigenvalues()[i % 6]) * axes.eigenvectors().col(i % 6);
+    EXPECT_NEAR(filter.squared_surprise(here * SE3::exp(three_sigma)), 9, 1e-6);
   }
 }
 
