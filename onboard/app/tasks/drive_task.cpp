@@ -69,17 +69,18 @@ Result<void> DriveTask::attach(const drive::Config& config, Source& source, Sour
 
 // Errors of the socket are its clients' own.
 DriveTask::Commands::Commands(Source& source, SourceId id, std::size_t slot, clients::AnswerPort* port,
-                              scheduler::Feed::Tap tap, const Commander::Abilities& abilities)
+                              scheduler::Feed::Tap tap, const Commander::Abilities& abilities, bool lasting)
     : feed(
           source, id, slot, [](Time, const Error&) {}, std::move(tap)),
       commander(abilities),
-      answers(port) {}
+      answers(port),
+      awaited(lasting) {}
 
 void DriveTask::obey_commands(Source& source, SourceId id, clients::AnswerPort* answers, scheduler::Feed::Tap tap,
                               bool moves) {
   commands_ = std::make_unique<Commands>(
       source, id, commands_slot, answers, std::move(tap),
-      Commander::Abilities{.drives = moves && drive_ != nullptr, .in_team = places.connected()});
+      Commander::Abilities{.drives = moves && drive_ != nullptr, .in_team = places.connected()}, moves);
   set_planner([this](Time now) { return commands_->commander.wanted(now); });
 }
 
@@ -103,7 +104,7 @@ void DriveTask::tick(Tick& tick) {
   if (published_to_ != nullptr) published_to_->publish(drive_->status());
   publish(tick);
   publish_wheels(tick);
-  if (link_->feed.ended() && (!commands_ || commands_->feed.ended())) tick.end_of_input();
+  if (link_->feed.ended() && (!commands_ || commands_->ended())) tick.end_of_input();
 }
 
 /// A robot without a drive can be told where it is.
@@ -114,7 +115,7 @@ void DriveTask::tick_without_drive(Tick& tick) {
     obey_commander(tick);
     answer(tick.release());
   }
-  if (!heard || commands_->feed.ended()) tick.end_of_input();
+  if (!heard || commands_->ended()) tick.end_of_input();
 }
 
 template <class T>

@@ -69,7 +69,7 @@ class DriveTask final : public scheduler::Task {
   void set_planner(Planner planner) { planner_ = std::move(planner); }
   /// Clients of the command socket are the planner. `source` and `answers` (null in a replay) must outlive the task. To
   /// be called after attach(): without it, the robot has no drive that could be commanded.
-  /// `moves`: false, where the drive is one of a recording.
+  /// `moves`: false, where the drive is one of a recording; then the task's input ends without the commands.
   void obey_commands(Source& source, SourceId id, clients::AnswerPort* answers, scheduler::Feed::Tap tap,
                      bool moves = true);
   /// Live: the status of the drive goes to `latest`, too, with every tick. To be called before the run; `latest` must
@@ -91,10 +91,12 @@ class DriveTask final : public scheduler::Task {
  private:
   struct Commands {
     Commands(Source& source, SourceId id, std::size_t slot, clients::AnswerPort* port, scheduler::Feed::Tap tap,
-             const Commander::Abilities& abilities);
+             const Commander::Abilities& abilities, bool awaited);
+    [[nodiscard]] bool ended() const { return !awaited || feed.ended(); }
     scheduler::Feed feed;
     Commander commander;
     clients::AnswerPort* answers;
+    bool awaited;  // the run goes on until they end
   };
   void obey(scheduler::Tick& tick);
   void obey_commander(scheduler::Tick& tick);

@@ -127,5 +127,21 @@ TEST_F(DriveTaskTest, ACommandIsOnTheBusWithinTwoControlPeriods) {
   EXPECT_LE(worst, 2 * kControl);
 }
 
+/// Whether the input of a robot without a drive has ended, while clients may still command.
+bool ended(bool moves) {
+  support::CommandQueue commands;
+  DriveTask task;
+  task.obey_commands(commands, SourceId{0}, &commands, {}, moves);
+  scheduler::TickRecord record;
+  scheduler::Tick tick(scheduler::Regime::kLive, Time{1s}, record);
+  task.tick(tick);
+  return tick.ended();
+}
+
+TEST(DriveTask, APlayedRecordingEndsThoughClientsMayCommand) {
+  EXPECT_TRUE(ended(false));
+  EXPECT_FALSE(ended(true)) << "a robot goes on";
+}
+
 }  // namespace
 }  // namespace cairn::app
