@@ -206,7 +206,7 @@ void expect_node(const Message& said, std::size_t gid_size, std::size_t writers,
 template <class Message>
 class RosNodeTest : public RosProcessTest {
  protected:
-  static constexpr unsigned kWriters = 13;  // those of WritersAreThoseOfRos
+  static constexpr unsigned kWriters = 14;  // those of WritersAreThoseOfRos
 
   /// What the program says once it has the team's map, which comes with the first greeting.
   void expect_said(const char* form, GraphForm type, std::size_t gid_size) {
