@@ -77,17 +77,5 @@ TEST(Odometry, ScansThatBecomeShorterAfterTheFirstOneAreFollowed) {
   EXPECT_LT(ride.error(last).norm(), 0.1);
 }
 
-TEST(Odometry, APieceThatMovesTheRobotAsNoRobotMovesIsLeftOut) {
-  for (const double aside_m : {0.0, 0.08}) {
-    Ride ride(support::lobby().world, curve);
-    for (int i = 0; i < 20; ++i) ride.step();
-    const auto piece = ride.step_with_a_piece_from(aside_m, 0.3);
-    EXPECT_EQ(piece.has_value(), aside_m == 0);
-    EXPECT_TRUE(piece || piece.error().code == Errc::kTruncated);
-    const OdometryUpdate next = ride.step();
-    EXPECT_LT(ride.error(next).norm(), 0.03) << "the next revolution goes on";
-  }
-}
-
 }  // namespace
 }  // namespace cairn::odometry

@@ -50,14 +50,6 @@ class Ride {
     Budget budget = Budget::steps(most_steps({}));
     return odometry_.update(part_of(lidar_.scan(world_, path_, 0.1 * count_++), 1 - share, 1), budget);
   }
-  /// The first `share` of the next revolution, as seen `aside_m` to the left of where the robot is; the rest never
-  /// comes.
-  Result<OdometryUpdate> step_with_a_piece_from(double aside_m, double share) {
-    const SE3 aside = SE3::from_xyz_rpy((Vector6() << 0, aside_m, 0, 0, 0, 0).finished());
-    const auto there = [&](double t) { return path_(t) * aside; };
-    Budget budget = Budget::steps(most_steps({}));
-    return odometry_.update(part_of(lidar_.scan(world_, there, 0.1 * count_++), 0, share), budget);
-  }
   /// The next revolution in two pieces: its first `share`, and the rest.
   std::array<Result<OdometryUpdate>, 2> step_in_two(double share) {
     const Scan whole = lidar_.scan(world_, path_, 0.1 * count_++);

@@ -31,6 +31,25 @@ TEST(SecondLook, IsNeededIfFewerPointsFitThanUsual) {
   EXPECT_TRUE(look.needed(fit_of(1000, 990), 0.5)) << "after half a second the prediction says little";
 }
 
+/// The prediction is known to a centimetre.
+TEST(SecondLook, APieceMisleadsThatTheSettledMapsPredictionMakesUnlikely) {
+  MotionFilter predicted;
+  MotionFilter::Uncertainty sure;
+  sure.local = 1e-4 * Matrix12::Identity();
+  predicted.reset({}, sure);
+  SecondLook look({}, {});
+  for (int i = 0; i < 200; ++i) look.learn(fit_of(1000, 900));
+  const auto misled = [&](double off_m, bool settled, int inliers = 900) {
+    Fit piece = fit_of(1000, inliers);
+    piece.state.T_odom_base = SE3::from_xyz_rpy((Vector6() << 0, off_m, 0, 0, 0, 0).finished());
+    return look.misled(piece, predicted, settled);
+  };
+  EXPECT_FALSE(misled(0.03, true));
+  EXPECT_TRUE(misled(0.04, true));
+  EXPECT_FALSE(misled(0.04, false)) << "a young map's prediction says little";
+  EXPECT_TRUE(misled(0, true, 100)) << "it does not fit";
+}
+
 TEST(SecondLook, IsNeededEarlierWhereAllScansFitAlike) {
   SecondLook look({}, {});
   for (int i = 0; i < 200; ++i) look.learn(fit_of(1000, i % 2 == 0 ? 965 : 975));
