@@ -10,7 +10,7 @@
 
 namespace cairn::cli {
 
-using support::TemporaryFolder;
+using support::TemporaryFolder;  // NOLINT(misc-unused-using-decls): those who include this use it
 
 /// What a command said and how it ended.
 struct Outcome {

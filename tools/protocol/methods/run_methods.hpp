@@ -29,6 +29,8 @@ namespace cairn::protocol {
 class VoxelDistance {
  public:
   explicit VoxelDistance(const MapPair& pair);
+  VoxelDistance(const VoxelDistance&) = delete;
+  VoxelDistance& operator=(const VoxelDistance&) = delete;
   ~VoxelDistance();
   [[nodiscard]] double rms(const SE3& T_a_b) const;
 

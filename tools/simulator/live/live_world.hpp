@@ -47,6 +47,7 @@ class LiveWorld {
   LiveWorld(const Scene& scene, const Config& config, Ports ports, const Clock& clock);
   LiveWorld(const LiveWorld&) = delete;
   LiveWorld& operator=(const LiveWorld&) = delete;
+  ~LiveWorld() = default;
 
   /// Brings the world up to the clock's time.
   void play();

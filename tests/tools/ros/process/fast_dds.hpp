@@ -119,7 +119,7 @@ class FastRos {
   }
 
   /// `ros_topic` as on the wire, "rt/husky/odom"; with ROS's default QoS, or another.
-  DataReader* reader(const std::string& topic, const std::string& type, DataReaderQos qos) {
+  DataReader* reader(const std::string& topic, const std::string& type, const DataReaderQos& qos) {
     if (subscriber_ == nullptr) subscriber_ = participant_->create_subscriber(SUBSCRIBER_QOS_DEFAULT);
     return subscriber_->create_datareader(this->topic(topic, type), qos);
   }
