@@ -22,7 +22,7 @@ void ThermalStream::add(const Packet& picture) {
 void ThermalStream::serve(ClientHub& hub, std::size_t records) {
   while (labelling::ThermalCloud* out = clouds_.back()) {
     const auto made = joiner_.next(*out);
-    if (!made) monitor_.event({}, "clients", "no thermal cloud: " + to_string(made.error()));
+    if (!made) monitor_.event(out->stamp, "clients", "no thermal cloud: " + to_string(made.error()));
     if (made && !*made) break;
     if (made) clouds_.push();
   }

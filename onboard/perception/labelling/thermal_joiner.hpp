@@ -38,7 +38,8 @@ class ThermalJoiner {
   void add_picture(const Image& values);
 
   /// Takes the oldest picture that can be joined; false: there is none yet. Pictures without scans around them are left
-  /// out. Errors: those of ThermalLifter::lift(); that picture is left out.
+  /// out. Errors: those of ThermalLifter::lift(); that picture is left out, and `out` has
+  /// its stamp.
   Result<bool> next(ThermalCloud& out);
 
  private:

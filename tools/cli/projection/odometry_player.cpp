@@ -2,34 +2,14 @@
 #include "tools/cli/projection/odometry_player.hpp"
 
 #include <algorithm>
-#include <optional>
 #include <utility>
 
-#include "drivers/recording/formats/scan_file.hpp"
-#include "drivers/velodyne/lidar.hpp"
+#include "tools/cli/projection/recorded_lidar.hpp"
 
 namespace cairn::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-/// Index of the last source of one of these kinds.
-std::optional<std::size_t> find_source(const recording::Recording& recording,
-                                       std::initializer_list<recording::SensorKind> kinds) {
-  std::optional<std::size_t> found;
-  for (std::size_t i = 0; i < recording.sources.size(); ++i)
-    if (std::find(kinds.begin(), kinds.end(), recording.sources[i].kind) != kinds.end()) found = i;
-  return found;
-}
-
-Result<std::unique_ptr<ScanDecoder>> make_decoder(const recording::SourceEntry& entry, SourceId id,
-                                                  const app::RobotProfile& profile, Monitor& monitor) {
-  if (entry.kind == recording::kScans)
-    return std::unique_ptr<ScanDecoder>(std::make_unique<recording::ScanFileDecoder>(entry.deskewed));
-  auto lidar = velodyne::Lidar::create(profile.lidar.driver, id, monitor);
-  if (!lidar) return lidar.error();
-  return std::unique_ptr<ScanDecoder>(*std::move(lidar));
-}
 
 Error lacks(const fs::path& recording, std::string_view what) {
   return {Errc::kNotFound, "the recording lacks a sensor", recording.string(), {}, std::string(what)};
@@ -49,15 +29,16 @@ Result<std::unique_ptr<OdometryPlayer>> OdometryPlayer::open(const fs::path& rec
   auto reader = recording::RecordingReader::open(recording);
   if (!reader) return reader.error();
   const recording::Recording& sources = (*reader)->recording();
-  const auto lidar = find_source(sources, {recording::kVelodyne, recording::kScans});
-  const auto other = find_source(sources, {kind});
+  const auto lidar = lidar_of(sources);
+  const auto other = std::ranges::find(sources.sources, kind, &recording::SourceEntry::kind);
   if (!lidar) return lacks(recording, "a LiDAR");
-  if (!other) return lacks(recording, kind == recording::kThermal ? "a thermal camera" : "a camera");
+  if (other == sources.sources.end())
+    return lacks(recording, kind == recording::kThermal ? "a thermal camera" : "a camera");
   const recording::SourceEntry entry = sources.sources[*lidar];
   std::unique_ptr<OdometryPlayer> player(new OdometryPlayer(profile, *std::move(reader)));
   player->lidar_id_ = static_cast<SourceId>(*lidar);
-  player->other_id_ = static_cast<SourceId>(*other);
-  auto decoder = make_decoder(entry, player->lidar_id_, profile, player->monitor_);
+  player->other_id_ = static_cast<SourceId>(other - sources.sources.begin());
+  auto decoder = decoder_of(entry, player->lidar_id_, profile, player->monitor_);
   if (!decoder) return decoder.error();
   player->lidar_ = *std::move(decoder);
   return player;

@@ -81,8 +81,9 @@ TEST(ThermalLifter, WhatIsHiddenFromTheCameraGetsNoTemperature) {
 TEST(ThermalLifter, FartherThanTheLimitNothingIsMeasured) {
   LabellingConfig near;
   near.farthest_m = 8;
-  for (const ThermalPoint& p : lifted(warmth_from({}), test::scan_from({}), {}, near))
-    ASSERT_LT(p.point_base.norm(), 9.5);
+  const auto points = lifted(warmth_from({}), test::scan_from({}), {}, near);
+  ASSERT_FALSE(points.empty());
+  for (const ThermalPoint& p : points) ASSERT_LT(p.point_base.norm(), 9.5);
 }
 
 TEST(ThermalLifter, CountsStayCounts) {
