@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // One look at two maps: how often the pose is right, how often it is accepted, how honest its probability is.
 //   matching_pairs [FIRST_SEED] [SEEDS] [csv]        5004 27
+//   matching_pairs low [FIRST_SEED] [SEEDS] [csv]    5100 27: small overlaps only, without a guess
 //   matching_pairs town [SEED]                       two whole maps of 400 m: time and memory
 // Each seed is a place (rooms, a hall, outdoors), a voxel size (0.05, 0.1, 0.2 m) and moved objects (none, 0.5, 1.2
 // m). Nine seeds in a row share the voxel size. So 27 seeds from a multiple of nine have all of them alike. Robot a
@@ -42,15 +43,17 @@ using Stops = simulator::Path;
 // What is measured, not tuned.
 constexpr std::array kKinds{Kind::kRooms, Kind::kHall, Kind::kOutdoor};
 constexpr std::array kRange_m{8.0, 8.0, 14.0};
-constexpr std::array kShared{0.8, 0.5, 0.25, 0.05};  // of a's stops, that are b's as well
+// Of a's stops, that are b's as well. The second is of small overlaps: b begins where a ends, or farther on.
+constexpr std::array kShared{0.8, 0.5, 0.25, 0.05}, kHardlyShared{0.1, 0.0, -0.1, -0.2};
 constexpr int kObjects = 8;
 constexpr std::size_t kNegatives = 3;  // other places, for each map of b
 
 /// The places and robots of one seed.
 class Round {
  public:
-  Round(std::uint64_t seed, Results& results, std::deque<Chart>& others)
-      : seed_(seed), random_(seed, 71), results_(results), others_(others) {
+  /// `low`: small overlaps only.
+  Round(std::uint64_t seed, bool low, Results& results, std::deque<Chart>& others)
+      : seed_(seed), low_(low), random_(seed, 71), results_(results), others_(others) {
     about_.kind = kKindNames[seed % 3];
     about_.moved_m = kMoved_m[seed / 3 % 3];
     about_.voxel_m = kVoxels_m[seed / 9 % 3];
@@ -69,12 +72,12 @@ class Round {
     const Chart mirrored = robot(of_a, stops_a, 0.5, 0.5, 1);
     how_.mirrored = false;
     for (std::size_t i = 0; i < kShared.size(); ++i) {
-      const double begin = end * (1 - kShared[i]);
+      const double begin = end * (1 - (low_ ? kHardlyShared : kShared)[i]);
       const Stops stops_b = part(of_b.world, heading, begin, begin + end, random_);
       compare(a, mirrored, robot(of_b, stops_b, 17, about_.lean_deg, 2 + i));
     }
-    copies();
-    if (about_.kind == "rooms") turned();
+    if (!low_) copies();
+    if (!low_ && about_.kind == "rooms") turned();
     others_.push_back(std::move(a));
     if (others_.size() > 8) others_.pop_front();
   }
@@ -99,6 +102,7 @@ class Round {
     about.overlap = overlap(a, b);
     about.dz_m = (a.T_map_world * b.middle - b.T_map_world * b.middle).z();
     ask(about, "global", a, b, {});
+    if (low_) return;
     ask(about, "local", a, b, guess(a, b, random_));
     about.overlap = 0;
     const bool symmetric = about_.kind == "hall" && seed_ % 4 == 0;
@@ -127,6 +131,7 @@ class Round {
   }
 
   std::uint64_t seed_;
+  bool low_;
   Random random_;
   Results& results_;
   std::deque<Chart>& others_;
@@ -134,12 +139,12 @@ class Round {
   Survey how_;
 };
 
-void run(std::uint64_t first, int seeds, bool csv) {
+void run(std::uint64_t first, int seeds, bool low, bool csv) {
   Results results(csv);
   std::deque<Chart> others;  // of the same voxel size
   for (std::uint64_t seed = first; seed < first + static_cast<std::uint64_t>(seeds); ++seed) {
     if (seed % 9 == 0) others.clear();
-    Round(seed, results, others).run();
+    Round(seed, low, results, others).run();
   }
   if (!csv)
     std::printf("matching_pairs, seeds %d to %d\n", static_cast<int>(first), static_cast<int>(first) + seeds - 1);
@@ -182,9 +187,12 @@ void town(std::uint64_t seed) {
 
 int main(int argc, char** argv) {
   const auto number = [&](int i, int otherwise) { return argc > i ? std::atoi(argv[i]) : otherwise; };
-  if (argc > 1 && std::strcmp(argv[1], "town") == 0) {
+  const auto is = [&](const char* mode) { return argc > 1 && std::strcmp(argv[1], mode) == 0; };
+  if (is("town")) {
     cairn::pairs::town(static_cast<std::uint64_t>(number(2, 5000)));
     return 0;
   }
-  cairn::pairs::run(static_cast<std::uint64_t>(number(1, 5004)), number(2, 27), argc > 3);
+  const int at = is("low") ? 2 : 1;
+  cairn::pairs::run(static_cast<std::uint64_t>(number(at, is("low") ? 5100 : 5004)), number(at + 1, 27), is("low"),
+                    argc > at + 2);
 }

@@ -16,59 +16,56 @@ Eigen::Vector3i brick_of(const Eigen::Vector3i& cell, int bits) {
   return {cell.x() >> bits, cell.y() >> bits, cell.z() >> bits};
 }
 
+template <class Visit>
+void for_all(const Eigen::Vector3i& first, const Eigen::Vector3i& last, const Visit& visit) {
+  for (int z = first.z(); z <= last.z(); ++z)
+    for (int y = first.y(); y <= last.y(); ++y)
+      for (int x = first.x(); x <= last.x(); ++x) visit(Eigen::Vector3i(x, y, z));
+}
+
 }  // namespace
 
-/// Fills a grid: each surfel is offered to all cells in its reach, some rows of a brick at once, so that
-/// the compiler can vectorise.
+/// Fills one brick: each surfel is offered to the cells in its reach, some rows at once, so that the compiler can
+/// vectorise.
 class NearestGrid::Filling {
  public:
-  Filling(NearestGrid& grid, float cell_m, float reach_m)
-      : grid_(grid), cell_m_(cell_m), reach_m_(reach_m), squared_reach_(reach_m * reach_m) {}
+  Filling(Brick& brick, const Eigen::Vector3i& place, float cell_m, float reach_m)
+      : brick_(brick), place_(place), cell_m_(cell_m), squared_reach_(reach_m * reach_m) {
+    brick.fill(kNone);
+    nearest_m2_.fill(squared_reach_);
+  }
 
+  /// Of two that are equally near, the first that is offered stays.
   void offer(int surfel, const Eigen::Vector3f& point) {
-    const auto brick_beside = [&](float offset_m) {
-      return brick_of(((point.array() + offset_m) * grid_.inverse_cell_).floor().cast<int>(), kBits);
-    };
-    const Eigen::Vector3i first = brick_beside(-reach_m_), last = brick_beside(reach_m_);
-    for (int z = first.z(); z <= last.z(); ++z)
-      for (int y = first.y(); y <= last.y(); ++y)
-        for (int x = first.x(); x <= last.x(); ++x) offer(surfel, point, {x, y, z});
+    const Row x2 = squares(point, 0), y2 = squares(point, 1), z2 = squares(point, 2);
+    const float least_x2 = *std::min_element(x2.begin(), x2.end());
+    Layer of_layer;
+    bool laid = false;
+    for (std::size_t z = 0; z < kEdge; ++z) {
+      const auto reached = [&](float in_y) { return least_x2 + in_y + z2[z] < squared_reach_; };
+      const auto first = std::find_if(y2.begin(), y2.end(), reached), last = std::find_if_not(first, y2.end(), reached);
+      if (first == last) continue;
+      for (std::size_t i = 0; i < of_layer.size() && !laid; ++i) of_layer[i] = x2[i % kEdge] + y2[i / kEdge];
+      laid = true;
+      const auto from = kEdge * static_cast<std::size_t>(first - y2.begin());
+      const std::size_t at = kEdge * kEdge * z + from;
+      keep(surfel, &of_layer[from], z2[z], kEdge * static_cast<std::size_t>(last - first), &nearest_m2_[at],
+           &brick_[at]);
+    }
   }
 
  private:
   using Row = std::array<float, kEdge>;
   using Layer = std::array<float, kEdge * kEdge>;
-  // Of what the cells of a chunk hold, m²; the squared reach where they hold nothing.
-  using Distances = std::array<std::array<float, std::tuple_size_v<Brick>>, kChunk>;
 
-  /// Squared distances of a coordinate from the centres of a brick's cells, along one axis.
-  [[nodiscard]] Row squares(float at, int brick) const {
+  /// Squared distances of a point from the centres of the brick's cells along one axis, m².
+  [[nodiscard]] Row squares(const Eigen::Vector3f& point, int axis) const {
     Row all{};
     for (int k = 0; k < 1 << kBits; ++k) {
-      const float off = at - (static_cast<float>((brick << kBits) + k) + 0.5F) * cell_m_;
+      const float off = point[axis] - (static_cast<float>((place_[axis] << kBits) + k) + 0.5F) * cell_m_;
       all[static_cast<std::size_t>(k)] = off * off;
     }
     return all;
-  }
-
-  void offer(int surfel, const Eigen::Vector3f& point, const Eigen::Vector3i& place) {
-    const Row x2 = squares(point.x(), place.x()), y2 = squares(point.y(), place.y()),
-              z2 = squares(point.z(), place.z());
-    Layer of_layer;
-    for (std::size_t i = 0; i < of_layer.size(); ++i) of_layer[i] = x2[i % kEdge] + y2[i / kEdge];
-    const float least_x2 = *std::min_element(x2.begin(), x2.end());
-    int brick = kNone;
-    for (std::size_t z = 0; z < kEdge; ++z) {
-      const auto reached = [&](float in_y) { return least_x2 + in_y + z2[z] < squared_reach_; };
-      const auto first = std::find_if(y2.begin(), y2.end(), reached), last = std::find_if_not(first, y2.end(), reached);
-      if (first == last) continue;
-      if (brick == kNone) brick = brick_at(place);
-      if (brick == kNone) return;
-      const auto i = static_cast<std::size_t>(brick), from = kEdge * static_cast<std::size_t>(first - y2.begin());
-      const std::size_t at = kEdge * kEdge * z + from;
-      keep(surfel, &of_layer[from], z2[z], kEdge * static_cast<std::size_t>(last - first),
-           &(*distances_[i / kChunk])[i % kChunk][at], &grid_.brick(i)[at]);
-    }
   }
 
   /// Written so that the compiler vectorises it.
@@ -81,31 +78,95 @@ class NearestGrid::Filling {
     }
   }
 
-  /// The number of a brick, which is made if need be; kNone beyond kMostBricks.
-  int brick_at(const Eigen::Vector3i& place) {
-    if (count_ == kMostBricks) return grid_.index_.find(place);
-    const int i = grid_.index_.find_or_insert(pack(place), static_cast<int>(count_));
-    if (static_cast<std::size_t>(i) < count_) return i;
-    if (count_ % kChunk == 0) {
-      grid_.chunks_.push_back(std::make_unique_for_overwrite<Chunk>());
-      distances_.push_back(std::make_unique_for_overwrite<Distances>());
-    }
-    grid_.brick(count_).fill(kNone);
-    (*distances_.back())[count_ % kChunk].fill(squared_reach_);
-    ++count_;
-    return i;
-  }
-
-  NearestGrid& grid_;
-  float cell_m_, reach_m_, squared_reach_;
-  std::vector<std::unique_ptr<Distances>> distances_;
-  std::size_t count_ = 0;  // of bricks
+  Brick& brick_;
+  Eigen::Vector3i place_;
+  float cell_m_, squared_reach_;
+  // Of what the cells hold, m²; the squared reach where they hold nothing.
+  std::array<float, std::tuple_size_v<Brick>> nearest_m2_;
 };
 
 NearestGrid::NearestGrid(std::span<const Surfel> surfels, float cell_m, float reach_m)
-    : surfels_(surfels), inverse_cell_(1.0F / cell_m), index_(surfels.size() / kSurfelsPerBrick + kLeastBricks) {
-  Filling filling(*this, cell_m, reach_m);
-  for (std::size_t i = 0; i < surfels.size(); ++i) filling.offer(static_cast<int>(i), surfels[i].point);
+    : surfels_(surfels),
+      cell_m_(cell_m),
+      inverse_cell_(1.0F / cell_m),
+      reach_m_(reach_m),
+      index_(surfels.size() / kSurfelsPerBrick + kLeastBricks) {
+  std::vector<Home> homes;
+  settle(homes);
+  reach_out(homes);
+  cells_of_.assign(index_.size(), kNone);
+}
+
+Eigen::Vector3i NearestGrid::brick_around(const Eigen::Vector3f& point) const {
+  return brick_of((point * inverse_cell_).array().floor().cast<int>(), kBits);
+}
+
+/// The number of a brick, which is entered if need be; kNone beyond kMostBricks.
+int NearestGrid::number_of(const Eigen::Vector3i& place) {
+  if (index_.size() == kMostBricks) return index_.find(place);
+  return index_.find_or_insert(pack(place), static_cast<int>(index_.size()));
+}
+
+/// Sorts the surfels by the bricks in which they lie, and by their numbers there.
+void NearestGrid::settle(std::vector<Home>& homes) {
+  std::vector<int> home_of(surfels_.size());
+  for (std::size_t i = 0; i < surfels_.size(); ++i) {
+    const Eigen::Vector3i place = brick_around(surfels_[i].point);
+    home_of[i] = number_of(place);
+    if (home_of[i] == kNone) continue;
+    const auto home = static_cast<std::size_t>(home_of[i]);
+    if (home == homes.size()) homes.push_back({place, {}});
+    homes[home].box.extend(surfels_[i].point);
+  }
+  first_.assign(homes.size() + 1, 0);
+  for (const int home : home_of)
+    if (home != kNone) ++first_[static_cast<std::size_t>(home) + 1];
+  for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
+  settled_.resize(static_cast<std::size_t>(first_.back()));
+  std::vector<int> next(first_.begin(), first_.end() - 1);
+  for (std::size_t i = 0; i < surfels_.size(); ++i)
+    if (home_of[i] != kNone)
+      settled_[static_cast<std::size_t>(next[static_cast<std::size_t>(home_of[i])]++)] = static_cast<int>(i);
+}
+
+/// Enters the bricks that hold no surfel, but lie within reach of one.
+void NearestGrid::reach_out(const std::vector<Home>& homes) {
+  const Eigen::Vector3f reach = Eigen::Vector3f::Constant(reach_m_);
+  for (const Home& home : homes)
+    for_all(brick_around(home.box.min() - reach), brick_around(home.box.max() + reach),
+            [&](const Eigen::Vector3i& place) { (void)number_of(place); });
+}
+
+/// The surfels within reach of a brick's cells, in order. Some are a little farther.
+std::vector<int> NearestGrid::surfels_near(const Eigen::Vector3i& place) const {
+  const float edge_m = static_cast<float>(kEdge) * cell_m_;
+  const Eigen::Vector3f low = edge_m * place.cast<float>(), reach = Eigen::Vector3f::Constant(reach_m_);
+  const Eigen::AlignedBox3f box(low, low + Eigen::Vector3f::Constant(edge_m));
+  std::vector<int> all;
+  for_all(brick_around(box.min() - reach), brick_around(box.max() + reach), [&](const Eigen::Vector3i& beside) {
+    const int i = index_.find(beside);
+    if (i == kNone || static_cast<std::size_t>(i) + 1 >= first_.size()) return;
+    const auto at = static_cast<std::size_t>(i);
+    for (int k = first_[at]; k < first_[at + 1]; ++k) {
+      const int surfel = settled_[static_cast<std::size_t>(k)];
+      if (box.squaredExteriorDistance(surfels_[static_cast<std::size_t>(surfel)].point) < reach_m_ * reach_m_)
+        all.push_back(surfel);
+    }
+  });
+  std::sort(all.begin(), all.end());
+  return all;
+}
+
+const NearestGrid::Brick& NearestGrid::filled(std::size_t i, const Eigen::Vector3i& place) const {
+  if (cells_of_[i] == kNone) {
+    if (count_ % kChunk == 0) chunks_.push_back(std::make_unique_for_overwrite<Chunk>());
+    cells_of_[i] = static_cast<int>(count_++);
+    Filling filling((*chunks_.back())[static_cast<std::size_t>(cells_of_[i]) % kChunk], place, cell_m_, reach_m_);
+    for (const int surfel : surfels_near(place))
+      filling.offer(surfel, surfels_[static_cast<std::size_t>(surfel)].point);
+  }
+  const auto at = static_cast<std::size_t>(cells_of_[i]);
+  return (*chunks_[at / kChunk])[at % kChunk];
 }
 
 std::size_t NearestGrid::slot(const Eigen::Vector3i& cell) {
@@ -117,9 +178,10 @@ int NearestGrid::nearest(const Eigen::Vector3f& point, float gate_m) const {
   const Eigen::Vector3f scaled = point * inverse_cell_;
   if (!(scaled.cwiseAbs().maxCoeff() < kMaxCell) || scaled.hasNaN()) return kNone;
   const Eigen::Vector3i cell = scaled.array().floor().cast<int>();
-  const int at = index_.find(brick_of(cell, kBits));
+  const Eigen::Vector3i place = brick_of(cell, kBits);
+  const int at = index_.find(place);
   if (at == CellIndex::kNone) return kNone;
-  const int i = brick(static_cast<std::size_t>(at))[slot(cell)];
+  const int i = filled(static_cast<std::size_t>(at), place)[slot(cell)];
   if (i == kNone || (surfels_[static_cast<std::size_t>(i)].point - point).squaredNorm() >= gate_m * gate_m)
     return kNone;
   return i;

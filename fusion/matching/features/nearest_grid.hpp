@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 #include <array>
 #include <memory>
 #include <span>
@@ -15,11 +16,14 @@ namespace cairn::matching {
 /// Finds the surfel nearest to a point, up to the size of a cell, with one look-up. Each cell near
 /// a surface keeps the surfel nearest to its centre, or the first of them. Memory grows with the
 /// surface, not with the volume, because cells are kept in bricks of 8³.
+///
+/// A brick is filled when somebody first asks for a place in it. Most comparisons of two maps look
+/// at a small part of either. So one grid is for one thread at a time, although nearest() is const.
 class NearestGrid {
  public:
   static constexpr int kNone = -1;
-  /// Bricks, at most: 400 MB, and as much again while the grid is made. A bound on memory. In a larger map some surfels
-  /// are not found.
+  /// Bricks, at most: 400 MB if all of them are asked for. A bound on memory. In a larger map some surfels are not
+  /// found.
   static constexpr std::size_t kMostBricks = 200'000;
 
   /// A cell knows surfels up to `reach_m` away from its centre. `surfels` must outlive the grid.
@@ -30,23 +34,36 @@ class NearestGrid {
   [[nodiscard]] int nearest(const Eigen::Vector3f& point, float gate_m) const;
 
  private:
-  class Filling;
-
   static constexpr int kBits = 3;
   static constexpr std::size_t kEdge = 1 << kBits;  // cells along the edge of a brick
   using Brick = std::array<int, kEdge * kEdge * kEdge>;
   // Bricks that are allocated at once: 128 kB. A growing vector would copy all of them now and then.
   static constexpr std::size_t kChunk = 64;
   using Chunk = std::array<Brick, kChunk>;
+  class Filling;
 
-  [[nodiscard]] Brick& brick(std::size_t i) { return (*chunks_[i / kChunk])[i % kChunk]; }
-  [[nodiscard]] const Brick& brick(std::size_t i) const { return (*chunks_[i / kChunk])[i % kChunk]; }
+  /// The box around the surfels whose points lie in one brick, m.
+  struct Home {
+    Eigen::Vector3i place;
+    Eigen::AlignedBox3f box;
+  };
+
+  [[nodiscard]] Eigen::Vector3i brick_around(const Eigen::Vector3f& point) const;
+  [[nodiscard]] int number_of(const Eigen::Vector3i& place);
+  void settle(std::vector<Home>& homes);
+  void reach_out(const std::vector<Home>& homes);
+  [[nodiscard]] std::vector<int> surfels_near(const Eigen::Vector3i& place) const;
+  [[nodiscard]] const Brick& filled(std::size_t i, const Eigen::Vector3i& place) const;
   [[nodiscard]] static std::size_t slot(const Eigen::Vector3i& cell);
 
   std::span<const Surfel> surfels_;
-  float inverse_cell_;
-  CellIndex index_;
-  std::vector<std::unique_ptr<Chunk>> chunks_;
+  float cell_m_, inverse_cell_, reach_m_;
+  CellIndex index_;                    // of all bricks within reach of a surfel; those with surfels first
+  std::vector<int> first_;             // where a brick's surfels begin in settled_, and the end
+  std::vector<int> settled_;           // surfels by brick
+  mutable std::vector<int> cells_of_;  // where a brick's cells are in chunks_; kNone: not yet filled
+  mutable std::vector<std::unique_ptr<Chunk>> chunks_;
+  mutable std::size_t count_ = 0;  // of filled bricks
 };
 
 }  // namespace cairn::matching

@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "fusion/matching/features/map_voxels.hpp"
+#include "fusion/matching/features/plan_room.hpp"
 #include "fusion/matching/features/surfel_grid.hpp"
 #include "hal/se3.hpp"
 
@@ -61,29 +61,19 @@ class PlanView {
 
  private:
   struct Walls {
-    float count = 0, room_m3 = 0;
+    float count = 0;
     Eigen::Vector2f at = Eigen::Vector2f::Zero(), facing = Eigen::Vector2f::Zero();
   };
   void lay_out(std::span<const Surfel> surfels);
   void stack_heights(std::span<const Surfel> surfels);
-  void add_room(const mapping::SemanticNode* node, const Eigen::Vector3i& first, int edge,
-                const mapping::SemanticOcTree& map, std::vector<Walls>& walls) const;
   [[nodiscard]] std::vector<Walls> walls_of(std::span<const Surfel> surfels) const;
-  [[nodiscard]] Column column_of(const Walls& walls, int x, int y) const;
+  [[nodiscard]] std::vector<float> room_of(const mapping::SemanticOcTree& map, const Eigen::Matrix3f& turn,
+                                           const std::vector<Walls>& walls) const;
+  [[nodiscard]] float full_room_m3() const;
+  [[nodiscard]] Column column_of(const Walls& walls, float room_m3, int x, int y) const;
   void look_around(std::span<const Surfel> surfels);
   void measure();
-  [[nodiscard]] Eigen::Vector2i cell_of(const Eigen::Vector2f& at) const {
-    return ((at - corner_) / cell_m_).array().floor().cast<int>();
-  }
-  [[nodiscard]] std::size_t slot(const Eigen::Vector2i& cell) const {
-    return static_cast<std::size_t>(cell.y()) * static_cast<std::size_t>(size_.x()) +
-           static_cast<std::size_t>(cell.x());
-  }
-
-  Eigen::Matrix3f turn_;  // of the plan's frame against the map's
-  float cell_m_ = kColumn_m;
-  Eigen::Vector2f corner_ = Eigen::Vector2f::Zero();
-  Eigen::Vector2i size_ = Eigen::Vector2i::Ones();
+  ColumnGrid grid_{.cell_m = kColumn_m};
   std::vector<Column> columns_;
   std::vector<std::size_t> starts_;  // of each column's heights, and the end
   std::vector<Height> heights_;

@@ -90,6 +90,7 @@ class Sky {
     cell_m_ = std::max(kSame_m, (high - low_).maxCoeff() / kMostCells);
     size_ = ((high - low_) / cell_m_).array().floor().cast<int>() + 2;
     cells_.resize(static_cast<std::size_t>(size_.x()) * static_cast<std::size_t>(size_.y()));
+    taken_.resize(cells_.size());
     for (std::size_t i = 0; i < all.size(); ++i) enter(i);
   }
 
@@ -99,7 +100,9 @@ class Sky {
     const Eigen::Vector2f at = pose * b.at, cell = (at - low_) / cell_m_;
     std::pair<const Landmark*, float> best{nullptr, 0};
     if (!(cell.minCoeff() >= 0 && cell.x() < float(size_.x()) && cell.y() < float(size_.y()))) return best;
-    for (const std::size_t i : cells_[slot(cell.cast<int>())]) {
+    const std::size_t here = slot(cell.cast<int>());
+    if (!taken_[here]) return best;  // a bit of each cell stays in the processor's cache
+    for (const std::size_t i : cells_[here]) {
       const float near = 1 - (all_[i].at - at).norm() / kSame_m;
       if (near > best.second && alike(all_[i], b, pose)) best = {&all_[i], near};
     }
@@ -117,8 +120,11 @@ class Sky {
   void enter(std::size_t i) {
     const Eigen::Vector2i home = ((all_[i].at - low_) / cell_m_).cast<int>();
     for (int y = std::max(0, home.y() - 1); y <= std::min(size_.y() - 1, home.y() + 1); ++y)
-      for (int x = std::max(0, home.x() - 1); x <= std::min(size_.x() - 1, home.x() + 1); ++x)
-        cells_[slot({x, y})].push_back(i);
+      for (int x = std::max(0, home.x() - 1); x <= std::min(size_.x() - 1, home.x() + 1); ++x) enter(i, slot({x, y}));
+  }
+  void enter(std::size_t i, std::size_t cell) {
+    cells_[cell].push_back(i);
+    taken_[cell] = true;
   }
 
   std::span<const Landmark> all_;
@@ -126,6 +132,7 @@ class Sky {
   float cell_m_ = kSame_m;
   Eigen::Vector2i size_ = Eigen::Vector2i::Zero();
   std::vector<std::vector<std::size_t>> cells_;
+  std::vector<bool> taken_;  // cells that are not empty
 };
 
 float score(const Sky& a, std::span<const Landmark> b, const PlanPose& pose) {

@@ -133,6 +133,17 @@ ComplexImage correlation(const Drawing& a, const Drawing& b) {
   return agree;
 }
 
+/// The same of the plan turned by half a circle about the first pixel: its image backwards.
+Drawing half_turned(const Drawing& d) {
+  Drawing out = d;
+  out.walls.im = -d.walls.im;
+  out.room.im = -d.room.im;
+  const ComplexImage m = mirrored(d.facing);
+  out.facing.re = -m.re;  // what faced ahead faces back
+  out.facing.im = m.im;
+  return out;
+}
+
 struct Peak {
   float score;
   int x, y;
@@ -157,38 +168,78 @@ std::vector<Peak> peaks_of(const ComplexImage::Plane& image, std::size_t most) {
   return best;
 }
 
+/// The sweep over headings of one pair of plans. Each heading of b is drawn together with the opposite one.
+class Sweep {
+ public:
+  Sweep(const PlanView& a, const PlanView& b, const GlobalSearchConfig& config)
+      : a_(a),
+        b_(b),
+        config_(config),
+        canvas_(canvas_of(a, b, config.pixel_m)),
+        reach_px_(static_cast<int>(std::ceil(b.radius() / canvas_.pixel_m))),
+        of_a_(draw(a, canvas_, Eigen::Rotation2Df(0), Eigen::Vector2f::Zero(), a.low())) {}
+
+  /// Tries heading k and the opposite one.
+  void look(int k, Budget& budget) {
+    if (!budget.one_more()) return;
+    const double yaw = 2 * M_PI * k / config_.headings;
+    const Eigen::Vector2f corner = Eigen::Vector2f::Constant(-canvas_.pixel_m * static_cast<float>(reach_px_));
+    const Drawing ahead = draw(b_, canvas_, Eigen::Rotation2Df(static_cast<float>(yaw)), b_.middle(), corner);
+    note(ahead, yaw, 0);
+    // b's middle is at pixel 1 + reach, and so as far before the first pixel.
+    if (budget.one_more()) note(half_turned(ahead), yaw + M_PI, 2 * (1 + reach_px_));
+  }
+
+  /// Best first, in turn by each weight of free space.
+  [[nodiscard]] std::vector<Placement> placements() {
+    for (auto& of_weight : found_)
+      of_weight = different_places(std::move(of_weight), config_.placements / found_.size());
+    std::vector<Placement> all;
+    for (std::size_t i = 0; i < config_.placements; ++i)
+      for (const auto& of_weight : found_)
+        if (i < of_weight.size()) all.push_back(of_weight[i]);
+    return all;
+  }
+
+ private:
+  /// The peaks of one heading, whose drawing lies `behind_px` before its place.
+  void note(const Drawing& of_b, double yaw, int behind_px) {
+    ComplexImage c = correlation(of_a_, of_b);
+    inverse_fourier(c);
+    for (std::size_t w = 0; w < found_.size(); ++w)
+      for (const Peak& p : peaks_of(c.re - config_.room_weights[w] * c.im, config_.peaks_per_heading))
+        found_[w].push_back({.yaw_rad = yaw,
+                             .x_m = metres(p.x - behind_px, a_.low().x()),
+                             .y_m = metres(p.y - behind_px, a_.low().y()),
+                             .score = p.score});
+  }
+
+  /// Where a shift of b takes its middle, along one axis.
+  [[nodiscard]] double metres(int shift, float low) const {
+    const int furthest = static_cast<int>((a_.high() - a_.low()).maxCoeff() / canvas_.pixel_m) + 2;
+    const int wrapped = (shift % canvas_.edge + canvas_.edge) % canvas_.edge;
+    const int to = wrapped > furthest ? wrapped - canvas_.edge : wrapped;
+    return static_cast<double>(low + canvas_.pixel_m * static_cast<float>(reach_px_ + to));
+  }
+
+  const PlanView &a_, &b_;
+  const GlobalSearchConfig& config_;
+  Canvas canvas_;
+  int reach_px_;  // from b's middle to its farthest wall
+  Drawing of_a_;
+  std::array<std::vector<Placement>, std::tuple_size_v<decltype(GlobalSearchConfig::room_weights)>> found_;
+};
+
 }  // namespace
 
 std::vector<Placement> sweep(const PlanView& a, const PlanView& b, const GlobalSearchConfig& config, Budget& budget) {
-  const Canvas canvas = canvas_of(a, b, config.pixel_m);
-  const Eigen::Vector2f corner_b = Eigen::Vector2f::Constant(-b.radius());
-  const Drawing of_a = draw(a, canvas, Eigen::Rotation2Df(0), Eigen::Vector2f::Zero(), a.low());
   const std::vector<double> alike = agreement(a, b, static_cast<std::size_t>(config.headings));
   const double least = config.least_agreement * *std::max_element(alike.begin(), alike.end());
-  std::array<std::vector<Placement>, std::tuple_size_v<decltype(config.room_weights)>> found;
-  for (int k = 0; k < config.headings; ++k) {
-    if (alike[static_cast<std::size_t>(k)] < least) continue;
-    if (!budget.one_more()) break;
-    const double yaw = 2 * M_PI * k / config.headings;
-    ComplexImage c =
-        correlation(of_a, draw(b, canvas, Eigen::Rotation2Df(static_cast<float>(yaw)), b.middle(), corner_b));
-    inverse_fourier(c);
-    const int furthest = static_cast<int>((a.high() - a.low()).maxCoeff() / canvas.pixel_m) + 2;
-    const auto metres = [&](int shift, float low) {
-      const int wrapped = shift > furthest ? shift - canvas.edge : shift;
-      return static_cast<double>(low + b.radius() + canvas.pixel_m * static_cast<float>(wrapped));
-    };
-    for (std::size_t w = 0; w < found.size(); ++w)
-      for (const Peak& p : peaks_of(c.re - config.room_weights[w] * c.im, config.peaks_per_heading))
-        found[w].push_back(
-            {.yaw_rad = yaw, .x_m = metres(p.x, a.low().x()), .y_m = metres(p.y, a.low().y()), .score = p.score});
-  }
-  for (auto& of_weight : found) of_weight = different_places(std::move(of_weight), config.placements / found.size());
-  std::vector<Placement> all;
-  for (std::size_t i = 0; i < config.placements; ++i)
-    for (const auto& of_weight : found)
-      if (i < of_weight.size()) all.push_back(of_weight[i]);
-  return all;
+  Sweep all(a, b, config);
+  // Directions of walls are the same for opposite headings.
+  for (int k = 0; k < config.headings / 2; ++k)
+    if (alike[static_cast<std::size_t>(k)] >= least) all.look(k, budget);
+  return all.placements();
 }
 
 }  // namespace cairn::matching

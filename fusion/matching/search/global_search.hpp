@@ -17,7 +17,7 @@ namespace cairn::matching {
 /// the truth: a wider search would not have helped.
 struct GlobalSearchConfig {
   ConstellationConfig constellations;
-  /// Headings over the full circle, a divisor of 360: 120 are steps of 3°. A prototype with steps
+  /// Headings over the full circle, an even divisor of 360: 120 are steps of 3°. A prototype with steps
   /// of 2° and finer pixels took twice the time and found 3 % more, which is within chance.
   int headings = 120;
   float pixel_m = 0.4F;  ///< edge of the finest pixel, m: a column of PlanView

@@ -3,8 +3,10 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <limits>
 #include <random>
+#include <vector>
 
 namespace cairn::matching {
 namespace {
@@ -60,6 +62,23 @@ TEST(NearestGrid, IsExactAtTheCentresOfCells) {
         EXPECT_NEAR((surfels[static_cast<std::size_t>(k)].point - centre).norm(), nearest, 1e-5F);
       }
   EXPECT_GT(found, 1000);
+}
+
+// Bricks are filled when they are first asked for.
+TEST(NearestGrid, AnswersDoNotDependOnTheOrderOfQuestions) {
+  const auto surfels = random_surfels(2000, 4);
+  const NearestGrid forwards(surfels, 0.2F, 0.8F), backwards(surfels, 0.2F, 0.8F);
+  std::mt19937 random(6);
+  std::uniform_real_distribution<float> at(-5, 5);
+  std::vector<Eigen::Vector3f> questions(3000);
+  for (Eigen::Vector3f& q : questions) q = {at(random), at(random), at(random)};
+  std::vector<int> answers, others;
+  for (const Eigen::Vector3f& q : questions) answers.push_back(forwards.nearest(q, 0.7F));
+  std::ranges::reverse(questions);
+  for (const Eigen::Vector3f& q : questions) others.push_back(backwards.nearest(q, 0.7F));
+  std::ranges::reverse(others);
+  EXPECT_EQ(answers, others);
+  EXPECT_GT(std::ranges::count_if(answers, [](int i) { return i != NearestGrid::kNone; }), 1000);
 }
 
 TEST(NearestGrid, OfEquallyNearSurfelsTheFirstIsHeld) {

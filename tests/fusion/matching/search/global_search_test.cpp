@@ -3,11 +3,13 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "fusion/matching/evidence/judge.hpp"
+#include "fusion/matching/features/levelling.hpp"
 #include "fusion/matching/features/sample.hpp"
 #include "fusion/matching/matcher.hpp"
 #include "fusion/matching/search/stand_up.hpp"
@@ -67,6 +69,25 @@ TEST_F(OfOffice, APlacementIsFoundAtAnyHeight) {
     const auto poses = stand_up({&truth, 1}, of_a, of_b, voters);
     ASSERT_FALSE(poses.empty());
     EXPECT_NEAR(poses.front().translation().z(), pair->T_a_b.translation().z() - static_cast<double>(up_m), 0.15);
+  }
+}
+
+// The opposite of a heading is made of the same drawing, backwards.
+TEST_F(OfOffice, APlanTurnedByHalfACircleIsFoundAtTheSamePlaces) {
+  const SE3 half_turn(Eigen::Vector3d(-1, -1, 1).asDiagonal(), Eigen::Vector3d::Zero());
+  const auto turned_b = turned(b->surfels, half_turn);
+  const PlanView of_a(a->surfels, *pair->a), of_b(b->surfels, *pair->b), of_turned(turned_b, *pair->b, half_turn);
+  Budget budget = Budget::steps(kAmpleSteps);
+  const auto placements = sweep(of_a, of_b, {}, budget), others = sweep(of_a, of_turned, {}, budget);
+  constexpr std::size_t kFirst = 4;  // whose columns fall differently, but who are far ahead of the rest
+  ASSERT_GT(placements.size(), kFirst);
+  const auto first_others = std::span(others).first(20);
+  for (std::size_t i = 0; i < kFirst; ++i) {
+    const Placement& p = placements[i];
+    const auto same = [&](const Placement& q) {
+      return std::hypot(p.x_m - q.x_m, p.y_m - q.y_m) < 0.8 && std::cos(p.yaw_rad - q.yaw_rad) < -0.99;
+    };
+    EXPECT_TRUE(std::ranges::any_of(first_others, same)) << i << ": " << p.x_m << " " << p.y_m << " " << p.yaw_rad;
   }
 }
 
