@@ -94,7 +94,7 @@ NearestGrid::NearestGrid(std::span<const Surfel> surfels, float cell_m, float re
   std::vector<Home> homes;
   settle(homes);
   reach_out(homes);
-  cells_of_.assign(index_.size(), kNone);
+  cells_of_.assign(index_.size(), -kFewQuestions);
 }
 
 Eigen::Vector3i NearestGrid::brick_around(const Eigen::Vector3f& point) const {
@@ -123,10 +123,14 @@ void NearestGrid::settle(std::vector<Home>& homes) {
     if (home != kNone) ++first_[static_cast<std::size_t>(home) + 1];
   for (std::size_t i = 1; i < first_.size(); ++i) first_[i] += first_[i - 1];
   settled_.resize(static_cast<std::size_t>(first_.back()));
+  points_.resize(settled_.size());
   std::vector<int> next(first_.begin(), first_.end() - 1);
-  for (std::size_t i = 0; i < surfels_.size(); ++i)
-    if (home_of[i] != kNone)
-      settled_[static_cast<std::size_t>(next[static_cast<std::size_t>(home_of[i])]++)] = static_cast<int>(i);
+  for (std::size_t i = 0; i < surfels_.size(); ++i) {
+    if (home_of[i] == kNone) continue;
+    const auto at = static_cast<std::size_t>(next[static_cast<std::size_t>(home_of[i])]++);
+    settled_[at] = static_cast<int>(i);
+    points_[at] = surfels_[i].point;
+  }
 }
 
 /// Enters the bricks that hold no surfel, but lie within reach of one.
@@ -137,36 +141,65 @@ void NearestGrid::reach_out(const std::vector<Home>& homes) {
             [&](const Eigen::Vector3i& place) { (void)number_of(place); });
 }
 
+/// Visits the surfels of the bricks that a box meets, brick by brick, as places in settled_.
+template <class Visit>
+void NearestGrid::for_surfels(const Eigen::AlignedBox3f& box, const Visit& visit) const {
+  for_all(brick_around(box.min()), brick_around(box.max()), [&](const Eigen::Vector3i& place) {
+    const int i = index_.find(place);
+    if (i == kNone || static_cast<std::size_t>(i) + 1 >= first_.size()) return;
+    const auto at = static_cast<std::size_t>(i);
+    for (auto k = static_cast<std::size_t>(first_[at]); k < static_cast<std::size_t>(first_[at + 1]); ++k) visit(k);
+  });
+}
+
 /// The surfels within reach of a brick's cells, in order. Some are a little farther.
 std::vector<int> NearestGrid::surfels_near(const Eigen::Vector3i& place) const {
   const float edge_m = static_cast<float>(kEdge) * cell_m_;
   const Eigen::Vector3f low = edge_m * place.cast<float>(), reach = Eigen::Vector3f::Constant(reach_m_);
   const Eigen::AlignedBox3f box(low, low + Eigen::Vector3f::Constant(edge_m));
   std::vector<int> all;
-  for_all(brick_around(box.min() - reach), brick_around(box.max() + reach), [&](const Eigen::Vector3i& beside) {
-    const int i = index_.find(beside);
-    if (i == kNone || static_cast<std::size_t>(i) + 1 >= first_.size()) return;
-    const auto at = static_cast<std::size_t>(i);
-    for (int k = first_[at]; k < first_[at + 1]; ++k) {
-      const int surfel = settled_[static_cast<std::size_t>(k)];
-      if (box.squaredExteriorDistance(surfels_[static_cast<std::size_t>(surfel)].point) < reach_m_ * reach_m_)
-        all.push_back(surfel);
-    }
+  for_surfels({box.min() - reach, box.max() + reach}, [&](std::size_t k) {
+    if (box.squaredExteriorDistance(points_[k]) < reach_m_ * reach_m_) all.push_back(settled_[k]);
   });
   std::sort(all.begin(), all.end());
   return all;
 }
 
-const NearestGrid::Brick& NearestGrid::filled(std::size_t i, const Eigen::Vector3i& place) const {
-  if (cells_of_[i] == kNone) {
-    if (count_ % kChunk == 0) chunks_.push_back(std::make_unique_for_overwrite<Chunk>());
-    cells_of_[i] = static_cast<int>(count_++);
-    Filling filling((*chunks_.back())[static_cast<std::size_t>(cells_of_[i]) % kChunk], place, cell_m_, reach_m_);
-    for (const int surfel : surfels_near(place))
-      filling.offer(surfel, surfels_[static_cast<std::size_t>(surfel)].point);
+/// What a filled brick holds in this cell.
+int NearestGrid::look_for(const Eigen::Vector3i& cell) const {
+  const Eigen::Vector3f centre = (cell.cast<float>().array() + 0.5F) * cell_m_;
+  // A little farther, as for a brick, where half a cell lies between its face and the next centre.
+  const Eigen::Vector3f reach = Eigen::Vector3f::Constant(reach_m_ + 0.5F * cell_m_);
+  int nearest = kNone;
+  float nearest_m2 = reach_m_ * reach_m_;
+  for_surfels({centre - reach, centre + reach}, [&](std::size_t k) {
+    const Eigen::Vector3f off = points_[k] - centre;
+    const float squared_m = off.x() * off.x() + off.y() * off.y() + off.z() * off.z();
+    const bool first = squared_m == nearest_m2 && settled_[k] < nearest;
+    if (squared_m >= nearest_m2 && !first) return;
+    nearest = settled_[k];
+    nearest_m2 = squared_m;
+  });
+  return nearest;
+}
+
+void NearestGrid::fill(std::size_t i, const Eigen::Vector3i& place) const {
+  if (count_ % kChunk == 0) chunks_.push_back(std::make_unique_for_overwrite<Chunk>());
+  Filling filling((*chunks_.back())[count_ % kChunk], place, cell_m_, reach_m_);
+  for (const int surfel : surfels_near(place)) filling.offer(surfel, surfels_[static_cast<std::size_t>(surfel)].point);
+  cells_of_[i] = static_cast<int>(count_++);
+}
+
+/// The surfel that a cell of brick `i` knows.
+int NearestGrid::nearest_to_centre(std::size_t i, const Eigen::Vector3i& cell) const {
+  constexpr int kLastQuestion = -1;
+  int& at = cells_of_[i];
+  if (at < kLastQuestion) {
+    ++at;
+    return look_for(cell);
   }
-  const auto at = static_cast<std::size_t>(cells_of_[i]);
-  return (*chunks_[at / kChunk])[at % kChunk];
+  if (at == kLastQuestion) fill(i, brick_of(cell, kBits));
+  return (*chunks_[static_cast<std::size_t>(at) / kChunk])[static_cast<std::size_t>(at) % kChunk][slot(cell)];
 }
 
 std::size_t NearestGrid::slot(const Eigen::Vector3i& cell) {
@@ -178,10 +211,9 @@ int NearestGrid::nearest(const Eigen::Vector3f& point, float gate_m) const {
   const Eigen::Vector3f scaled = point * inverse_cell_;
   if (!(scaled.cwiseAbs().maxCoeff() < kMaxCell) || scaled.hasNaN()) return kNone;
   const Eigen::Vector3i cell = scaled.array().floor().cast<int>();
-  const Eigen::Vector3i place = brick_of(cell, kBits);
-  const int at = index_.find(place);
+  const int at = index_.find(brick_of(cell, kBits));
   if (at == CellIndex::kNone) return kNone;
-  const int i = filled(static_cast<std::size_t>(at), place)[slot(cell)];
+  const int i = nearest_to_centre(static_cast<std::size_t>(at), cell);
   if (i == kNone || (surfels_[static_cast<std::size_t>(i)].point - point).squaredNorm() >= gate_m * gate_m)
     return kNone;
   return i;

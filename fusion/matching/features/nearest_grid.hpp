@@ -17,14 +17,17 @@ namespace cairn::matching {
 /// a surface keeps the surfel nearest to its centre, or the first of them. Memory grows with the
 /// surface, not with the volume, because cells are kept in bricks of 8³.
 ///
-/// A brick is filled when somebody first asks for a place in it. Most comparisons of two maps look
-/// at a small part of either. So one grid is for one thread at a time, although nearest() is const.
+/// A brick is filled once somebody has asked for kFewQuestions places in it. Until then each answer
+/// is looked for among the surfels around. Most comparisons of two maps look at a small part of
+/// either more than once. So one grid is for one thread at a time, although nearest() is const.
 class NearestGrid {
  public:
   static constexpr int kNone = -1;
   /// Bricks, at most: 400 MB if all of them are asked for. A bound on memory. In a larger map some surfels are not
   /// found.
   static constexpr std::size_t kMostBricks = 200'000;
+  /// Answers that take about as long as to fill a brick. It changes no answer.
+  static constexpr int kFewQuestions = 48;
 
   /// A cell knows surfels up to `reach_m` away from its centre. `surfels` must outlive the grid.
   NearestGrid(std::span<const Surfel> surfels, float cell_m, float reach_m);
@@ -52,16 +55,22 @@ class NearestGrid {
   [[nodiscard]] int number_of(const Eigen::Vector3i& place);
   void settle(std::vector<Home>& homes);
   void reach_out(const std::vector<Home>& homes);
+  template <class Visit>
+  void for_surfels(const Eigen::AlignedBox3f& box, const Visit& visit) const;
   [[nodiscard]] std::vector<int> surfels_near(const Eigen::Vector3i& place) const;
-  [[nodiscard]] const Brick& filled(std::size_t i, const Eigen::Vector3i& place) const;
+  [[nodiscard]] int nearest_to_centre(std::size_t i, const Eigen::Vector3i& cell) const;
+  [[nodiscard]] int look_for(const Eigen::Vector3i& cell) const;
+  void fill(std::size_t i, const Eigen::Vector3i& place) const;
   [[nodiscard]] static std::size_t slot(const Eigen::Vector3i& cell);
 
   std::span<const Surfel> surfels_;
   float cell_m_, inverse_cell_, reach_m_;
-  CellIndex index_;                    // of all bricks within reach of a surfel; those with surfels first
-  std::vector<int> first_;             // where a brick's surfels begin in settled_, and the end
-  std::vector<int> settled_;           // surfels by brick
-  mutable std::vector<int> cells_of_;  // where a brick's cells are in chunks_; kNone: not yet filled
+  CellIndex index_;                      // of all bricks within reach of a surfel; those with surfels first
+  std::vector<int> first_;               // where a brick's surfels begin in settled_, and the end
+  std::vector<int> settled_;             // surfels by brick
+  std::vector<Eigen::Vector3f> points_;  // theirs, in the same order
+  // Where a brick's cells are in chunks_. Negative: the questions that are left until it is filled.
+  mutable std::vector<int> cells_of_;
   mutable std::vector<std::unique_ptr<Chunk>> chunks_;
   mutable std::size_t count_ = 0;  // of filled bricks
 };
