@@ -136,7 +136,7 @@ function(cairn_precompile target kind)
 endfunction()
 
 # What is tested is optimised; optimising (and, for the fuzzer, counting) the tests themselves would take half of the whole
-# build's time. Without any optimisation the linker would take slow copies of what both have inline, unless the libraries
+# build's time. What tests spend their own time with is in libraries of tests/support. Without any optimisation the linker would take slow copies of what both have inline, unless the libraries
 # come first: mold takes the first copy, and finds what it needs in any order. clang with the sanitisers then needs 40 % of
 # the time; g++ gains nothing.
 function(cairn_compile_as_test target)
@@ -208,7 +208,7 @@ function(cairn_test name)
   cmake_parse_arguments(A "" "" "SOURCES;LINK" ${ARGN})
   cairn_compile_allocators_alone(${A_SOURCES})
   add_executable(test_${name} ${A_SOURCES})
-  target_link_libraries(test_${name} PRIVATE cairn_flags cairn_places ${A_LINK})
+  target_link_libraries(test_${name} PRIVATE cairn_flags cairn_places cairn_test_worlds ${A_LINK})
   cairn_compile_as_test(test_${name})
   cairn_unite(test_${name} 40)
   cairn_precompile(test_${name} test)
@@ -256,7 +256,7 @@ function(cairn_bench name)
   cmake_parse_arguments(A "" "" "SOURCES;LINK" ${ARGN})
   cairn_compile_allocators_alone(${A_SOURCES})
   add_executable(bench_${name} ${A_SOURCES})
-  target_link_libraries(bench_${name} PRIVATE cairn_flags cairn_places ${A_LINK} benchmark::benchmark)
+  target_link_libraries(bench_${name} PRIVATE cairn_flags cairn_places cairn_test_worlds ${A_LINK} benchmark::benchmark)
   add_dependencies(benchmarks bench_${name})
 endfunction()
 
@@ -266,6 +266,6 @@ add_custom_target(quality)
 function(cairn_quality name)
   cmake_parse_arguments(A "" "" "SOURCES;LINK" ${ARGN})
   add_executable(${name} ${A_SOURCES})
-  target_link_libraries(${name} PRIVATE cairn_flags cairn_places ${A_LINK})
+  target_link_libraries(${name} PRIVATE cairn_flags cairn_places cairn_test_worlds ${A_LINK})
   add_dependencies(quality ${name})
 endfunction()
