@@ -136,9 +136,9 @@ function(cairn_precompile target kind)
 endfunction()
 
 # What is tested is optimised; optimising (and, for the fuzzer, counting) the tests themselves would take half of the whole
-# build's time. What tests spend their own time with is in libraries of tests/support. Without any optimisation the linker would take slow copies of what both have inline, unless the libraries
-# come first: mold takes the first copy, and finds what it needs in any order. clang with the sanitisers then needs 40 % of
-# the time; g++ gains nothing.
+# build's time. What tests spend their own time with is in libraries of tests/support. Without any optimisation the linker
+# would take slow copies of what both have inline, unless the libraries come first: mold takes the first copy, and finds
+# what it needs in any order. clang with the sanitisers then needs 40 % of the time; g++ gains nothing.
 function(cairn_compile_as_test target)
   target_link_libraries(${target} PRIVATE GTest::gmock GTest::gtest_main)
   set(level -O1)
