@@ -145,7 +145,8 @@ TEST(ReportJson, OfAMeasuredTaskEveryFigureIsANumber) {
   EXPECT_EQ(parsed(report)["tasks"]["safety"]["missed"], 0);
   EXPECT_TRUE(parsed(report)["tasks"]["safety"]["allocations"].is_null()) << "the warm-up is not over";
   task.stats.warm_ticks = 1;
-  for (const auto& [name, value] : parsed(report)["tasks"]["safety"].items()) EXPECT_TRUE(value.is_number()) << name;
+  const auto figures = parsed(report)["tasks"]["safety"];
+  for (const auto& [name, value] : figures.items()) EXPECT_TRUE(value.is_number()) << name;
 }
 
 TEST(ReportJson, SaysWhatEachDeviceLost) {
