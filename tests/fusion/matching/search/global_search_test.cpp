@@ -82,7 +82,7 @@ TEST_F(OfOffice, APlanTurnedByHalfACircleIsFoundAtTheSamePlaces) {
   config.room_weights.fill(3);  // so that walls in the other map's room decide
   const auto placements = sweep(of_a, of_b, config, budget), others = sweep(of_a, of_turned, config, budget);
   constexpr std::size_t kFirst = 3;  // whose columns fall differently, but who are far ahead of the rest
-  ASSERT_GT(placements.size(), kFirst);
+  ASSERT_GT(std::min(placements.size(), others.size()), 20U);
   const auto first_others = std::span(others).first(20);
   for (std::size_t i = 0; i < kFirst; ++i) {
     const Placement& p = placements[i];
