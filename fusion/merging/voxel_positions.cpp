@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "onboard/mapping/files/point_file.hpp"
+#include "onboard/mapping/tree/key_at.hpp"
 
 namespace cairn::merging {
 namespace {
@@ -25,11 +26,10 @@ class Witness {
   [[nodiscard]] std::optional<Position> of(const Eigen::Vector3d& centre) const {
     const mapping::SemanticOcTree& map = *placed_.map;
     const Eigen::Vector3d here = T_map_fused_ * centre;
-    octomap::OcTreeKey key;
-    if (!map.coordToKeyChecked(here.x(), here.y(), here.z(), key)) return std::nullopt;
-    const mapping::SemanticNode* voxel = map.search(key);
+    const auto key = mapping::key_at(map, here);
+    const mapping::SemanticNode* voxel = key ? map.search(*key) : nullptr;
     if (voxel == nullptr || !map.isNodeOccupied(voxel)) return std::nullopt;
-    const Position own{centre_of(map, key), voxel_covariance(voxel->getOccupancy(), map.getResolution())};
+    const Position own{centre_of(map, *key), voxel_covariance(voxel->getOccupancy(), map.getResolution())};
     return moved(placed_.T_fused_map, own);
   }
 

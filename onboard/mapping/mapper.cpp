@@ -7,6 +7,7 @@
 #include <string>
 #include <utility>
 
+#include "onboard/mapping/tree/key_at.hpp"
 #include "onboard/mapping/tree/tile_state.hpp"
 
 namespace cairn::mapping {
@@ -133,11 +134,8 @@ Result<void> Mapper::fill(std::span<const TileKey> tiles, const SemanticOcTree& 
 }
 
 Standing Mapper::standing(const Eigen::Vector3f& p) const {
-  octomap::OcTreeKey key;
-  const auto farthest = static_cast<float>(config_.resolution_m * (1U << (SemanticOcTree::kDepth - 1)));
-  if (!(p.array().abs() < farthest).all() || !tree_->coordToKeyChecked(p.x(), p.y(), p.z(), key))
-    return Standing::kUnknown;
-  const SemanticNode* node = tree_->search(key);
+  const auto key = key_at(*tree_, p.cast<double>());
+  const SemanticNode* node = key ? tree_->search(*key) : nullptr;
   if (node == nullptr) return Standing::kUnknown;
   const SensorModel model = tree_->sensor_model();
   const float known = node->getLogOdds() - model.occupied;

@@ -11,6 +11,7 @@
 
 #include "hal/files/file.hpp"
 #include "onboard/mapping/files/map_file.hpp"
+#include "onboard/mapping/tree/key_at.hpp"
 #include "onboard/mapping/tree/label_evidence.hpp"
 #include "tools/python/arrays.hpp"
 #include "tools/python/map.hpp"
@@ -96,10 +97,9 @@ py::array_t<T> look_up(const Map& map, const Points& points, T unknown, const Va
   const auto at = points.unchecked<2>();
   std::vector<T> values(static_cast<std::size_t>(at.shape(0)), unknown);
   for (py::ssize_t i = 0; i < at.shape(0); ++i) {
-    octomap::OcTreeKey key;
-    if (!std::isfinite(at(i, 0) + at(i, 1) + at(i, 2))) continue;
-    if (!map.tree->coordToKeyChecked(at(i, 0), at(i, 1), at(i, 2), key)) continue;
-    if (const SemanticNode* node = map.tree->search(key)) values[static_cast<std::size_t>(i)] = value(*node);
+    const auto key = mapping::key_at(*map.tree, {at(i, 0), at(i, 1), at(i, 2)});
+    if (!key) continue;
+    if (const SemanticNode* node = map.tree->search(*key)) values[static_cast<std::size_t>(i)] = value(*node);
   }
   return to_array(std::move(values));
 }

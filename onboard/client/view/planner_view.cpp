@@ -3,14 +3,10 @@
 
 #include <cmath>
 
+#include "onboard/mapping/tree/key_at.hpp"
+
 namespace cairn::client {
 namespace {
-
-std::optional<octomap::OcTreeKey> key_of(const mapping::SemanticOcTree& map, const Eigen::Vector3d& p) {
-  octomap::OcTreeKey key;
-  if (!p.allFinite() || !map.coordToKeyChecked(p.x(), p.y(), p.z(), key)) return std::nullopt;
-  return key;
-}
 
 Occupancy occupancy_in(const mapping::SemanticOcTree& map, const octomap::OcTreeKey& key) {
   const mapping::SemanticNode* node = map.search(key);
@@ -19,12 +15,12 @@ Occupancy occupancy_in(const mapping::SemanticOcTree& map, const octomap::OcTree
 }
 
 Occupancy occupancy_in(const mapping::SemanticOcTree& map, const Eigen::Vector3d& p) {
-  const auto key = key_of(map, p);
+  const auto key = mapping::key_at(map, p);
   return key ? occupancy_in(map, *key) : Occupancy::kUnknown;
 }
 
 Place place_in(const MapMirror& mirror, const Eigen::Vector3d& p, bool own) {
-  const auto key = key_of(mirror.map(), p);
+  const auto key = mapping::key_at(mirror.map(), p);
   if (!key) return {};
   Place place{.occupancy = occupancy_in(mirror.map(), *key), .own = own, .robots = {}, .changed = {}};
   if (place.occupancy == Occupancy::kUnknown) return {};

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/mapping/tree/occupied_walk.hpp"
 
+#include "onboard/mapping/tree/key_at.hpp"
+
 namespace cairn::mapping {
 
 std::uint64_t voxel_path(const octomap::OcTreeKey& key) {
@@ -14,13 +16,9 @@ std::uint64_t voxel_path(const octomap::OcTreeKey& key) {
 
 bool place_point(const SemanticOcTree& tree, const Eigen::Vector3f& point, std::uint32_t index,
                  std::vector<PlacedPoint>& placed) {
-  // OctoMap converts to int before it looks whether that is possible. NaN is not within, either.
-  const auto farthest = static_cast<float>(tree.getResolution() * (1U << (SemanticOcTree::kDepth - 1)));
-  octomap::OcTreeKey key;
-  if (!(point.array().abs() < farthest).all() || !tree.coordToKeyChecked(point.x(), point.y(), point.z(), key))
-    return false;
-  placed.push_back({voxel_path(key), index});
-  return true;
+  const auto key = key_at(tree, point.cast<double>());
+  if (key) placed.push_back({voxel_path(*key), index});
+  return key.has_value();
 }
 
 void sort_by_voxel(std::vector<PlacedPoint>& placed) {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "onboard/mapping/tree/key_at.hpp"
 #include "onboard/report/figures/map_error.hpp"
 
 namespace cairn::cli {
@@ -33,10 +34,9 @@ MoverTruth::MoverTruth(const mapping::SemanticOcTree& world, const SE3& T_world_
 void MoverTruth::count(const TrueScan& scan) {
   for (const TrueScan::Return& r : scan.returns) {
     if (max_range_m_ >= 0 && r.range_m > max_range_m_) continue;
-    octomap::OcTreeKey key;
-    const Eigen::Vector3f& p = r.point;
-    if (!world_.coordToKeyChecked(p.x(), p.y(), p.z(), key)) continue;
-    Seen& seen = voxels_[key];
+    const auto key = mapping::key_at(world_, r.point.cast<double>());
+    if (!key) continue;
+    Seen& seen = voxels_[*key];
     ++(r.class_id == kPersonId ? seen.people : seen.others);
   }
 }

@@ -117,11 +117,11 @@ TEST_F(DriveTaskTest, ACommandIsOnTheBusWithinTwoControlPeriods) {
       sent = sent || (order && std::abs(order->target_velocity - wanted) <= 2);
     };
     while (!sent && rig_.bus.now - asked < 1s) rig_.go(faults::CoreRig::kTick);
+    rig_.sees = nullptr;
     worst = std::max(worst, rig_.bus.now - asked);
     sum += rig_.bus.now - asked;
     rig_.commands.answers.clear();
   }
-  rig_.sees = nullptr;
   RecordProperty("worst_ms", std::to_string(1e3 * to_seconds(worst)));
   RecordProperty("mean_ms", std::to_string(1e3 * to_seconds(sum) / kCommands));
   EXPECT_LE(worst, 2 * kControl);
