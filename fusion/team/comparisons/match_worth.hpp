@@ -34,7 +34,7 @@ class MatchWorth {
   [[nodiscard]] double of(const MatchOutlook& outlook, Time now) const;
 
   void begin(const MatchOutlook& outlook, Time now);
-  /// `fruitful`: the comparison changed what is believed of the pair.
+  /// After begin(). `fruitful`: the comparison changed what is believed of the pair.
   void end(bool fruitful, Time now);
   /// When the last comparison began; Time::min() before the first.
   [[nodiscard]] Time last() const { return began_; }

@@ -22,6 +22,7 @@ class MatchResultsTest : public testing::Test {
   }
   ComparedPeer& peer() { return compared_.at(2, KnownTeam::kEpoch, KnownTeam::kEpoch); }
   MatchJob job_of_whole_maps() {
+    peer().worth.begin({}, now_);
     return {.peer = 2,
             .own_epoch = KnownTeam::kEpoch,
             .peer_epoch = KnownTeam::kEpoch,
