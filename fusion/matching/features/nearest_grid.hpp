@@ -26,7 +26,7 @@ class NearestGrid {
   /// Bricks, at most: 400 MB if all of them are asked for. A bound on memory. In a larger map some surfels are not
   /// found.
   static constexpr std::size_t kMostBricks = 200'000;
-  /// Answers that are looked for before a brick is filled. It changes no answer, only the time. Chosen by hand, not tuned.
+  /// Answers that are looked for before a brick is filled. They are the same. Chosen by hand, not tuned.
   static constexpr int kFewQuestions = 48;
 
   /// A cell knows surfels up to `reach_m` away from its centre. `surfels` must outlive the grid.
