@@ -147,6 +147,9 @@ void StreamsTask::close(const Clock& clock, const std::function<bool()>& rest) {
   Time last = clock.now();
   for (Time now = last; now - last < kPatience; now = clock.now()) {
     const bool handed_over = rest();
+    // Its pause may be longer than the patience.
+    own_.try_again(hub_);
+    team_.try_again(hub_);
     const std::size_t waiting = outlets_.own.tiles().size() + outlets_.team.tiles().size();
     if (serve(now) + waiting > 0) last = now;
     if (handed_over && all_served()) return;

@@ -53,7 +53,9 @@ class StreamsTask final : public scheduler::Task {
   /// After the run, in the place of ticks: `rest` hands the last tiles to the outlets, and says true when it has.
   /// Clients that read get all of them; who has not read for kPatience is left behind.
   void close(const Clock& clock, const std::function<bool()>& rest);
-  static constexpr Duration kPatience = std::chrono::milliseconds(200);
+  /// Shorter than the second after which systemd takes a core for hung, and long enough for a client that waits for its
+  /// turn on a busy machine.
+  static constexpr Duration kPatience = std::chrono::milliseconds(500);
 
  private:
   std::size_t serve(Time now);

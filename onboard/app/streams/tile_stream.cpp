@@ -71,6 +71,10 @@ std::size_t TileStream::serve(ClientHub& hub, Time now, std::size_t records) {
   return sent;
 }
 
+void TileStream::try_again(ClientHub& hub) const {
+  for (StreamClient& client : hub.clients()) cursor_of(client).retry = {};
+}
+
 /// One record. False: the client wants none, or cannot take it now.
 bool TileStream::serve_one(ClientHub& hub, StreamClient& client, Time now) {
   TileCursor& cursor = cursor_of(client);

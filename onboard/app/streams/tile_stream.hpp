@@ -27,6 +27,8 @@ class TileStream {
   /// Sends what clients lack while their sockets take it, in at most `records` records for all of them. Clients take
   /// turns. Returns how many were sent.
   std::size_t serve(ClientHub& hub, Time now, std::size_t records);
+  /// Clients that did not take a record are tried again at once.
+  void try_again(ClientHub& hub) const;
   /// Every client that wants the map has all of it.
   [[nodiscard]] bool all_caught_up(ClientHub& hub) const;
 

@@ -146,5 +146,31 @@ TEST_F(TileStreamTest, TheLastTilesComeBeforeTheEnd) {
   EXPECT_EQ(mirror.tiles(), 30U);
 }
 
+/// Each look at it takes a millisecond.
+class BusyClock final : public Clock {
+ public:
+  explicit BusyClock(Time begin) : now_(begin) {}
+  [[nodiscard]] Time now() const override { return now_ += milliseconds(1); }
+
+ private:
+  mutable Time now_;
+};
+
+/// While it did not read, its socket was tried less and less often.
+TEST_F(TileStreamTest, WhoReadsAgainAtTheEndGetsTheLastTilesToo) {
+  RobotStream tiles = connect(wanted({Stream::kOwnTiles}));
+  for (unsigned i = 0; i < 20; ++i) {
+    map(0, 1000 * i, 1000);
+    run(24);  // 120 ms
+  }
+  client::MapMirror mirror(TileMap::kOwn, 0.2);
+  task_.close(BusyClock(now_), [&] {
+    take_in(tiles, mirror);
+    return true;
+  });
+  take_in(tiles, mirror);
+  EXPECT_EQ(mirror.tiles(), 20'000U);
+}
+
 }  // namespace
 }  // namespace cairn::app
