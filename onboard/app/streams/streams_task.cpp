@@ -144,16 +144,16 @@ bool StreamsTask::all_served() {
 }
 
 void StreamsTask::close(const Clock& clock, const std::function<bool()>& rest) {
-  Time last = clock.now();
-  for (Time now = last; now - last < kPatience; now = clock.now()) {
+  for (int idle = 0; idle < kAttempts; ++idle) {
+    const Time now = clock.now();
     const bool handed_over = rest();
-    // Its pause may be longer than the patience.
+    // A client's pause may be longer than all attempts.
     own_.try_again(hub_);
     team_.try_again(hub_);
     const std::size_t waiting = outlets_.own.tiles().size() + outlets_.team.tiles().size();
-    if (serve(now) + waiting > 0) last = now;
+    if (serve(now) + waiting > 0) idle = 0;
     if (handed_over && all_served()) return;
-    LiveClock::wait_until(now + kClosingStep);
+    LiveClock::wait_until(clock.now() + kClosingStep);
   }
 }
 

@@ -51,11 +51,10 @@ class StreamsTask final : public scheduler::Task {
   void tick(scheduler::Tick& tick) override { serve(tick.release()); }
 
   /// After the run, in the place of ticks: `rest` hands the last tiles to the outlets, and says true when it has.
-  /// Clients that read get all of them; who has not read for kPatience is left behind.
+  /// Clients that read get all of them. A client that takes nothing in kAttempts is left behind. They are a millisecond
+  /// apart, and more on a busy machine, where a client waits for its turn as well.
   void close(const Clock& clock, const std::function<bool()>& rest);
-  /// Shorter than the second after which systemd takes a core for hung, and long enough for a client that waits for its
-  /// turn on a busy machine.
-  static constexpr Duration kPatience = std::chrono::milliseconds(500);
+  static constexpr int kAttempts = 500;
 
  private:
   std::size_t serve(Time now);

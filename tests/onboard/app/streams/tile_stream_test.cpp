@@ -146,31 +146,36 @@ TEST_F(TileStreamTest, TheLastTilesComeBeforeTheEnd) {
   EXPECT_EQ(mirror.tiles(), 30U);
 }
 
-/// Each look at it takes a millisecond.
+/// A look at it takes this long.
 class BusyClock final : public Clock {
  public:
-  explicit BusyClock(Time begin) : now_(begin) {}
-  [[nodiscard]] Time now() const override { return now_ += milliseconds(1); }
+  BusyClock(Time begin, Duration look) : now_(begin), look_(look) {}
+  [[nodiscard]] Time now() const override { return now_ += look_; }
 
  private:
   mutable Time now_;
+  Duration look_;
 };
 
-/// While it did not read, its socket was tried less and less often.
-TEST_F(TileStreamTest, WhoReadsAgainAtTheEndGetsTheLastTilesToo) {
+/// A client has not read for two seconds, so that its socket is tried less and less often. Then it reads.
+class TileStreamsEnd : public TileStreamTest, public ::testing::WithParamInterface<Duration> {};
+
+TEST_P(TileStreamsEnd, AReaderGetsAll) {
   RobotStream tiles = connect(wanted({Stream::kOwnTiles}));
   for (unsigned i = 0; i < 20; ++i) {
     map(0, 1000 * i, 1000);
     run(24);  // 120 ms
   }
   client::MapMirror mirror(TileMap::kOwn, 0.2);
-  task_.close(BusyClock(now_), [&] {
+  task_.close(BusyClock(now_, GetParam()), [&] {
     take_in(tiles, mirror);
     return true;
   });
   take_in(tiles, mirror);
   EXPECT_EQ(mirror.tiles(), 20'000U);
 }
+
+INSTANTIATE_TEST_SUITE_P(Busy, TileStreamsEnd, ::testing::Values(milliseconds(1), std::chrono::seconds(1)));
 
 }  // namespace
 }  // namespace cairn::app
