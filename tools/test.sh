@@ -38,7 +38,7 @@ case ${1:-} in
     # starts no second program. It emulates each floating-point operation, 50 to 100 times as slow: whole drives would take
     # hours. same_bits.sh compares what a whole robot computes.
     preset=aarch64 groups=(build cross)
-    hours='GrowingMatch|TeamDeployment|CameraFaults|MountWatchTest|GarbageTest|KillCampaign|Campaign'
+    hours='GrowingMatch|TeamDeployment|CameraFaults|MountTaskTest|MountWatchTest|GarbageTest|KillCampaign|Campaign'
     select=(-E "/(UdpSourceTest|RecordCommand|$hours)\.|/UnixCanLinkTest\.FramesCrossBothWays|^peer_process/")
     shift
     ;;

@@ -175,7 +175,8 @@ TEST_P(TileStreamsEnd, AReaderGetsAll) {
   EXPECT_EQ(mirror.tiles(), 20'000U);
 }
 
-INSTANTIATE_TEST_SUITE_P(Busy, TileStreamsEnd, ::testing::Values(milliseconds(1), std::chrono::seconds(1)));
+INSTANTIATE_TEST_SUITE_P(Busy, TileStreamsEnd,
+                         ::testing::Values(std::chrono::milliseconds(1), std::chrono::seconds(1)));
 
 }  // namespace
 }  // namespace cairn::app
