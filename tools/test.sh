@@ -35,8 +35,8 @@ case ${1:-} in
     ;;
   --cross)
     # qemu-user knows neither the kernel's receive stamps nor its drop counts, without which no UDP port is opened. It
-    # starts no second program. It emulates each floating-point operation, 50 to 100 times as slow: whole drives would take
-    # hours. same_bits.sh compares what a whole robot computes.
+    # starts no second program. It emulates each floating-point operation, 50 to 100 times as slow: whole drives would
+    # take hours. same_bits.sh compares what a whole robot computes.
     preset=aarch64 groups=(build cross)
     hours='GrowingMatch|TeamDeployment|CameraFaults|MountTaskTest|MountWatchTest|GarbageTest|KillCampaign|Campaign'
     select=(-E "/(UdpSourceTest|RecordCommand|$hours)\.|/UnixCanLinkTest\.FramesCrossBothWays|^peer_process/")
