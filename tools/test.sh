@@ -35,7 +35,7 @@ case ${1:-} in
     ;;
   --cross)
     # qemu-user knows neither the kernel's receive stamps nor its drop counts, without which no UDP port is opened. It
-    # starts no second program. It emulates each floating-point operation, 50 to 100 times as slow: whole drives would
+    # starts no second program. It emulates each floating-point operation, up to 100 times as slow: whole drives would
     # take hours. same_bits.sh compares what a whole robot computes.
     preset=aarch64 groups=(build cross)
     hours='GrowingMatch|TeamDeployment|CameraFaults|MountTaskTest|MountWatchTest|GarbageTest|KillCampaign|Campaign'
