@@ -144,7 +144,7 @@ bool StreamsTask::all_served() {
 }
 
 void StreamsTask::close(const Clock& clock, const std::function<bool()>& rest) {
-  for (int idle = 0; idle < kAttempts; ++idle) {
+  for (int idle = 0, all = 0; idle < kAttempts && all < kAllAttempts; ++idle, ++all) {
     const Time now = clock.now();
     const bool handed_over = rest();
     // A client's pause may be longer than all attempts.

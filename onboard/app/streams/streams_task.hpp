@@ -52,9 +52,10 @@ class StreamsTask final : public scheduler::Task {
 
   /// After the run, in the place of ticks: `rest` hands the last tiles to the outlets, and says true when it has.
   /// Clients that read get all of them. A client that takes nothing in kAttempts is left behind. They are a millisecond
-  /// apart, and more on a busy machine, where a client waits for its turn as well.
+  /// apart, and more on a busy machine, where a client waits for its turn as well. After kAllAttempts nobody is waited
+  /// for, or clients that come again and again could keep a robot from its end.
   void close(const Clock& clock, const std::function<bool()>& rest);
-  static constexpr int kAttempts = 500;
+  static constexpr int kAttempts = 500, kAllAttempts = 30'000;
 
  private:
   std::size_t serve(Time now);

@@ -3,6 +3,7 @@
 
 #include <gmock/gmock.h>
 
+#include <optional>
 #include <string>
 
 #include "tests/onboard/app/streams/streams_rig.hpp"
@@ -177,6 +178,18 @@ TEST_P(TileStreamsEnd, AReaderGetsAll) {
 
 INSTANTIATE_TEST_SUITE_P(Busy, TileStreamsEnd,
                          ::testing::Values(std::chrono::milliseconds(1), std::chrono::seconds(1)));
+
+TEST_F(TileStreamTest, ClientsThatComeAgainAndAgainCannotDrawOutTheEnd) {
+  run();
+  int attempts = 0;
+  std::optional<RobotStream> tiles;
+  task_.close(BusyClock(now_, std::chrono::milliseconds(1)), [&] {
+    if (attempts % (StreamsTask::kAttempts / 2) == 0) tiles.emplace(connect(wanted({Stream::kOwnTiles})));
+    return ++attempts > 2 * StreamsTask::kAllAttempts;
+  });
+  EXPECT_LE(attempts, StreamsTask::kAllAttempts);
+  EXPECT_GT(attempts, 2 * StreamsTask::kAttempts) << "none of them was sent anything";
+}
 
 }  // namespace
 }  // namespace cairn::app
