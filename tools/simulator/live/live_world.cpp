@@ -27,9 +27,17 @@ LiveWorld::LiveWorld(const Scene& scene, const Config& config, Ports ports, cons
 void LiveWorld::play() {
   obey_bus();
   move_until(clock_.now());
-  if (const auto sent = player_.play(track_.end()); !sent) say_fault("LiDAR", sent.error());
+  send_one();
   say_contacts();
   if (const auto late = player_.lateness().take_words(clock_.now())) ports_.say(*late);
+}
+
+void LiveWorld::send_one() {
+  if (const auto sent = player_.play(track_.end()); !sent) say_fault("LiDAR", sent.error());
+}
+
+void LiveWorld::send_rest() {
+  while (player_.due() <= track_.end()) send_one();
 }
 
 /// A packet needs the track until it is due, so it comes with the step that reaches that time.
@@ -86,6 +94,7 @@ void play(LiveWorld& world, const std::function<void(Time)>& wait_until, const s
     world.play();
     wait_until(world.next_due());
   }
+  world.send_rest();
 }
 
 }  // namespace cairn::simulator

@@ -49,8 +49,10 @@ class LiveWorld {
   LiveWorld& operator=(const LiveWorld&) = delete;
   ~LiveWorld() = default;
 
-  /// Brings the world up to the clock's time.
+  /// Brings the world up to the clock's time. Sends one packet at most, so that the bus is heard in between.
   void play();
+  /// Sends all packets that are due at the world's time.
+  void send_rest();
   /// When play() has something to do again.
   [[nodiscard]] Time next_due() const;
 
@@ -62,6 +64,7 @@ class LiveWorld {
 
  private:
   void obey_bus();
+  void send_one();
   void move_until(Time t);
   void move();
   void say_contacts();
@@ -80,7 +83,7 @@ class LiveWorld {
   Time fault_said_{};
 };
 
-/// Plays the world until `ended`. `wait_until` waits on the world's clock.
+/// Plays the world until `ended`; a world that is late then sends what is due. `wait_until` waits on the world's clock.
 void play(LiveWorld& world, const std::function<void(Time)>& wait_until, const std::function<bool()>& ended);
 
 }  // namespace cairn::simulator

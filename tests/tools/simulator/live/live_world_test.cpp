@@ -199,5 +199,14 @@ TEST(LiveWorld, PlayWaitsForWhatIsDueNext) {
   for (std::size_t i = 1; i < waits.size(); ++i) EXPECT_GT(waits[i], waits[i - 1]) << "never twice for the same";
 }
 
+TEST(LiveWorld, ALateWorldHasSentWhatIsDueWhenItEnds) {
+  LiveRobot robot;
+  play(
+      *robot.world, [&](Time until) { robot.clock.advance_to(until + 5ms); },
+      [&] { return robot.world->now() >= robot.world->start() + 90ms; });
+  EXPECT_NEAR(static_cast<double>(robot.world->lidar().counters().data_packets), 90e6 / 1'327'104, 5);
+  EXPECT_EQ(robot.world->lidar().counters().left_out, 0U);
+}
+
 }  // namespace
 }  // namespace cairn::simulator
