@@ -4,6 +4,8 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
+#include <utility>
+#include <vector>
 
 #include "tests/onboard/scheduler/execution/pipeline.hpp"
 #include "tests/onboard/scheduler/list_source.hpp"
@@ -53,26 +55,39 @@ TEST(Executive, ALogRepeatsALiveRunToTheBit) {
   EXPECT_EQ(replay(list, &log, true), live.result());
 }
 
-TEST(Executive, AForeignRecordingIsNoticedAndARunStillEnds) {
+/// What a live run of these arrivals left for the log, with its list.
+std::pair<std::vector<Time>, ScheduleLog> run_live() {
   const LiveClock clock;
   const Time start = clock.now();
-  const auto list = arrivals(start);
+  auto list = arrivals(start);
   ListSource device(list, &clock);
   Pipeline live(device);
   Executive(live.graph).run_live({start, [] { return false; }}, clock);
-  const ScheduleLog log = log_of(live.graph);
+  return {std::move(list), log_of(live.graph)};
+}
 
-  ListSource other({list.begin(), list.begin() + 3});
-  Pipeline p(other);
-  Executive executive(p.graph);
-  const auto end = executive.run_replay({.log = &log});
-  EXPECT_TRUE(end && end->diverged);
-  EXPECT_GT(p.reader.feed.missing(), 0U);
+TEST(Executive, AForeignRecordingIsNoticedAndARunStillEnds) {
+  bool diverged = false;
+  // On a machine that stands still until all packets have come, the worker takes too few to miss any. Then all run
+  // anew.
+  for (int i = 0; i < 100 && !diverged; ++i) {
+    const auto [list, log] = run_live();
+    ListSource other({list.begin(), list.begin() + 3});
+    Pipeline p(other);
+    const auto end = Executive(p.graph).run_replay({.log = &log});
+    ASSERT_TRUE(end);
+    EXPECT_GT(p.reader.feed.missing(), 0U);
+    diverged = end->diverged;
+  }
+  EXPECT_TRUE(diverged);
+}
 
+TEST(Executive, AnotherScheduleThanTheLogsIsRefused) {
+  const auto [list, log] = run_live();
   ListSource again(list);
-  Pipeline q(again);
-  q.working.spec.rate_hz = 50;
-  EXPECT_FALSE(Executive(q.graph).run_replay({.log = &log})) << "another schedule than the log's";
+  Pipeline p(again);
+  p.working.spec.rate_hz = 50;
+  EXPECT_FALSE(Executive(p.graph).run_replay({.log = &log}));
 }
 
 TEST(Executive, AReplayStopsBeforeTheTickThatItIsAskedFor) {
