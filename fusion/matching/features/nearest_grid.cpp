@@ -2,6 +2,7 @@
 #include "fusion/matching/features/nearest_grid.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <tuple>
 
 namespace cairn::matching {
@@ -165,21 +166,24 @@ std::vector<int> NearestGrid::surfels_near(const Eigen::Vector3i& place) const {
   return all;
 }
 
-/// What a filled brick holds in this cell.
+/// What a filled brick holds in this cell. Of surfels that are equally near, the first.
 int NearestGrid::look_for(const Eigen::Vector3i& cell) const {
   const Eigen::Vector3f centre = (cell.cast<float>().array() + 0.5F) * cell_m_;
-  // A little farther, as for a brick, where half a cell lies between its face and the next centre.
-  const Eigen::Vector3f reach = Eigen::Vector3f::Constant(reach_m_ + 0.5F * cell_m_);
   int nearest = kNone;
   float nearest_m2 = reach_m_ * reach_m_;
-  for_surfels({centre - reach, centre + reach}, [&](std::size_t k) {
+  const auto offer = [&](std::size_t k) {
     const Eigen::Vector3f off = points_[k] - centre;
     const float squared_m = off.x() * off.x() + off.y() * off.y() + off.z() * off.z();
     const bool first = squared_m == nearest_m2 && settled_[k] < nearest;
     if (squared_m >= nearest_m2 && !first) return;
     nearest = settled_[k];
     nearest_m2 = squared_m;
-  });
+  };
+  // Its own brick often holds one so near that few other bricks are within its distance.
+  for_surfels({centre, centre}, offer);
+  // A little farther, as for a brick, where half a cell lies between its face and the next centre.
+  const Eigen::Vector3f reach = Eigen::Vector3f::Constant(std::sqrt(nearest_m2) + 0.5F * cell_m_);
+  for_surfels({centre - reach, centre + reach}, offer);
   return nearest;
 }
 

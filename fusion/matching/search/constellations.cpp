@@ -89,7 +89,7 @@ class Sky {
     low_ -= Eigen::Vector2f::Constant(kSame_m);
     cell_m_ = std::max(kSame_m, (high - low_).maxCoeff() / kMostCells);
     size_ = ((high - low_) / cell_m_).array().floor().cast<int>() + 2;
-    cells_.resize(static_cast<std::size_t>(size_.x()) * static_cast<std::size_t>(size_.y()));
+    cells_.resize(static_cast<std::size_t>(size_.x()) * static_cast<std::size_t>(size_.y()) + 1);
     taken_.resize(cells_.size());
     for (std::size_t i = 0; i < all.size(); ++i) enter(i);
   }
@@ -99,15 +99,22 @@ class Sky {
   [[nodiscard]] std::pair<const Landmark*, float> same(const Landmark& b, const PlanPose& pose) const {
     const Eigen::Vector2f at = pose * b.at, cell = (at - low_) / cell_m_;
     std::pair<const Landmark*, float> best{nullptr, 0};
-    if (!(cell.minCoeff() >= 0 && cell.x() < float(size_.x()) && cell.y() < float(size_.y()))) return best;
-    const std::size_t here = slot(cell.cast<int>());
-    if (!taken_[here]) return best;  // a bit of each cell stays in the processor's cache
-    for (const std::size_t i : cells_[here]) {
+    for (const std::size_t i : cells_[slot(cell.x(), cell.y())]) {
       const float near = 1 - (all_[i].at - at).norm() / kSame_m;
       if (near > best.second && alike(all_[i], b, pose)) best = {&all_[i], near};
     }
     return best;
   }
+
+  /// The cells in which places of b lie, without rounding. As same() computes them.
+  void to_cells(const PlanPose& pose, const Eigen::ArrayXf& x, const Eigen::ArrayXf& y, Eigen::ArrayXf& cell_x,
+                Eigen::ArrayXf& cell_y) const {
+    const Eigen::Matrix2f& t = pose.turn;
+    cell_x = (t(0, 0) * x + t(0, 1) * y + pose.shift.x() - low_.x()) / cell_m_;
+    cell_y = (t(1, 0) * x + t(1, 1) * y + pose.shift.y() - low_.y()) / cell_m_;
+  }
+  /// Whether a landmark is near this cell.
+  [[nodiscard]] bool taken(float x, float y) const { return taken_[slot(x, y)]; }
 
  private:
   static constexpr float kMostCells = 1000;  // along an edge: 600 m of cells; a bound on memory
@@ -115,6 +122,12 @@ class Sky {
   [[nodiscard]] std::size_t slot(const Eigen::Vector2i& cell) const {
     return static_cast<std::size_t>(cell.y()) * static_cast<std::size_t>(size_.x()) +
            static_cast<std::size_t>(cell.x());
+  }
+  /// The last slot, which stays empty, stands for all that lies outside.
+  [[nodiscard]] std::size_t slot(float x, float y) const {
+    const bool inside = static_cast<int>(x >= 0) & static_cast<int>(y >= 0) & static_cast<int>(x < float(size_.x())) &
+                        static_cast<int>(y < float(size_.y()));
+    return inside ? slot({static_cast<int>(x), static_cast<int>(y)}) : cells_.size() - 1;
   }
   /// Into its own cell and those around it.
   void enter(std::size_t i) {
@@ -131,15 +144,48 @@ class Sky {
   Eigen::Vector2f low_ = Eigen::Vector2f::Zero();
   float cell_m_ = kSame_m;
   Eigen::Vector2i size_ = Eigen::Vector2i::Zero();
-  std::vector<std::vector<std::size_t>> cells_;
-  std::vector<bool> taken_;  // cells that are not empty
+  std::vector<std::vector<std::size_t>> cells_ = std::vector<std::vector<std::size_t>>(1);
+  std::vector<bool> taken_{false};  // cells that are not empty: a bit of each stays in the processor's cache
 };
 
-float score(const Sky& a, std::span<const Landmark> b, const PlanPose& pose) {
-  float sum = 0;
-  for (const Landmark& l : b) sum += a.same(l, pose).second;
-  return sum;
-}
+/// The landmarks of b, laid on the sky of a under one pose after another.
+class Figure {
+ public:
+  Figure(const Sky& sky, std::span<const Landmark> all)
+      : sky_(sky), all_(all), x_(all.size()), y_(all.size()), cell_x_(all.size()), cell_y_(all.size()) {
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      x_[static_cast<Eigen::Index>(i)] = all[i].at.x();
+      y_[static_cast<Eigen::Index>(i)] = all[i].at.y();
+    }
+    met_.resize(all.size() + 1);
+  }
+
+  /// How many landmarks come near one of a. Hardly any pose of a search brings many, so this is made to be fast: many
+  /// landmarks are moved by one instruction, and nothing is decided on the way.
+  std::size_t lay(const PlanPose& pose) {
+    sky_.to_cells(pose, x_, y_, cell_x_, cell_y_);
+    count_ = 0;
+    for (std::size_t i = 0; i < all_.size(); ++i) {
+      met_[count_] = i;
+      count_ += sky_.taken(cell_x_[static_cast<Eigen::Index>(i)], cell_y_[static_cast<Eigen::Index>(i)]) ? 1U : 0U;
+    }
+    return count_;
+  }
+  /// How near they come, in all: at most 1 each. `pose` as in lay().
+  [[nodiscard]] float score(const PlanPose& pose) const {
+    float sum = 0;
+    for (const std::size_t i : std::span(met_).first(count_)) sum += sky_.same(all_[i], pose).second;
+    return sum;
+  }
+
+ private:
+  const Sky& sky_;
+  std::span<const Landmark> all_;
+  Eigen::ArrayXf x_, y_;            // of the landmarks, m
+  Eigen::ArrayXf cell_x_, cell_y_;  // of the sky, where they lie
+  std::vector<std::size_t> met_;    // landmarks that come near one of a; one more than there are, for the loop
+  std::size_t count_ = 0;           // of these
+};
 
 /// The pose that brings the landmarks nearest to their partners under `pose`, by least squares with
 /// weights (Umeyama, PAMI 1991).
@@ -170,8 +216,10 @@ PlanPose fitted(const Sky& a, std::span<const Landmark> b, const PlanPose& pose)
 /// Poses with their scores. Those with the most are kept.
 class Candidates {
  public:
+  /// Whether a score of `most` could be among those that are kept.
+  [[nodiscard]] bool wants(float most) const { return most >= kLeastScore && most > beaten_; }
   void add(const PlanPose& pose, float score) {
-    if (score < kLeastScore) return;
+    if (!wants(score)) return;
     all_.emplace_back(score, pose);
     if (all_.size() == 2 * kCandidates) trim();
   }
@@ -183,13 +231,16 @@ class Candidates {
  private:
   void trim() {
     std::stable_sort(all_.begin(), all_.end(), [](const auto& p, const auto& q) { return p.first > q.first; });
-    if (all_.size() > kCandidates) all_.erase(all_.begin() + kCandidates, all_.end());
+    if (all_.size() < kCandidates) return;
+    all_.erase(all_.begin() + kCandidates, all_.end());
+    beaten_ = all_.back().first;  // of two that are equal, the first is kept
   }
 
   std::vector<std::pair<float, PlanPose>> all_;
+  float beaten_ = 0;  // the least score of as many as are kept
 };
 
-Candidates candidates(std::span<const Landmark> a, const Sky& sky, std::span<const Landmark> b,
+Candidates candidates(std::span<const Landmark> a, Figure& figure, std::span<const Landmark> b,
                       const ConstellationConfig& config, Budget& budget) {
   auto pairs_a = pairs_of(a, config.pairs);
   const auto shorter = [](const Pair& p, const Pair& q) { return p.length_m < q.length_m; };
@@ -205,7 +256,8 @@ Candidates candidates(std::span<const Landmark> a, const Sky& sky, std::span<con
     for (auto in_a = from; in_a != to; ++in_a)
       for (const auto& [i, j] : {std::pair(in_a->first, in_a->second), std::pair(in_a->second, in_a->first)}) {
         const PlanPose pose = laid_on(a[i], a[j], b[in_b.first], b[in_b.second]);
-        if (alike(a[i], b[in_b.first], pose) && alike(a[j], b[in_b.second], pose)) found.add(pose, score(sky, b, pose));
+        if (!alike(a[i], b[in_b.first], pose) || !alike(a[j], b[in_b.second], pose)) continue;
+        if (found.wants(static_cast<float>(figure.lay(pose)))) found.add(pose, figure.score(pose));
       }
   }
   return found;
@@ -217,13 +269,15 @@ std::vector<Placement> constellations(std::span<const Landmark> a, std::span<con
                                       const Eigen::Vector2f& middle_b, const ConstellationConfig& config,
                                       Budget& budget) {
   const Sky sky(a);
-  Candidates found = candidates(a, sky, b, config, budget);
+  Figure figure(sky, b);
+  Candidates found = candidates(a, figure, b, config, budget);
   std::vector<Placement> all;
   for (const auto& [first_score, first_pose] : found.best_first()) {
     const PlanPose pose = fitted(sky, b, first_pose);
     const Eigen::Vector2d at = (pose * middle_b).cast<double>();
+    figure.lay(pose);
     all.push_back(
-        {.yaw_rad = static_cast<double>(pose.yaw), .x_m = at.x(), .y_m = at.y(), .score = score(sky, b, pose)});
+        {.yaw_rad = static_cast<double>(pose.yaw), .x_m = at.x(), .y_m = at.y(), .score = figure.score(pose)});
   }
   return different_places(std::move(all), config.placements);
 }
