@@ -114,7 +114,7 @@ void declare(config::Section& s, SecondLookConfig& c) {
   s.number("sure_share", c.sure_share, {0.0, 1.0}, "",
            "after unsure_after_s, a scan must reach this part of the usual share of fitting points");
   s.number("blind_after_s", c.blind_after_s, {0.0, 3600}, "s",
-           "after so long without scans and wheels, only a fit at rest within stood_m of the last pose is believed");
+           "after so long without a scan, only a fit that the wheels allow is believed, or one at rest within stood_m");
   s.number("stood_m", c.stood_m, {0.0, 1000}, "m", "radius for blind_after_s");
   s.integer("blind_patience", c.blind_patience, {1, 1000}, "",
             "after blind_after_s, so many lost scans in a row begin a new map");

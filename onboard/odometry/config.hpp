@@ -58,9 +58,9 @@ struct SecondLookConfig {
   double sure_share = 0.87;
   /// s. If no scan came for longer, and no wheels tell the motion, one scan cannot tell where the robot is: in
   /// simulated offices and streets, 1 of 32 gaps of 4 s led to a place that looks alike, and at least 8 of 32 gaps of
-  /// 10 s.
+  /// 10 s. Wheels tell, but not if they exclude the place: a room that looks alike, 13 m off in an office.
   double blind_after_s = 3;
-  /// m. Then only a robot that is so near to where it was is believed to be there: it stood, or turned.
+  /// m. Where nothing tells, only a robot that is so near to where it was is believed to be there: it stood, or turned.
   double stood_m = 1;
   int blind_patience = 3;     ///< then so many lost scans in a row begin a new map
   double long_step_s = 0.25;  ///< s. After a longer time the prediction says little: key frames, gaps.

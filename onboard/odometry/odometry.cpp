@@ -65,10 +65,10 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget, c
   const Relocalisation place = relocaliser_.judge(fit, selected.keypoints.size());
   if (place == Relocalisation::kElsewhere) return begin(prepared, selected);
   const SE3 motion = filter_.motion_to(fit.state.T_odom_base);
-  const bool blind = tracking_.blind() && !bridged(dt_s) && place == Relocalisation::kNotNeeded;
+  const bool blind = unguided(motion, dt_s) && place == Relocalisation::kNotNeeded;
   const bool sure = second_look_.sure(fit, dt_s, blind ? &motion : nullptr);
   const int told = bridged(dt_s) || !map_.settled() ? config_.reinitialise_after : config_.give_up_after;
-  const int patience = blind ? config_.second_look.blind_patience : told;
+  const int patience = blind && !bridged(dt_s) ? config_.second_look.blind_patience : told;
   const Track track = tracking_.judge(fit, motion, dt_s, map_.patches(), sure, patience);
   const bool clear = track == Track::kFollowed ? follow(fit, motion, dt_s) : lose(track, fit, dt_s);
   deskewer_.deskew(prepared, filter_.state().twist);
@@ -89,15 +89,18 @@ bool LidarOdometry::follow(const Fit& fit, const SE3& motion, double dt_s) {
   return true;
 }
 
-/// The prediction stands. True if the scan shall begin a new map: where it seems to fit the one before, else level.
+/// The prediction stands. True if the scan shall begin a new map: where it seems to fit the one before, else level. If
+/// wheels and scan contradict each other, nobody knows how the maps lie.
 bool LidarOdometry::lose(Track track, const Fit& fit, double dt_s) {
   filter_ = bridged(dt_s) ? wheels_.move(followed_, dt_s) : prior_.moved_anyhow(followed_, dt_s, tracking_.lost());
   if (track != Track::kReinitialised) return false;
   T_odom_before_.reset();
-  if (!filter_.placed_within(kConnected_m, kConnected_rad)) {
-    const bool fits = tracking_.fits(fit) && second_look_.sure(fit, dt_s, nullptr);
-    filter_.believe(fits ? fit.state.T_odom_base : MotionPrior::levelled(filter_, followed_, dt_s));
-    T_odom_before_ = filter_.place_of_odom(fits);
+  const bool fits = tracking_.fits(fit) && second_look_.sure(fit, dt_s, nullptr);
+  const bool contradicted = fits && bridged(dt_s);  // the scan fits where the wheels exclude that the robot is
+  if (contradicted || !filter_.placed_within(kConnected_m, kConnected_rad)) {
+    const bool found = fits && !contradicted;
+    filter_.believe(found ? fit.state.T_odom_base : MotionPrior::levelled(filter_, followed_, dt_s));
+    T_odom_before_ = filter_.place_of_odom(found);
   }
   reinitialise();
   return true;
@@ -126,11 +129,6 @@ Fit LidarOdometry::align(const Selection& selected, double dt_s, Budget& budget)
   const bool fits_anywhere = tracking_.is_fragment(selected.duration_s);
   if (fits_anywhere || relocaliser_.pending() || !second_look_.needed(first, dt_s)) return first;
   return look_farther(selected, first, dt_s, by_wheels ? &*by_wheels : nullptr, budget).value_or(first);
-}
-
-void LidarOdometry::predict(double dt_s, const OpenMotion* open) {
-  filter_ = bridged(dt_s) ? wheels_.move(followed_, dt_s) : followed_;
-  if (!bridged(dt_s)) filter_.predict(dt_s, prior_.usual(map_.settled()), open);
 }
 
 /// Where the wheels say that the base is, or anywhere it may have come to: wheels spin, and robots are carried.

@@ -105,8 +105,15 @@ class LidarOdometry final : public MotionSource {
     const bool needed = dt_s > config_.second_look.long_step_s || tracking_.lost();
     return needed && !wheel_aid_.wrong_scale() && wheels_.since_followed().has_value();
   }
+  /// After a long silence: no wheels tell of this `motion` since the last scan that was followed, or they exclude it.
+  [[nodiscard]] bool unguided(const SE3& motion, double dt_s) const {
+    return tracking_.blind() && !(bridged(dt_s) && wheels_.allow(motion));
+  }
   /// To the scan that comes now: by wheels where they tell more than the twist, otherwise steadily.
-  void predict(double dt_s, const OpenMotion* open);
+  void predict(double dt_s, const OpenMotion* open) {
+    filter_ = bridged(dt_s) ? wheels_.move(followed_, dt_s) : followed_;
+    if (!bridged(dt_s)) filter_.predict(dt_s, prior_.usual(map_.settled()), open);
+  }
   [[nodiscard]] bool misled(const Fit& piece) const {
     return !tracking_.fits(piece) || second_look_.misled(piece, filter_, map_.settled());
   }

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "onboard/odometry/estimation/wheel_bridge.hpp"
 
+#include <Eigen/Cholesky>
+#include <array>
+
 namespace cairn::odometry {
 namespace {
 
@@ -11,6 +14,9 @@ constexpr double kLeast_m = 0.05, kLeastHeight_m = 0.1, kLeastTilt_rad = 0.05, k
 
 // The same where scans follow each other: most errors of stamps cancel from one scan to the next.
 constexpr double kStamps_m = 0.005, kStamps_rad = 0.01;
+
+// 99.9 % of chi² with three degrees of freedom.
+constexpr double kExcluded = 16.3;
 
 /// Of twist(), m/s and rad/s. Chosen by hand.
 Vector6 twist_deviation() { return (Vector6() << 0.3, 0.2, 0.1, 0.3, 0.3, 0.3).finished(); }
@@ -54,6 +60,15 @@ std::optional<UncertainPose> WheelBridge::since_followed() const {
   UncertainPose motion = difference();
   motion.covariance += least();
   return motion;
+}
+
+/// Not by height and tilt: wheels do not measure them, and ground rises.
+bool WheelBridge::allow(const SE3& motion) const {
+  static const std::array kPlanar{0, 1, 5};  // x, y, heading
+  const UncertainPose told = *since_followed();
+  const Eigen::Vector3d off = (told.mean.inverse() * motion).log()(kPlanar);
+  const Eigen::Matrix3d P = told.covariance(kPlanar, kPlanar);
+  return off.dot(P.ldlt().solve(off)) <= kExcluded;
 }
 
 MotionFilter WheelBridge::move(MotionFilter followed, double dt_s) const {

@@ -26,6 +26,9 @@ class WheelBridge {
   /// Motion of the base since the last followed scan, with the wheels' covariance (of a right perturbation), widened by
   /// what wheels do not measure. None without wheels, now or then.
   [[nodiscard]] std::optional<UncertainPose> since_followed() const;
+  /// Whether the base can have moved so since the last followed scan: way and heading are within what since_followed(),
+  /// which is there, makes likely.
+  [[nodiscard]] bool allow(const SE3& motion) const;
   /// The filter of that scan, moved on by since_followed(), which is there. `dt_s`: seconds since that scan, above 0.
   [[nodiscard]] MotionFilter move(MotionFilter followed, double dt_s) const;
   /// Of base_link in base_link, m/s and rad/s. Valid where since_followed() is.

@@ -111,6 +111,36 @@ TEST(Gap, WheelsThatSpinAreFoundOut) {
   EXPECT_LT(ride.error(last).norm(), 0.05);
 }
 
+/// Two rooms alike. The robot drives from one into the other unseen, and only its wheels tell. If it is seen where they
+/// exclude that it is, the map that begins is one of its own.
+TEST(Gap, AfterALongSilenceAPlaceThatTheWheelsExcludeIsNotBelieved) {
+  constexpr double kApart_m = 12;
+  support::World world;
+  world.plane(Eigen::Vector3d::UnitZ(), 0);
+  for (const double y : {0.0, kApart_m}) {
+    world.box({0, y, -0.5}, {8, y + 6, 3})
+        .box({1, y + 1, 0}, {1.8, y + 2.2, 1.5})
+        .box({6, y + 4, 0}, {6.6, y + 4.5, 2});
+    world.trunk(3, y + 5, 0.2);
+  }
+  const auto into_the_other = [](double t) {
+    const double gone = std::clamp((t - 2.5) / 10, 0.0, 1.0);
+    const double x = 3 + 0.5 * std::min(t, 2.5) - 2 * gone, y = 2.5 + kApart_m * gone;
+    return SE3::from_xyz_rpy((Vector6() << x, y, 0, 0, 0, 0.3).finished());
+  };
+  Ride ride(world, into_the_other);
+  ride.roll([&](double t) { return ride.true_wheels(t); });
+  for (int i = 0; i < 25; ++i) ride.step();
+  ride.lose(100);
+  OdometryUpdate update;
+  do {
+    update = ride.step();
+    EXPECT_LT(ride.error(update).head<3>().norm(), 0.3);
+  } while (update.lost && !update.reinitialised);
+  EXPECT_TRUE(update.apart());
+  EXPECT_LT(ride.error_of_guess(update).translation().norm(), 0.3) << "the guess is the wheels'";
+}
+
 /// Where wheels say how the new map lies to the one before, it goes on. Where nothing does, it is a map of its own.
 TEST(Gap, AMapThatBeginsSomewhereUnknownIsApart) {
   for (const bool wheels : {false, true}) {

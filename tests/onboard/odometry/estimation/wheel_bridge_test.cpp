@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "hal/symmetric_eigen.hpp"
 
 namespace cairn::odometry {
@@ -57,6 +59,26 @@ TEST(WheelBridge, OldErrorsOfTheWheelsDoNotCount) {
   bridge.note(&now);
   EXPECT_NEAR(bridge.since_followed()->covariance(0, 0) - standing(0, 0), 0.04, 1e-12) << "distrusted twice";
   EXPECT_GT(symmetric_eigen(bridge.since_followed()->covariance).values[0], 0);
+}
+
+/// 4.04 standard deviations of one of three directions are as unlikely as 0.1 %.
+TEST(WheelBridge, ExcludesWhatItsWayAndHeadingMakeUnlikely) {
+  WheelBridge bridge;
+  const DriveState then = wheels_at(0, 0, 0), now = wheels_at(3, 0.4, 0.01);
+  bridge.note(&then);
+  bridge.followed();
+  bridge.note(&now);
+  const UncertainPose told = *bridge.since_followed();
+  const auto off_by = [&](int axis, double sigmas) {
+    Vector6 change = Vector6::Zero();
+    change[axis] = sigmas * std::sqrt(told.covariance(axis, axis));
+    return told.mean * SE3::exp(change);
+  };
+  for (const int axis : {0, 1, 5}) {
+    EXPECT_TRUE(bridge.allow(off_by(axis, -3.9))) << axis;
+    EXPECT_FALSE(bridge.allow(off_by(axis, 4.2))) << axis;
+  }
+  for (const int axis : {2, 3, 4}) EXPECT_TRUE(bridge.allow(off_by(axis, 10))) << axis << ": wheels do not measure it";
 }
 
 }  // namespace
