@@ -23,7 +23,10 @@ struct DriveCommand {
 struct DriveState {
   Time stamp{};               ///< when the newest of the wheels' readings reached this computer
   UncertainPose T_odom_base;  ///< since the first reading; the covariance grows with the way (scale, slip)
-  double v = 0, w = 0;        ///< m/s, rad/s, over the last interval between readings
+  /// What one standard deviation of the scale of travel, and of rotation, moves the pose by, as a right perturbation.
+  /// It is in the covariance; states at two times have it in common.
+  Eigen::Matrix<double, 6, 2> scale_errors = Eigen::Matrix<double, 6, 2>::Zero();
+  double v = 0, w = 0;                                         ///< m/s, rad/s, over the last interval between readings
   Eigen::Matrix2d twist_covariance = Eigen::Matrix2d::Zero();  ///< of (v, w)
   bool slipping = false;  ///< the wheels contradict each other or physics, so the covariance is larger
 };

@@ -114,6 +114,11 @@ void WheelOdometry::move(const Travel& t, double left_variance, double right_var
   state_.stamp = t.stamp;
   state_.T_odom_base.mean = state_.T_odom_base.mean * step;
   state_.T_odom_base.covariance = covariance_.topLeftCorner<6, 6>() + kFloor * Matrix6::Identity();
+  state_.scale_errors = covariance_.topRightCorner<6, 2>();
+  for (const int i : {0, 1}) {
+    if (const double variance = covariance_(6 + i, 6 + i); variance > 0)
+      state_.scale_errors.col(i) /= std::sqrt(variance);
+  }
   set_twist(s, theta, noise(0, 0) + square(t.resolution), noise(5, 5) + 2 * square(t.resolution / b), to_seconds(dt));
 }
 

@@ -33,6 +33,11 @@ Matrix6 least() {
   return deviation.cwiseAbs2().asDiagonal();
 }
 
+/// Without what is wrong in the same way at all times.
+Matrix6 noise_of(const DriveState& wheels) {
+  return wheels.T_odom_base.covariance - wheels.scale_errors * wheels.scale_errors.transpose();
+}
+
 }  // namespace
 
 void WheelBridge::note(const DriveState* wheels) { now_ = wheels != nullptr ? std::optional(*wheels) : std::nullopt; }
@@ -43,9 +48,10 @@ void WheelBridge::followed() { followed_ = now_; }
 UncertainPose WheelBridge::difference() const {
   const SE3 motion = followed_->T_odom_base.mean.inverse() * now_->T_odom_base.mean;
   const Matrix6 carry = motion.inverse().adjoint();
-  // Dead reckoning adds the motion's own error to the old one, carried along.
-  const Matrix6 own = now_->T_odom_base.covariance - carry * followed_->T_odom_base.covariance * carry.transpose();
-  return {.mean = motion, .covariance = kDistrust * kDistrust * own};
+  // Dead reckoning adds the motion's own noise to the old one, carried along. The scales are wrong in both alike.
+  const Matrix6 noise = noise_of(*now_) - carry * noise_of(*followed_) * carry.transpose();
+  const auto scales = (now_->scale_errors - carry * followed_->scale_errors).eval();
+  return {.mean = motion, .covariance = kDistrust * kDistrust * (noise + scales * scales.transpose())};
 }
 
 std::optional<UncertainPose> WheelBridge::measured() const {

@@ -19,7 +19,13 @@ std::optional<DriveState> WheelHistory::at(Time t) const {
   Vector6 moved = Vector6::Zero();
   moved[0] = state.v;
   moved[5] = state.w;
-  state.T_odom_base.mean = state.T_odom_base.mean * SE3::exp(to_seconds(t - state.stamp) * moved);
+  const SE3 step = SE3::exp(to_seconds(t - state.stamp) * moved);
+  // Errors are those of the place where the base is. Far from the start, 0.1 m between both change them by more than a
+  // short way adds: the difference of two states had negative variances.
+  const Matrix6 carry = step.inverse().adjoint();
+  state.T_odom_base.mean = state.T_odom_base.mean * step;
+  state.T_odom_base.covariance = (carry * state.T_odom_base.covariance * carry.transpose()).eval();
+  state.scale_errors = (carry * state.scale_errors).eval();
   state.stamp = t;
   return state;
 }

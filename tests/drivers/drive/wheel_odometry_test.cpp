@@ -91,6 +91,19 @@ TEST(WheelOdometry, ScaleGrowsWithTheWayAndNoiseWithItsRoot) {
   EXPECT_NEAR(driven(noise, 1, 1, 10s).T_odom_base.covariance(0, 0), 0.0004 * 10 / 2, 1e-4);
 }
 
+TEST(WheelOdometry, WhatTheScalesMoveIsAPartOfTheCovariance) {
+  Config config = test::two_nodes();
+  config.travel_noise_m = config.ground_noise_m = config.ground_noise_rad = config.lateral_slip = config.slip_factor =
+      0;
+  WheelOdometry odometry(config);
+  odometry.start(Time{1s});
+  driven(odometry, 0.4, 0.6, 10s);
+  const DriveState state = driven(odometry, -0.5, -0.2, 10s);
+  EXPECT_GT(state.scale_errors.norm(), 0.01);
+  const Matrix6 scales = state.scale_errors * state.scale_errors.transpose();
+  EXPECT_LT((state.T_odom_base.covariance - scales - WheelOdometry::kFloor * Matrix6::Identity()).norm(), 1e-12);
+}
+
 TEST(WheelOdometry, RestCostsNothing) {
   WheelOdometry odometry(test::two_nodes());
   odometry.start(Time{1s});

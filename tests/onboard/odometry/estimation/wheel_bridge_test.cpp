@@ -61,6 +61,24 @@ TEST(WheelBridge, OldErrorsOfTheWheelsDoNotCount) {
   EXPECT_GT(symmetric_eigen(bridge.since_followed()->covariance).values[0], 0);
 }
 
+/// It drove 30 m ahead, was seen, and drove 5 m back: the way back is uncertain by its own length alone.
+TEST(WheelBridge, AScaleIsWrongInBothDirections) {
+  constexpr double kScale = 0.02;
+  const auto driven = [](double x) {
+    DriveState state = wheels_at(x, 0, 0);
+    state.scale_errors(0, 0) = kScale * x;
+    state.T_odom_base.covariance = state.scale_errors * state.scale_errors.transpose();
+    return state;
+  };
+  WheelBridge bridge;
+  const DriveState then = driven(30), now = driven(25);
+  bridge.note(&then);
+  bridge.followed();
+  const double standing = bridge.since_followed()->covariance(0, 0);
+  bridge.note(&now);
+  EXPECT_NEAR(bridge.since_followed()->covariance(0, 0) - standing, 4 * std::pow(5 * kScale, 2), 1e-12);
+}
+
 /// 4.04 standard deviations of one of three directions are as unlikely as 0.1 %.
 TEST(WheelBridge, ExcludesWhatItsWayAndHeadingMakeUnlikely) {
   WheelBridge bridge;

@@ -52,5 +52,20 @@ TEST(WheelHistory, TurnsAsItGoesOn) {
   EXPECT_NEAR(rotation_angle(history.at(Time{1s} + 100ms)->T_odom_base.mean), 0.05, 1e-9);
 }
 
+/// An error of the heading moves the place that lies ahead sideways.
+TEST(WheelHistory, TakesItsErrorsAlong) {
+  DriveState state = rolling(Time{1s}, 0, 2);
+  state.T_odom_base.covariance.setZero();
+  state.T_odom_base.covariance(5, 5) = 0.01;
+  state.scale_errors(5, 1) = 0.1;
+  WheelHistory history;
+  history.add(state);
+  const DriveState later = *history.at(Time{1s} + 50ms);
+  EXPECT_NEAR(later.T_odom_base.covariance(1, 1), 0.01 * 0.1 * 0.1, 1e-12);
+  EXPECT_NEAR(later.T_odom_base.covariance(1, 5), 0.01 * 0.1, 1e-12);
+  EXPECT_NEAR(later.scale_errors(1, 1), 0.1 * 0.1, 1e-12);
+  EXPECT_NEAR(later.scale_errors(5, 1), 0.1, 1e-12);
+}
+
 }  // namespace
 }  // namespace cairn::odometry
