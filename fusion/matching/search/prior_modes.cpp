@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "fusion/matching/features/sample.hpp"
 #include "fusion/matching/features/structure.hpp"
@@ -18,17 +19,24 @@ std::vector<Eigen::Vector3f> points_of(std::span<const Surfel> surfels) {
   return points;
 }
 
+constexpr double kRounded = 1e-9;  // m² or rad²: rounding may put a variance of zero so far below it
+
+/// What is no variance, because it is negative or not a number, says nothing: infinity.
+double deviation_of(double variance) {
+  return variance >= -kRounded ? std::sqrt(std::max(0.0, variance)) : std::numeric_limits<double>::infinity();
+}
+
 /// The prior's standard deviations, within what a search can cover. Positions are of the source's
 /// origin.
 SearchWindow window_of(const UncertainPose& prior, const CoarseSearchConfig& config) {
   const Eigen::Matrix3d R = prior.mean.rotation();
   const Eigen::Matrix3d position = R * prior.covariance.topLeftCorner<3, 3>() * R.transpose();
-  const double xy = std::sqrt(symmetric_eigenvalues(position.topLeftCorner<2, 2>()).maxCoeff());
-  const double z = std::sqrt(std::max(0.0, position(2, 2)));
+  const double xy = deviation_of(symmetric_eigenvalues(position.topLeftCorner<2, 2>()).maxCoeff());
+  const double z = deviation_of(position(2, 2));
   SearchWindow window;
   window.xy_m = std::clamp(config.sigmas * xy, config.least_xy_m, config.most_xy_m);
   window.z_m = z > config.one_height_m ? std::min(config.sigmas * z, config.most_z_m) : 0;
-  window.yaw_rad = std::clamp(config.sigmas * std::sqrt(prior.covariance(5, 5)), config.least_yaw_rad, M_PI);
+  window.yaw_rad = std::clamp(config.sigmas * deviation_of(prior.covariance(5, 5)), config.least_yaw_rad, M_PI);
   return window;
 }
 

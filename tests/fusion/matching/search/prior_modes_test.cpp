@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <limits>
+
 #include "fusion/matching/default_matcher.hpp"
 #include "tests/fusion/matching/planar_pose.hpp"
 #include "tests/support/map_pairs.hpp"
@@ -19,6 +21,15 @@ TEST(Within, IsThreeDeviationsAndACell) {
   EXPECT_FALSE(within(prior, planar_pose(1, -0.9, 0.5)));
   EXPECT_TRUE(within(prior, planar_pose(1, 2, 0.9)));
   EXPECT_FALSE(within(prior, planar_pose(1, 2, 1)));
+}
+
+/// A robot's wheels once gave such a covariance, and the search of a window of NaN crashed.
+TEST(Within, WhatIsNoVarianceExcludesNothing) {
+  for (const double none : {-0.1, -1e-6, std::numeric_limits<double>::quiet_NaN()}) {
+    UncertainPose prior{planar_pose(1, 2, 0.5), none * Matrix6::Identity()};
+    EXPECT_TRUE(within(prior, planar_pose(1, 2, 0.5 + 3))) << none;
+    EXPECT_TRUE(within(prior, planar_pose(1 + CoarseSearchConfig{}.most_xy_m, 2, 0.5))) << none;
+  }
 }
 
 /// Columns every 3 m: a map that is moved by 3 m, 6 m, … fits nearly as well, and overlaps more.
