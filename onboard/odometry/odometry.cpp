@@ -65,7 +65,7 @@ Result<OdometryUpdate> LidarOdometry::update(const Scan& scan, Budget& budget, c
   const Relocalisation place = relocaliser_.judge(fit, selected.keypoints.size());
   if (place == Relocalisation::kElsewhere) return begin(prepared, selected);
   const SE3 motion = filter_.motion_to(fit.state.T_odom_base);
-  const bool blind = unguided(motion, dt_s) && place == Relocalisation::kNotNeeded;
+  const bool blind = unguided(fit, selected.keypoints.size(), dt_s) && place == Relocalisation::kNotNeeded;
   const bool sure = second_look_.sure(fit, dt_s, blind ? &motion : nullptr);
   const int told = bridged(dt_s) || !map_.settled() ? config_.reinitialise_after : config_.give_up_after;
   const int patience = blind && !bridged(dt_s) ? config_.second_look.blind_patience : told;
@@ -96,9 +96,9 @@ bool LidarOdometry::lose(Track track, const Fit& fit, double dt_s) {
   if (track != Track::kReinitialised) return false;
   T_odom_before_.reset();
   const bool fits = tracking_.fits(fit) && second_look_.sure(fit, dt_s, nullptr);
-  const bool contradicted = fits && bridged(dt_s);  // the scan fits where the wheels exclude that the robot is
+  const bool contradicted = fits && bridged(dt_s) && !wheels_.allow(filter_.motion_to(fit.state.T_odom_base));
   if (contradicted || !filter_.placed_within(kConnected_m, kConnected_rad)) {
-    const bool found = fits && !contradicted;
+    const bool found = fits && !bridged(dt_s);
     filter_.believe(found ? fit.state.T_odom_base : MotionPrior::levelled(filter_, followed_, dt_s));
     T_odom_before_ = filter_.place_of_odom(found);
   }

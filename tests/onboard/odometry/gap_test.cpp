@@ -141,6 +141,30 @@ TEST(Gap, AfterALongSilenceAPlaceThatTheWheelsExcludeIsNotBelieved) {
   EXPECT_LT(ride.error_of_guess(update).translation().norm(), 0.3) << "the guess is the wheels'";
 }
 
+/// It has driven into another room, and sees the one before through the door alone: a tenth of its points. That says
+/// less than the wheels.
+TEST(Gap, AfterALongSilenceFewPointsThatFitSayNothing) {
+  support::World world;
+  world.plane(Eigen::Vector3d::UnitZ(), 0).box({0, 0, -0.5}, {20, 6, 3});
+  world.box({7.9, 0, 0}, {8.1, 2.5, 3}).box({7.9, 3.5, 0}, {8.1, 6, 3}).box({2, 5, 0}, {3, 6, 2});
+  const auto through_the_door = [](double t) {
+    const double gone = std::clamp((t - 2.5) / 10, 0.0, 1.0);
+    const double x = 3 + 0.5 * std::min(t, 2.5) + 10 * gone;
+    return SE3::from_xyz_rpy((Vector6() << x, 3 + gone, 0, 0, 0, 0).finished());
+  };
+  Ride ride(world, through_the_door);
+  ride.roll([&](double t) {
+    DriveState state = ride.true_wheels(t);
+    state.T_odom_base.covariance = 0.01 * (1 + t) * Matrix6::Identity();
+    return state;
+  });
+  for (int i = 0; i < 25; ++i) ride.step();
+  ride.lose(100);
+  const OdometryUpdate update = ride.step();
+  EXPECT_TRUE(update.lost);
+  EXPECT_LT(ride.error(update).head<3>().norm(), 0.05) << "where the wheels say";
+}
+
 /// Where wheels say how the new map lies to the one before, it goes on. Where nothing does, it is a map of its own.
 TEST(Gap, AMapThatBeginsSomewhereUnknownIsApart) {
   for (const bool wheels : {false, true}) {
