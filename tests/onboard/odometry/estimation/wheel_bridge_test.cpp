@@ -19,6 +19,15 @@ DriveState wheels_at(double x, double yaw, double variance) {
   return state;
 }
 
+/// The last scan was followed `then`, and another comes `now`.
+WheelBridge between(const DriveState& then, const DriveState& now) {
+  WheelBridge bridge;
+  bridge.note(&then);
+  bridge.followed();
+  bridge.note(&now);
+  return bridge;
+}
+
 TEST(WheelBridge, SaysNothingWithoutWheelsNowOrThen) {
   WheelBridge bridge;
   const DriveState state = wheels_at(1, 0, 0.01);
@@ -32,11 +41,8 @@ TEST(WheelBridge, SaysNothingWithoutWheelsNowOrThen) {
 }
 
 TEST(WheelBridge, GivesTheMotionSinceTheLastFollowedScan) {
-  WheelBridge bridge;
   const DriveState then = wheels_at(3, 0.2, 0.01), now = wheels_at(5, 0.9, 0.02);
-  bridge.note(&then);
-  bridge.followed();
-  bridge.note(&now);
+  const WheelBridge bridge = between(then, now);
   const auto motion = bridge.since_followed();
   ASSERT_TRUE(motion);
   const SE3 wanted = then.T_odom_base.mean.inverse() * now.T_odom_base.mean;
@@ -81,11 +87,8 @@ TEST(WheelBridge, AScaleIsWrongInBothDirections) {
 
 /// 4.04 standard deviations of one of three directions are as unlikely as 0.1 %.
 TEST(WheelBridge, ExcludesWhatItsWayAndHeadingMakeUnlikely) {
-  WheelBridge bridge;
   const DriveState then = wheels_at(0, 0, 0), now = wheels_at(3, 0.4, 0.01);
-  bridge.note(&then);
-  bridge.followed();
-  bridge.note(&now);
+  const WheelBridge bridge = between(then, now);
   const UncertainPose told = *bridge.since_followed();
   const auto off_by = [&](int axis, double sigmas) {
     Vector6 change = Vector6::Zero();
